@@ -1,0 +1,19 @@
+# One library target per folder. Warnings and optimisation settings stay private to Lightproof.
+add_library(lightproof_settings INTERFACE)
+target_compile_features(lightproof_settings INTERFACE cxx_std_20)
+target_compile_options(lightproof_settings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+  -Wold-style-cast -Wdouble-promotion -Werror -ffp-contract=off -fno-math-errno
+  $<$<BOOL:${LIGHTPROOF_NATIVE}>:-march=native>)
+
+# lightproof_module(NAME SOURCES … [PUBLIC targets …] [PRIVATE targets …])
+function(lightproof_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(lightproof_${name} STATIC ${ARG_SOURCES})
+  add_library(lightproof::${name} ALIAS lightproof_${name})
+  target_compile_features(lightproof_${name} PUBLIC cxx_std_20)
+  target_include_directories(lightproof_${name} PUBLIC
+    ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+  target_link_libraries(lightproof_${name}
+    PUBLIC ${ARG_PUBLIC} PRIVATE lightproof_settings ${ARG_PRIVATE})
+endfunction()

@@ -1,0 +1,50 @@
+// A dense two-dimensional array, row by row.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace lightproof {
+
+/// Width and height in cells; both at least 1 where a Grid is concerned.
+struct Extent {
+  int width = 0;
+  int height = 0;
+
+  std::size_t count() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
+  friend bool operator==(Extent, Extent) = default;
+};
+
+/// Values on an Extent, stored row-major. For a map, row 0 lies at t = 0 (the nadir).
+template <class T>
+class Grid {
+ public:
+  Grid() = default;
+  explicit Grid(Extent extent, T value = T{}) : extent_(extent), values_(extent.count(), value) {}
+
+  Extent extent() const { return extent_; }
+  T& operator()(int x, int y) { return values_[index(x, y)]; }
+  const T& operator()(int x, int y) const { return values_[index(x, y)]; }
+  std::span<T> row(int y) { return {&(*this)(0, y), static_cast<std::size_t>(extent_.width)}; }
+  std::span<const T> row(int y) const {
+    return {&(*this)(0, y), static_cast<std::size_t>(extent_.width)};
+  }
+  std::span<T> values() { return values_; }
+  std::span<const T> values() const { return values_; }
+
+ private:
+  std::size_t index(int x, int y) const {
+    assert(x >= 0 && x < extent_.width && y >= 0 && y < extent_.height);
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(extent_.width) +
+           static_cast<std::size_t>(x);
+  }
+
+  Extent extent_;
+  std::vector<T> values_;
+};
+
+}  // namespace lightproof

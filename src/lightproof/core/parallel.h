@@ -1,0 +1,34 @@
+// Work over threads with results that do not depend on how many there are: each task writes its
+// own slot, and whoever called merges the slots in their order. TBB stays inside parallel.cpp.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace lightproof {
+
+/// Runs body(0) … body(count-1), each once, in any order. Between tasks it throws Interrupted if
+/// request_interrupt() was called. The first exception of a task is passed on.
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
+
+/// Limits parallel_for to `threads` threads while it lives; 0 means all cores.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Asks running work to stop; safe inside a signal handler.
+void request_interrupt();
+
+/// Throws Interrupted if request_interrupt() was called.
+void throw_if_interrupted();
+
+}  // namespace lightproof

@@ -1,0 +1,64 @@
+#include "lightproof/core/pending_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "lightproof/core/error.h"
+
+namespace lightproof {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void fail(const fs::path& path, int error) {
+  throw InputError(fmt::format("{}: cannot write: {}", path.string(),
+                               std::generic_category().message(error)));
+}
+
+/// Some file systems report a full disk only here.
+void flush_to_disk(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) fail(path, errno);
+  const int result = ::fsync(file);
+  const int error = errno;
+  ::close(file);
+  if (result != 0 && error != EINVAL && error != EROFS) fail(path, error);
+}
+
+}  // namespace
+
+PendingFile::PendingFile(fs::path target) : target_(std::move(target)) {
+  temporary_ = target_.parent_path() / fmt::format(".{}.{}.part{}", target_.stem().string(),
+                                                   ::getpid(), target_.extension().string());
+  std::ofstream probe(temporary_, std::ios::binary);
+  if (!probe) fail(target_, errno);
+}
+
+PendingFile::~PendingFile() {
+  std::error_code ignored;
+  if (!committed_) fs::remove(temporary_, ignored);
+}
+
+void PendingFile::commit() {
+  flush_to_disk(temporary_);
+  std::error_code error;
+  fs::rename(temporary_, target_, error);
+  if (error) fail(target_, error.value());
+  committed_ = true;
+}
+
+void write_file(const fs::path& path, std::string_view content) {
+  PendingFile pending(path);
+  std::ofstream out(pending.temporary(), std::ios::binary | std::ios::trunc);
+  out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  out.close();
+  if (!out) fail(path, errno != 0 ? errno : EIO);
+  pending.commit();
+}
+
+}  // namespace lightproof

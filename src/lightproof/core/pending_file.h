@@ -1,0 +1,33 @@
+// Files appear complete or not at all: written under a temporary name, then renamed.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace lightproof {
+
+/// A file being written. Write to temporary(), then commit(); without commit the temporary file
+/// is removed and whatever stood under the final name is untouched.
+class PendingFile {
+ public:
+  /// Throws InputError if the folder does not exist or cannot be written.
+  explicit PendingFile(std::filesystem::path target);
+  ~PendingFile();
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+
+  /// Beside the target, with the same extension (image writers choose the format by it).
+  const std::filesystem::path& temporary() const { return temporary_; }
+  /// Flushes to the disk and renames. Throws InputError if either fails.
+  void commit();
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
+  bool committed_ = false;
+};
+
+/// Writes `content` to `path` through a PendingFile. Throws InputError (a full disk included).
+void write_file(const std::filesystem::path& path, std::string_view content);
+
+}  // namespace lightproof

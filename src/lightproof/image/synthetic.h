@@ -1,0 +1,24 @@
+// Synthetic maps with closed forms, of any size, by name.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "lightproof/image/environment_map.h"
+
+namespace lightproof {
+
+struct SyntheticMap {
+  std::string_view name;
+  std::string_view description;
+  EnvironmentMap (*make)(Extent extent);
+};
+
+/// All built-in maps: constant, one-texel, gradient, cosine-lobe, step, sun-sky, checker,
+/// black-first-row.
+std::span<const SyntheticMap> synthetic_maps();
+
+/// Throws InputError listing the names if there is none of this name.
+EnvironmentMap make_synthetic_map(std::string_view name, Extent extent);
+
+}  // namespace lightproof

@@ -1,0 +1,131 @@
+// What the suite finds out, as plain values. The report, the command line and the JSON files read
+// these and nothing else.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightproof/core/direction.h"
+#include "lightproof/core/grid.h"
+#include "lightproof/image/environment_map.h"
+#include "lightproof/stats/verdict.h"
+
+namespace lightproof {
+
+/// One test of one configuration.
+struct TestRecord {
+  std::string sampler;
+  std::string weighting;  ///< "A" (p proportional to g) or "B" (g times solid angle)
+  std::string map;
+  std::string oracle;  ///< "self", "reference", "mean", "variance", or "check" (deterministic)
+  std::string test;
+  std::uint64_t samples = 0;
+  double statistic = 0.0;
+  double dof = 0.0;                         ///< 0 where it has no meaning
+  std::optional<double> log10_p;            ///< none for a deterministic check
+  double effect = 0.0;                      ///< size of the deviation that was seen
+  std::optional<double> detectable_effect;  ///< seen with power 0.99 at this run's alpha
+  Outcome outcome = Outcome::inconclusive;
+  std::string detail;  ///< why, in words; empty if there is nothing to say
+};
+
+struct GateResult {
+  double family_alpha = 0.0;  ///< probability that a run over correct samplers rejects anything
+  std::uint64_t samples = 0;  ///< per configuration
+  std::uint64_t seed = 0;
+  std::vector<TestRecord> tests;
+};
+
+/// The error of an estimator at one number of samples.
+struct ConvergencePoint {
+  std::uint64_t samples = 0;
+  double rmse = 0.0;        ///< root mean square error over pixels and replicates / mean value
+  double rmse_error = 0.0;  ///< its standard error (from the exact fourth moment)
+  double predicted = 0.0;   ///< from the exact variance
+};
+
+struct ConvergenceRecord {
+  std::string map;
+  std::string receiver;
+  std::string material;
+  std::string strategy;
+  int pixels = 0;
+  int replicates = 0;                    ///< per pixel and number of samples
+  std::vector<ConvergencePoint> points;  ///< ascending numbers of samples
+  double slope = 0.0;                    ///< of log rmse against log samples; -1/2 is expected
+  double slope_error = 0.0;
+  double measured_variance = 0.0;  ///< per sample, averaged over pixels, relative to mean^2
+  double predicted_variance = 0.0;
+  double variance_ratio_error = 0.0;  ///< standard error of measured / predicted
+};
+
+/// One row of the throughput benchmark.
+struct ThroughputRecord {
+  std::string sampler;
+  std::string map;
+  Extent extent;
+  double ns_per_sample = 0.0;  ///< median over repetitions
+  double ns_low = 0.0;         ///< smallest and largest repetition
+  double ns_high = 0.0;
+  double table_bytes = 0.0;
+  double build_ms = 0.0;
+};
+
+/// ns per sample = constant * predictor: how a sampler's cost grows with the map.
+struct GrowthFit {
+  std::string sampler;
+  std::string model;       ///< the predictor in words: "S + T" or "log2 S + log2 T"
+  double exponent = 0.0;   ///< of ns per sample against S + T, by least squares on logs
+  double exponent_error = 0.0;
+};
+
+/// The shares of the render time and the rate of bare Embree occlusion calls.
+struct RenderCost {
+  std::string strategy;
+  double sampling_share = 0.0;
+  double embree_share = 0.0;
+  double rest_share = 0.0;  ///< ray set-up, shading, accumulation
+  double rays_per_second = 0.0;
+  double bare_rays_per_second = 0.0;
+};
+
+/// A map as the report shows it.
+struct MapRecord {
+  EnvironmentMap map;
+  std::string source;        ///< file name without folders, or the built-in's name
+  double mean_luminance = 0.0;  ///< over the sphere
+  double peak_ratio = 0.0;      ///< brightest texel / mean
+  double effective_fraction = 0.0;  ///< G^2/(4 pi Q): share of the sphere that the light fills
+  std::vector<SquarePoint> drawn;   ///< some hundred samples of binary_search, weighting B
+};
+
+/// One picture of a receiver, by one strategy at equal numbers of samples.
+struct RenderRecord {
+  std::string map;
+  std::string receiver;
+  std::string material;
+  std::string strategy;
+  std::uint64_t samples = 0;
+  Grid<Rgb> picture;    ///< row 0 at the top
+  Grid<Rgb> reference;  ///< the same for every strategy
+  Grid<double> error;   ///< signed, relative to the mean of the reference's luminance
+  double rmse = 0.0;
+  double seconds = 0.0;
+};
+
+/// Everything that one study found.
+struct StudyResult {
+  std::string version;
+  std::string machine;
+  std::uint64_t seed = 0;
+  std::vector<MapRecord> maps;
+  GateResult gate;
+  std::vector<ConvergenceRecord> convergence;
+  std::vector<ThroughputRecord> throughput;
+  std::vector<GrowthFit> growth;
+  std::vector<RenderRecord> renders;
+};
+
+}  // namespace lightproof

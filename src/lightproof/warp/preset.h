@@ -1,0 +1,50 @@
+// The conventions by which renderers map directions to the pixels of an environment map.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "lightproof/core/direction.h"
+#include "lightproof/core/measure.h"
+
+namespace lightproof {
+
+enum class Preset {
+  z_up,
+  z_up_half_turn,
+  openexr,
+  exr_area,
+  pbrt_v3,
+  pbrt_v4,
+  mitsuba,
+};
+
+/// How pixels sit on the image square.
+enum class Lattice {
+  texel_area,    ///< pixel (i, r) covers [i/W, (i+1)/W) x [r/H, (r+1)/H)
+  node_centred,  ///< pixel (i, r) is the value at (i/(W-1), r/(H-1))
+};
+
+struct PresetInfo {
+  Preset preset;
+  std::string_view name;         ///< as on the command line: `z-up-half-turn`
+  std::string_view description;  ///< axes and formula, one line
+  Lattice lattice;
+  double aspect;  ///< width / height that the convention asks for: 2, or 1 for octahedral
+};
+
+std::span<const PresetInfo> presets();
+const PresetInfo& info(Preset preset);
+/// None if there is no preset of this name.
+std::optional<Preset> preset_by_name(std::string_view name);
+
+/// Image coordinates: s from the left, t from the *bottom* of the image, in [0,1)^2 for
+/// texel_area and [0,1]^2 for node_centred, of the direction in Lightproof's world (z up).
+/// Presets with y up use (X, Y, Z) = (y, z, x).
+SquarePoint image_from_direction(Preset preset, Direction direction);
+
+/// The inverse of image_from_direction.
+Direction direction_from_image(Preset preset, SquarePoint at);
+
+}  // namespace lightproof
