@@ -11,10 +11,15 @@ namespace lightproof {
 class Moments {
  public:
   void add(double x) {
-    Moments one;
-    one.count_ = 1;
-    one.mean_ = x;
-    merge(one);
+    const double before = static_cast<double>(count_++);
+    const double n = static_cast<double>(count_);
+    const double delta = x - mean_;
+    const double dn = delta / n;
+    const double term = delta * dn * before;
+    mean_ += dn;
+    m4_ += term * dn * dn * (n * n - 3.0 * n + 3.0) + 6.0 * dn * dn * m2_ - 4.0 * dn * m3_;
+    m3_ += term * dn * (n - 2.0) - 3.0 * dn * m2_;
+    m2_ += term;
   }
 
   void merge(const Moments& other) {

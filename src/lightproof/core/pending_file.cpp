@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail(const fs::path& path, int error) {
-  throw InputError(fmt::format("{}: cannot write: {}", path.string(),
-                               std::generic_category().message(error)));
+  throw InputError(
+      fmt::format("{}: cannot write: {}", path.string(), std::generic_category().message(error)));
 }
 
 /// Some file systems report a full disk only here.

@@ -12,7 +12,7 @@ namespace lightproof {
 struct ReadOptions {
   /// How file pixels map to directions; without it the file's own `envmap` attribute decides
   /// (`openexr`), and `z-up` is taken where there is none.
-  std::optional<Preset> preset;
+  std::optional<Preset> preset = std::nullopt;
   /// Set negative, NaN and infinite values to 0 and say so in the notes, instead of refusing.
   bool repair = false;
   /// Accept a lat-long image that is not twice as wide as high.

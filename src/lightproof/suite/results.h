@@ -9,6 +9,7 @@
 
 #include "lightproof/core/direction.h"
 #include "lightproof/core/grid.h"
+#include "lightproof/core/measure.h"
 #include "lightproof/image/environment_map.h"
 #include "lightproof/stats/verdict.h"
 
@@ -28,7 +29,8 @@ struct TestRecord {
   double effect = 0.0;                      ///< size of the deviation that was seen
   std::optional<double> detectable_effect;  ///< seen with power 0.99 at this run's alpha
   Outcome outcome = Outcome::inconclusive;
-  std::string detail;  ///< why, in words; empty if there is nothing to say
+  std::string detail;         ///< why, in words; empty if there is nothing to say
+  bool known_defect = false;  ///< of a sampler kept as published, to show what the gate finds
 };
 
 struct GateResult {
@@ -54,7 +56,10 @@ struct ConvergenceRecord {
   int pixels = 0;
   int replicates = 0;                    ///< per pixel and number of samples
   std::vector<ConvergencePoint> points;  ///< ascending numbers of samples
-  double slope = 0.0;                    ///< of log rmse against log samples; -1/2 is expected
+  /// Of log rmse against log samples, fitted to the points whose rmse_error is below a quarter of
+  /// the prediction; -1/2 is expected. Not a number, like slope_error, where fewer than three
+  /// points are (light found by rare hits), or where the estimator has no variance at all.
+  double slope = 0.0;
   double slope_error = 0.0;
   double measured_variance = 0.0;  ///< per sample, averaged over pixels, relative to mean^2
   double predicted_variance = 0.0;
@@ -76,8 +81,8 @@ struct ThroughputRecord {
 /// ns per sample = constant * predictor: how a sampler's cost grows with the map.
 struct GrowthFit {
   std::string sampler;
-  std::string model;       ///< the predictor in words: "S + T" or "log2 S + log2 T"
-  double exponent = 0.0;   ///< of ns per sample against S + T, by least squares on logs
+  std::string model;      ///< the predictor in words: "S + T" or "log2 S + log2 T"
+  double exponent = 0.0;  ///< of ns per sample against S + T, by least squares on logs
   double exponent_error = 0.0;
 };
 
@@ -94,9 +99,9 @@ struct RenderCost {
 /// A map as the report shows it.
 struct MapRecord {
   EnvironmentMap map;
-  std::string source;        ///< file name without folders, or the built-in's name
-  double mean_luminance = 0.0;  ///< over the sphere
-  double peak_ratio = 0.0;      ///< brightest texel / mean
+  std::string source;               ///< file name without folders, or the built-in's name
+  double mean_luminance = 0.0;      ///< over the sphere
+  double peak_ratio = 0.0;          ///< brightest texel / mean
   double effective_fraction = 0.0;  ///< G^2/(4 pi Q): share of the sphere that the light fills
   std::vector<SquarePoint> drawn;   ///< some hundred samples of binary_search, weighting B
 };
@@ -111,8 +116,9 @@ struct RenderRecord {
   Grid<Rgb> picture;    ///< row 0 at the top
   Grid<Rgb> reference;  ///< the same for every strategy
   Grid<double> error;   ///< signed, relative to the mean of the reference's luminance
-  double rmse = 0.0;
+  double rmse = 0.0;    ///< of `error`
   double seconds = 0.0;
+  std::uint64_t reference_samples = 0;  ///< per pixel of the reference; 0 if it is not sampled
 };
 
 /// Everything that one study found.

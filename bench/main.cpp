@@ -1,0 +1,21 @@
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "bench/registration.h"
+
+int main(int argc, char** argv) {
+  try {
+    lightproof::bench::register_sample_benchmarks();
+    lightproof::bench::register_render_benchmarks();
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "lightproof_bench: %s\n", error.what());
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,9 @@
+// Each task registers its benchmarks under task/method/map/resolution/order.
+#pragma once
+
+namespace lightproof::bench {
+
+void register_sample_benchmarks();
+void register_render_benchmarks();
+
+}  // namespace lightproof::bench

@@ -1,0 +1,120 @@
+// Where the render time goes: render/<strategy>/<material>/<W>x<H>/sphere-on-plane.
+//
+// The four phases of a batch are timed apart; beside them, bare Embree occlusion calls on the very
+// same rays. Counters: shares of the time in percent, rays per second.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "bench/registration.h"
+#include "lightproof/core/random.h"
+#include "lightproof/image/synthetic.h"
+#include "lightproof/render/direct_lighting.h"
+#include "lightproof/render/receiver.h"
+
+namespace lightproof::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr Extent kMapExtent = {2048, 1024};
+constexpr Extent kPicture = {64, 48};
+
+struct Stage {
+  EnvironmentMap map = make_synthetic_map("sun-sky", kMapExtent);
+  EnvironmentLight light{map};
+  const ReceiverInfo& receiver = receiver_by_name("sphere-on-plane");
+  Scene scene{receiver.content};
+  std::vector<Pixel> pixels = visible_pixels(receiver, scene, kPicture);
+};
+
+const Stage& stage() {
+  static const auto the_stage = std::make_unique<Stage>();
+  return *the_stage;
+}
+
+/// Seconds spent in each phase.
+struct Phases {
+  double draw = 0.0;
+  double shade = 0.0;
+  double trace = 0.0;
+  double resolve = 0.0;
+  double bare = 0.0;  ///< the same rays again, nothing else
+  double rays = 0.0;
+
+  double total() const { return draw + shade + trace + resolve; }
+};
+
+double seconds_since(Clock::time_point& last) {
+  const Clock::time_point now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - last).count();
+  last = now;
+  return seconds;
+}
+
+/// One batch at one pixel; returns the sum so that nothing is optimised away.
+glm::dvec3 run_batch(LightBatch& batch, std::vector<ShadowRay>& copy, const Lighting& lighting,
+                     const Pixel& pixel, const RandomStream& stream, Phases& phases) {
+  Clock::time_point last = Clock::now();
+  batch.draw(lighting, pixel.point, stream, 0, LightBatch::kCapacity);
+  phases.draw += seconds_since(last);
+  batch.shade(lighting, pixel.point);
+  phases.shade += seconds_since(last);
+  copy.assign(batch.rays().begin(), batch.rays().end());
+  last = Clock::now();
+  batch.trace(*lighting.scene);
+  phases.trace += seconds_since(last);
+  glm::dvec3 sum(0.0);
+  for (const Rgb estimate : batch.resolve()) sum += glm::dvec3(estimate);
+  phases.resolve += seconds_since(last);
+  lighting.scene->trace(copy);
+  phases.bare += seconds_since(last);
+  phases.rays += static_cast<double>(copy.size());
+  return sum;
+}
+
+void render_benchmark(benchmark::State& state, const StrategyInfo& strategy,
+                      const MaterialInfo& material) {
+  const Stage& set = stage();
+  const Lighting lighting{&set.scene, &set.light, material.material, strategy.strategy};
+  const RandomStream stream("bench/render", 1);
+  auto batch = std::make_unique<LightBatch>();
+  std::vector<ShadowRay> copy;
+  Phases phases;
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const Pixel& pixel = set.pixels[next % set.pixels.size()];
+    benchmark::DoNotOptimize(
+        run_batch(*batch, copy, lighting, pixel, stream.substream(next), phases));
+    ++next;
+  }
+  const double total = phases.total();
+  state.counters["draw_percent"] = 100.0 * phases.draw / total;
+  state.counters["embree_percent"] = 100.0 * phases.trace / total;
+  state.counters["rest_percent"] = 100.0 * (phases.shade + phases.resolve) / total;
+  state.counters["rays_per_second"] = phases.rays / total;
+  state.counters["bare_rays_per_second"] = phases.rays / phases.bare;
+  state.counters["ns_per_sample"] =
+      1e9 * total / (static_cast<double>(state.iterations()) * LightBatch::kCapacity);
+}
+
+}  // namespace
+
+void register_render_benchmarks() {
+  for (const MaterialInfo& material : materials()) {
+    for (const StrategyInfo& strategy : kStrategies) {
+      std::string name(strategy.name);
+      std::replace(name.begin(), name.end(), ' ', '_');
+      name = fmt::format("render/{}/{}/{}x{}/sphere-on-plane", name, material.name,
+                         kMapExtent.width, kMapExtent.height);
+      benchmark::RegisterBenchmark(name.c_str(), [&strategy, &material](benchmark::State& state) {
+        render_benchmark(state, strategy, material);
+      });
+    }
+  }
+}
+
+}  // namespace lightproof::bench

@@ -1,0 +1,129 @@
+// Time to draw one sample: sample/<sampler>/<map>/<W>x<H>/random.
+//
+// Random points are generated beforehand and fit the second-level cache; the sampler's type is
+// static inside the loop. Before a sampler is timed it must return the texels of reference/.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "bench/registration.h"
+#include "lightproof/core/random.h"
+#include "lightproof/image/synthetic.h"
+#include "lightproof/samplers/registry.h"
+#include "reference/slow_sampler.h"
+
+namespace lightproof::bench {
+namespace {
+
+constexpr std::string_view kMap = "sun-sky";
+constexpr std::array<Extent, 5> kExtents = {
+    {{512, 256}, {1024, 512}, {2048, 1024}, {4096, 2048}, {8192, 4096}}};
+constexpr std::size_t kPoints = std::size_t{1} << 14U;
+/// The lecture's weighting.
+constexpr Weighting kWeighting = Weighting::A;
+
+/// Benchmarks of one size follow each other, so one map at a time is enough.
+const EnvironmentMap& map_of(Extent extent) {
+  static EnvironmentMap map;
+  if (!(map.radiance.extent() == extent)) {
+    map = {};
+    map = make_synthetic_map(kMap, extent);
+  }
+  return map;
+}
+
+const reference::SlowSampler& reference_of(Extent extent, TargetDensity target) {
+  static std::unique_ptr<reference::SlowSampler> sampler;
+  static Extent made_for;
+  static double made_with = 0.0;
+  if (!sampler || !(made_for == extent) || made_with != target.grey.red) {
+    sampler.reset();
+    sampler = std::make_unique<reference::SlowSampler>(map_of(extent), target);
+    made_for = extent;
+    made_with = target.grey.red;
+  }
+  return *sampler;
+}
+
+std::vector<SquarePoint> random_points() {
+  const RandomStream stream("bench/sample", 1);
+  std::vector<SquarePoint> points;
+  for (std::uint64_t i = 0; i < kPoints; ++i) points.push_back(stream.point(i));
+  return points;
+}
+
+/// How far from a knot of the exact distribution a sampler may take the neighbour: the rounding of
+/// its own sums. Float sums over n terms drift by up to n/2 ulp; see the registry's known defects.
+double knot_tolerance(const SamplerInfo& sampler, Extent extent) {
+  const double steps = extent.width + extent.height;
+  return sampler.known_defects ? steps * 0x1p-24 : steps * 0x1p-31;
+}
+
+/// An explanation if the sampler disagrees with the reference; empty if not.
+template <class Sampler>
+std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent extent,
+                         std::span<const SquarePoint> points) {
+  const auto& reference = reference_of(extent, info.target(kWeighting));
+  const double tolerance = knot_tolerance(info, extent);
+  for (const SquarePoint u : points.first(256)) {
+    const TexelSample sample = sampler.sample(u);
+    if (reference::Texel{sample.x, sample.y} == reference.sample(u)) continue;
+    if (reference.near_knot(u, tolerance)) continue;
+    return fmt::format("u = ({:.17g}, {:.17g}): texel ({}, {}) is not the reference's", u.s, u.t,
+                       sample.x, sample.y);
+  }
+  return "";
+}
+
+template <class Sampler>
+void time_sampler(benchmark::State& state, const Sampler& sampler, const SamplerInfo& info,
+                  Extent extent, double build_ms) {
+  const std::vector<SquarePoint> points = random_points();
+  if (const std::string why = disagreement(sampler, info, extent, points); !why.empty()) {
+    state.SkipWithError(why.c_str());
+    return;
+  }
+  for (std::size_t i = 0; i < 256; ++i) benchmark::DoNotOptimize(sampler.sample(points[i]));
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const TexelSample sample = sampler.sample(points[next]);
+    benchmark::DoNotOptimize(sample);
+    next = (next + 1) % kPoints;
+  }
+  state.SetItemsProcessed(state.iterations());
+  state.counters["ns_per_sample"] =
+      benchmark::Counter(static_cast<double>(state.iterations()) * 1e-9,
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["table_bytes"] = static_cast<double>(sampler.table_bytes());
+  state.counters["build_ms"] = build_ms;
+}
+
+void sample_benchmark(benchmark::State& state, const SamplerInfo& info, Extent extent) {
+  const EnvironmentMap& map = map_of(extent);
+  const auto start = std::chrono::steady_clock::now();
+  const AnySampler any = info.make(map, kWeighting);
+  const std::chrono::duration<double, std::milli> build = std::chrono::steady_clock::now() - start;
+  std::visit(
+      [&](const auto& sampler) { time_sampler(state, sampler, info, extent, build.count()); }, any);
+}
+
+}  // namespace
+
+void register_sample_benchmarks() {
+  for (const Extent extent : kExtents) {
+    for (const SamplerInfo& info : samplers()) {
+      const std::string name =
+          fmt::format("sample/{}/{}/{}x{}/random", info.name, kMap, extent.width, extent.height);
+      benchmark::RegisterBenchmark(name.c_str(), [&info, extent](benchmark::State& state) {
+        sample_benchmark(state, info, extent);
+      });
+    }
+  }
+}
+
+}  // namespace lightproof::bench

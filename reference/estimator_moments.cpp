@@ -1,0 +1,134 @@
+#include "reference/estimator_moments.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "lightproof/core/parallel.h"
+#include "lightproof/warp/lat_long.h"
+#include "reference/quadrature.h"
+
+namespace lightproof::reference {
+namespace {
+
+/// ∫ over one texel of the powers of k that the moments of all strategies are made of.
+struct TexelIntegrals {
+  std::array<double, 4> plain = {};     ///< k^m
+  std::array<double, 4> sine = {};      ///< k^m sin^(m-1)(theta)
+  std::array<double, 4> material = {};  ///< k^m / pdf^(m-1)
+
+  void add(const KernelValue& value, const Node& node) {
+    double p = value.k * node.solid_angle;
+    double q = p;
+    double r = p;
+    for (std::size_t m = 0; m < plain.size(); ++m) {
+      plain[m] += p;
+      sine[m] += q;
+      material[m] += r;
+      p *= value.k;
+      q *= value.k * node.sin_theta;
+      r *= value.pdf > 0.0 ? value.k / value.pdf : 0.0;
+    }
+  }
+};
+
+/// The factors that turn the texel's integrals into moments.
+struct Totals {
+  double solid_angle_sum;  ///< G = ∫ L d(omega)
+  double mean;             ///< A = mean of L over the square
+};
+
+Totals totals_of(const Grid<double>& radiance) {
+  Totals totals{0.0, 0.0};
+  for (int y = 0; y < radiance.extent().height; ++y) {
+    const auto row = radiance.row(y);
+    const double sum = std::accumulate(row.begin(), row.end(), 0.0);
+    totals.mean += sum / static_cast<double>(radiance.extent().count());
+    totals.solid_angle_sum += sum * texel_solid_angle(radiance.extent(), y);
+  }
+  return totals;
+}
+
+/// Adds one texel: E[X^m] = ∫ (L k)^m / p^(m-1) d(omega).
+void accumulate(LightMoments& moments, double radiance, const Totals& totals,
+                const TexelIntegrals& texel) {
+  const double a = 2.0 * kPi * kPi * totals.mean;
+  double uniform = radiance;
+  double material = radiance;
+  double environment_a = radiance;
+  double environment_b = radiance;
+  for (std::size_t m = 0; m < texel.plain.size(); ++m) {
+    moments.uniform.raw[m] += uniform * texel.plain[m];
+    moments.material.raw[m] += material * texel.material[m];
+    moments.environment_a.raw[m] += environment_a * texel.sine[m];
+    moments.environment_b.raw[m] += environment_b * texel.plain[m];
+    uniform *= kSphere * radiance;
+    material *= radiance;
+    environment_a *= a;
+    environment_b *= totals.solid_angle_sum;
+  }
+}
+
+void merge(EstimatorMoments& into, const EstimatorMoments& from) {
+  for (std::size_t m = 0; m < into.raw.size(); ++m) into.raw[m] += from.raw[m];
+}
+
+}  // namespace
+
+double EstimatorMoments::variance() const { return std::max(0.0, raw[1] - raw[0] * raw[0]); }
+
+double EstimatorMoments::fourth_central() const {
+  const double m = raw[0];
+  return std::max(0.0, raw[3] - 4.0 * m * raw[2] + 6.0 * m * m * raw[1] - 3.0 * m * m * m * m);
+}
+
+Kernel cosine_kernel(Direction normal) {
+  return {[normal](Direction d) {
+            return KernelValue{std::max(0.0, glm::dot(normal, d)), 0.0};
+          },
+          [normal](Direction d, double angle) {
+            return std::abs(glm::dot(normal, d)) <= std::sin(std::min(angle, 0.5 * kPi));
+          }};
+}
+
+std::vector<LightMoments> light_moments(const Kernel& kernel,
+                                        std::span<const Grid<double>> radiance) {
+  const Extent extent = radiance.front().extent();
+  assert(std::all_of(radiance.begin(), radiance.end(),
+                     [&](const auto& grid) { return grid.extent() == extent; }));
+  const SphereQuadrature quadrature(extent);
+  std::vector<Totals> totals;
+  for (const auto& grid : radiance) totals.push_back(totals_of(grid));
+
+  const auto height = static_cast<std::size_t>(extent.height);
+  std::vector<std::vector<LightMoments>> rows(height, std::vector<LightMoments>(radiance.size()));
+  parallel_for(height, [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < extent.width; ++x) {
+      TexelIntegrals texel;
+      const bool split = kernel.straddles(quadrature.centre(x, y), quadrature.radius());
+      quadrature.visit(x, y, split, [&](const Node& node) {
+        const KernelValue value = kernel.at(node.direction);
+        if (value.k > 0.0) texel.add(value, node);
+      });
+      if (texel.plain[0] == 0.0) continue;
+      for (std::size_t map = 0; map < radiance.size(); ++map) {
+        accumulate(rows[row][map], radiance[map](x, y), totals[map], texel);
+      }
+    }
+  });
+
+  std::vector<LightMoments> sums(radiance.size());
+  for (const auto& row : rows) {
+    for (std::size_t map = 0; map < radiance.size(); ++map) {
+      merge(sums[map].uniform, row[map].uniform);
+      merge(sums[map].material, row[map].material);
+      merge(sums[map].environment_a, row[map].environment_a);
+      merge(sums[map].environment_b, row[map].environment_b);
+    }
+  }
+  return sums;
+}
+
+}  // namespace lightproof::reference

@@ -1,0 +1,76 @@
+// Integrals over the sphere of functions that are smooth inside a texel: 2 x 2 Gauss-Legendre nodes
+// in (phi, theta) for every texel; texels that straddle an edge of the integrand are split first.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "lightproof/core/direction.h"
+#include "lightproof/core/grid.h"
+#include "lightproof/core/measure.h"
+
+namespace lightproof::reference {
+
+/// A point of evaluation and the solid angle in steradian that it stands for.
+struct Node {
+  Direction direction;
+  double sin_theta;
+  double solid_angle;
+};
+
+/// Nodes of the texels of one map size. The weights of a texel sum to its exact solid angle.
+class SphereQuadrature {
+ public:
+  /// Texels that straddle are split into kSplit x kSplit.
+  static constexpr int kSplit = 8;
+  /// The sphere is never divided into fewer cells than this, however few texels the map has: the
+  /// rule's error is then below 1e-10 of an integrand as smooth as a cosine.
+  static constexpr Extent kLeastCells = {512, 256};
+
+  explicit SphereQuadrature(Extent extent);
+
+  Extent extent() const { return extent_; }
+  Direction centre(int x, int y) const;
+  /// Largest angle between the centre of a texel and a point of it, in radians.
+  double radius() const { return radius_; }
+
+  /// Calls visit(Node) for every node of texel (x, y).
+  template <class Visit>
+  void visit(int x, int y, bool split, const Visit& visit) const {
+    const Level& level = split ? fine_ : coarse_;
+    for (int j = 0; j < level.nodes.height; ++j) {
+      const Row& row = level.rows[static_cast<std::size_t>(y * level.nodes.height + j)];
+      for (int i = 0; i < level.nodes.width; ++i) {
+        const Column& column = level.columns[static_cast<std::size_t>(x * level.nodes.width + i)];
+        visit(Node{
+            {row.sine * column.cosine, row.sine * column.sine, row.cosine}, row.sine, row.weight});
+      }
+    }
+  }
+
+ private:
+  struct Row {
+    double sine;
+    double cosine;
+    double weight;  ///< solid angle of one node
+  };
+  struct Column {
+    double cosine;
+    double sine;
+  };
+  struct Level {
+    Extent nodes;  ///< of one texel
+    std::vector<Row> rows;
+    std::vector<Column> columns;
+  };
+
+  Level make_level(Extent cells_per_texel) const;
+
+  Extent extent_;
+  double radius_;
+  Level coarse_;
+  Level fine_;
+};
+
+}  // namespace lightproof::reference

@@ -1,0 +1,96 @@
+#include "reference/texel_masses.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lightproof/core/error.h"
+#include "lightproof/core/measure.h"
+
+namespace lightproof::reference {
+namespace {
+
+/// The share of cell `index` of `count` that lies below `edge`, measured along `height`.
+template <class Height>
+double share_below(double edge, int index, int count, const Height& height) {
+  const double low = height(static_cast<double>(index) / count);
+  const double high = height((index + 1.0) / count);
+  const double at =
+      height(std::clamp(edge, static_cast<double>(index) / count, (index + 1.0) / count));
+  return (at - low) / (high - low);
+}
+
+/// overlap[b][i]: the share of cell i of `cells` that falls into bin b of `bins`.
+template <class Height>
+Grid<double> overlaps(int cells, int bins, const Height& height) {
+  Grid<double> overlap({cells, bins});
+  for (int b = 0; b < bins; ++b) {
+    for (int i = 0; i < cells; ++i) {
+      const double upper = share_below((b + 1.0) / bins, i, cells, height);
+      const double lower = share_below(static_cast<double>(b) / bins, i, cells, height);
+      overlap(i, b) = upper - lower;
+    }
+  }
+  return overlap;
+}
+
+}  // namespace
+
+Grid<double> texel_masses(const EnvironmentMap& map, TargetDensity target) {
+  const Extent extent = map.radiance.extent();
+  Grid<double> masses(extent);
+  double total = 0.0;
+  for (int y = 0; y < extent.height; ++y) {
+    const double low = static_cast<double>(y) / extent.height;
+    const double high = (y + 1.0) / extent.height;
+    const double area =
+        target.weighting == Weighting::A ? high - low : cos_theta(high) - cos_theta(low);
+    for (int x = 0; x < extent.width; ++x) {
+      masses(x, y) = luminance(map.radiance(x, y), target.grey) * area;
+      total += masses(x, y);
+    }
+  }
+  if (!(total > 0.0)) throw InputError(map.name + ": the map is black");
+  for (double& mass : masses.values()) mass /= total;
+  return masses;
+}
+
+Grid<double> bin_masses(const Grid<double>& texel_masses, Weighting weighting, Extent bins) {
+  const Extent extent = texel_masses.extent();
+  const Grid<double> across = overlaps(extent.width, bins.width, [](double s) { return s; });
+  const Grid<double> along = overlaps(extent.height, bins.height, [&](double t) {
+    return weighting == Weighting::A ? t : cos_theta(t);
+  });
+  Grid<double> folded({bins.width, extent.height});
+  for (int y = 0; y < extent.height; ++y) {
+    for (int b = 0; b < bins.width; ++b) {
+      for (int x = 0; x < extent.width; ++x) folded(b, y) += across(x, b) * texel_masses(x, y);
+    }
+  }
+  Grid<double> masses(bins);
+  for (int b = 0; b < bins.height; ++b) {
+    for (int y = 0; y < extent.height; ++y) {
+      for (int x = 0; x < bins.width; ++x) masses(x, b) += along(y, b) * folded(x, y);
+    }
+  }
+  return masses;
+}
+
+std::vector<double> row_marginal(const Grid<double>& masses) {
+  std::vector<double> sums(static_cast<std::size_t>(masses.extent().height));
+  for (int y = 0; y < masses.extent().height; ++y) {
+    for (const double mass : masses.row(y)) sums[static_cast<std::size_t>(y)] += mass;
+  }
+  return sums;
+}
+
+std::vector<double> column_marginal(const Grid<double>& masses) {
+  std::vector<double> sums(static_cast<std::size_t>(masses.extent().width));
+  for (int y = 0; y < masses.extent().height; ++y) {
+    for (int x = 0; x < masses.extent().width; ++x) {
+      sums[static_cast<std::size_t>(x)] += masses(x, y);
+    }
+  }
+  return sums;
+}
+
+}  // namespace lightproof::reference

@@ -1,0 +1,58 @@
+// What the subcommands share: options, maps, progress.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lightproof/core/progress.h"
+#include "lightproof/image/environment_map.h"
+
+namespace lightproof::cli {
+
+enum ExitCode : int {
+  kPassed = 0,
+  kRejected = 1,
+  kBadInput = 2,
+  kInconclusive = 3,
+  kInterrupted = 130,
+};
+
+/// How inputs are read and what is shown meanwhile.
+struct CommonOptions {
+  std::vector<std::string> maps;
+  std::string preset;
+  std::string size = "512x256";
+  std::string color = "auto";
+  bool repair = false;
+  bool any_aspect = false;
+  bool quiet = false;
+  int threads = 0;
+  std::uint64_t seed = 1;
+};
+
+/// Adds the positional MAP… and the options above.
+void add_common_options(CLI::App& command, CommonOptions& options);
+
+/// "WxH", both at least 1. Throws InputError otherwise.
+Extent parse_size(const std::string& text);
+
+/// Reads files and makes built-in maps, in the order of their names on the command line; without
+/// any, every built-in map. Notes of the reader go to stderr unless quiet. Names are made unique.
+std::vector<EnvironmentMap> load_maps(const CommonOptions& options);
+
+/// A bar with the time left on stderr if that is a terminal and not quiet; else an empty function.
+Progress progress_bar(const CommonOptions& options);
+
+/// Whether stdout gets colours: --color, NO_COLOR, terminal.
+bool use_color(const CommonOptions& options);
+
+/// Each registers its subcommand, which writes the exit code when it is run.
+void add_gate(CLI::App& app, int& exit_code);
+void add_study(CLI::App& app, int& exit_code);
+void add_list(CLI::App& app, int& exit_code);
+
+}  // namespace lightproof::cli

@@ -1,0 +1,88 @@
+// lightproof list: the registries.
+#include <fmt/format.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "common.h"
+#include "lightproof/image/synthetic.h"
+#include "lightproof/materials/material.h"
+#include "lightproof/render/receiver.h"
+#include "lightproof/render/strategy.h"
+#include "lightproof/samplers/registry.h"
+#include "lightproof/warp/preset.h"
+
+namespace lightproof::cli {
+namespace {
+
+struct Entry {
+  std::string name;
+  std::string description;
+};
+
+template <class Range>
+std::vector<Entry> described(const Range& range) {
+  std::vector<Entry> entries;
+  for (const auto& item : range) {
+    entries.push_back({std::string(item.name), std::string(item.description)});
+  }
+  return entries;
+}
+
+std::vector<Entry> sampler_entries() {
+  std::vector<Entry> entries;
+  for (const SamplerInfo& sampler : samplers()) {
+    entries.push_back({std::string(sampler.name),
+                       fmt::format("{}; O({}) a sample{}", sampler.source, sampler.growth,
+                                   sampler.known_defects ? "; with known defects" : "")});
+  }
+  return entries;
+}
+
+std::vector<Entry> entries_of(const std::string& registry) {
+  if (registry == "samplers") return sampler_entries();
+  if (registry == "maps") return described(synthetic_maps());
+  if (registry == "presets") return described(presets());
+  if (registry == "materials") return described(materials());
+  if (registry == "receivers") return described(receivers());
+  return described(kStrategies);
+}
+
+int run(const std::string& registry, bool json) {
+  const std::vector<Entry> entries = entries_of(registry);
+  if (json) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Entry& entry : entries) {
+      list.push_back({{"name", entry.name}, {"description", entry.description}});
+    }
+    fmt::print("{}\n", list.dump(2));
+    return kPassed;
+  }
+  std::size_t width = 0;
+  for (const Entry& entry : entries) width = std::max(width, entry.name.size());
+  for (const Entry& entry : entries) {
+    fmt::print("{:<{}}  {}\n", entry.name, width, entry.description);
+  }
+  return kPassed;
+}
+
+}  // namespace
+
+void add_list(CLI::App& app, int& exit_code) {
+  struct Options {
+    std::string registry;
+    bool json = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("list", "Print a registry");
+  command->add_option("WHAT", options->registry, "which registry")
+      ->required()
+      ->check(
+          CLI::IsMember({"samplers", "maps", "presets", "materials", "receivers", "strategies"}));
+  command->add_flag("--json", options->json, "as JSON");
+  command->callback([options, &exit_code] { exit_code = run(options->registry, options->json); });
+}
+
+}  // namespace lightproof::cli

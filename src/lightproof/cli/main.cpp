@@ -1,0 +1,57 @@
+#include <fmt/format.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include "common.h"
+#include "lightproof/core/error.h"
+#include "lightproof/core/parallel.h"
+
+namespace {
+
+/// The first Ctrl-C stops in good order; the second one at once.
+void on_interrupt(int /*signal*/) {
+  lightproof::request_interrupt();
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+int run(int argc, char** argv) {
+  using namespace lightproof::cli;
+  CLI::App app("Prove an environment-light sampler right, fast and stable.", "lightproof");
+  app.set_version_flag("--version", "lightproof " LIGHTPROOF_VERSION);
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  int exit_code = kPassed;
+  add_study(app, exit_code);
+  add_gate(app, exit_code);
+  add_list(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kPassed : kBadInput;
+  } catch (const lightproof::Interrupted&) {
+    fmt::print(stderr, "lightproof: interrupted; nothing half-written was left\n");
+    return kInterrupted;
+  } catch (const lightproof::InputError& error) {
+    fmt::print(stderr, "lightproof: {}\n", error.what());
+    return kBadInput;
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "lightproof: internal error: %s\n", error.what());
+    return lightproof::cli::kBadInput;
+  }
+}

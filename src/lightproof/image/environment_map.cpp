@@ -1,0 +1,20 @@
+#include "lightproof/image/environment_map.h"
+
+#include <algorithm>
+
+#include "lightproof/core/parallel.h"
+
+namespace lightproof {
+
+Grid<double> luminance(const EnvironmentMap& map, LuminanceWeights weights) {
+  const Extent extent = map.radiance.extent();
+  Grid<double> grey(extent);
+  parallel_for(static_cast<std::size_t>(extent.height), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    std::ranges::transform(map.radiance.row(y), grey.row(y).begin(),
+                           [&](Rgb rgb) { return luminance(rgb, weights); });
+  });
+  return grey;
+}
+
+}  // namespace lightproof

@@ -1,0 +1,19 @@
+// From the pixels of a file, in the convention of a preset, to the texels of an EnvironmentMap.
+#pragma once
+
+#include "lightproof/core/direction.h"
+#include "lightproof/core/grid.h"
+#include "lightproof/warp/preset.h"
+
+namespace lightproof {
+
+/// Size in texels of the map that a picture of this size becomes: one column and row fewer for
+/// node-centred presets, twice as wide for octahedral ones, else the same.
+Extent map_extent(Preset preset, Extent picture);
+
+/// The map (row 0 at t = 0) of a picture (row 0 at its top). Pixels that cover areas go to the
+/// nearest texel: a permutation for lat-long presets. Nodes are interpolated bilinearly at the
+/// texel centres.
+Grid<Rgb> map_from_picture(Preset preset, const Grid<Rgb>& picture);
+
+}  // namespace lightproof

@@ -1,0 +1,94 @@
+#include "lightproof/image/writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "lightproof/core/error.h"
+#include "lightproof/core/parallel.h"
+#include "lightproof/core/pending_file.h"
+#include "lightproof/image/open_image_io.h"
+
+namespace lightproof {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+/// A picture in the format of that name, encoded in memory: the file itself is then written by
+/// write_file(), which notices a full disk, and OpenEXR's destructors, which do not, are kept away
+/// from it.
+Bytes encode(const std::string& format, const OIIO::ImageSpec& spec, const void* pixels) {
+  Bytes bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const auto out = OIIO::ImageOutput::create(format);
+  if (!out) throw InputError(fmt::format("cannot write {}: {}", format, OIIO::geterror()));
+  const bool done = out->set_ioproxy(&memory) && out->open("." + format, spec) &&
+                    out->write_image(spec.format, pixels) && out->close();
+  if (!done) throw InputError(fmt::format("cannot write {}: {}", format, out->geterror()));
+  return bytes;
+}
+
+std::string_view as_text(const Bytes& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void require_finite(const std::filesystem::path& file, const Grid<Rgb>& picture) {
+  for (int y = 0; y < picture.extent().height; ++y) {
+    for (int x = 0; x < picture.extent().width; ++x) {
+      const Rgb rgb = picture(x, y);
+      if (std::isfinite(rgb.r) && std::isfinite(rgb.g) && std::isfinite(rgb.b)) continue;
+      throw InputError(
+          fmt::format("{}: not written: the texel at column {}, row {} is ({}, {}, {}), finite "
+                      "values needed",
+                      file.string(), x, y, rgb.r, rgb.g, rgb.b));
+    }
+  }
+}
+
+/// NaN becomes 0.
+std::uint8_t quantised(float v) {
+  return v > 0.0F ? static_cast<std::uint8_t>(std::lround(255.0F * std::min(v, 1.0F)))
+                  : std::uint8_t{0};
+}
+
+Bytes encode_png(const Grid<Rgb>& picture) {
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(3 * picture.values().size());
+  for (const Rgb rgb : picture.values()) {
+    for (const float v : {rgb.r, rgb.g, rgb.b}) pixels.push_back(quantised(v));
+  }
+  OIIO::ImageSpec spec(picture.extent().width, picture.extent().height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  return encode("png", spec, pixels.data());
+}
+
+}  // namespace
+
+void write_exr(const std::filesystem::path& file, const Grid<Rgb>& picture) {
+  require_finite(file, picture);
+  OIIO::ImageSpec spec(picture.extent().width, picture.extent().height, 3, OIIO::TypeDesc::FLOAT);
+  spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "");  // the same picture gives the same bytes
+  write_file(file, as_text(encode("openexr", spec, picture.values().data())));
+}
+
+void write_png(const std::filesystem::path& file, const Grid<Rgb>& picture) {
+  write_file(file, as_text(encode_png(picture)));
+}
+
+std::string png_bytes(const Grid<Rgb>& picture) {
+  return std::string(as_text(encode_png(picture)));
+}
+
+Grid<Rgb> flip_rows(const Grid<Rgb>& grid) {
+  const Extent extent = grid.extent();
+  Grid<Rgb> flipped(extent);
+  parallel_for(static_cast<std::size_t>(extent.height), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    std::ranges::copy(grid.row(y), flipped.row(extent.height - 1 - y).begin());
+  });
+  return flipped;
+}
+
+}  // namespace lightproof

@@ -1,0 +1,32 @@
+#include "lightproof/materials/material.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+
+#include "lightproof/core/error.h"
+
+namespace lightproof {
+namespace {
+
+constexpr std::array<MaterialInfo, 2> kMaterials = {{
+    {"lambert", "Lambert, albedo 0.8", Lambert{0.8}},
+    {"phong", "modified Phong, diffuse 0.3, specular 0.6, exponent 50",
+     ModifiedPhong{0.3, 0.6, 50.0}},
+}};
+
+}  // namespace
+
+std::span<const MaterialInfo> materials() { return kMaterials; }
+
+const MaterialInfo& material_by_name(std::string_view name) {
+  std::string known;
+  for (const MaterialInfo& info : kMaterials) {
+    if (info.name == name) return info;
+    known += fmt::format(" {}", info.name);
+  }
+  throw InputError(fmt::format("no material is called '{}'; there are:{}", name, known));
+}
+
+}  // namespace lightproof

@@ -1,0 +1,27 @@
+// The materials of the studies, once.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "lightproof/materials/lambert.h"
+#include "lightproof/materials/modified_phong.h"
+
+namespace lightproof {
+
+/// Visit once per batch, outside the loop. Reflectances are grey: colour comes from the map.
+using Material = std::variant<Lambert, ModifiedPhong>;
+
+struct MaterialInfo {
+  std::string_view name;
+  std::string_view description;
+  Material material;
+};
+
+std::span<const MaterialInfo> materials();
+
+/// Throws InputError listing the names if there is none of this name.
+const MaterialInfo& material_by_name(std::string_view name);
+
+}  // namespace lightproof

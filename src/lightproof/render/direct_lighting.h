@@ -1,0 +1,75 @@
+// Direct light of an environment at a point: L_o = ∫ L f_r (n·l)+ V d(omega), by Monte Carlo, in
+// batches that pass through four phases: draw, shade, trace, resolve.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "lightproof/core/random.h"
+#include "lightproof/materials/material.h"
+#include "lightproof/render/environment_light.h"
+#include "lightproof/render/scene.h"
+#include "lightproof/render/strategy.h"
+
+namespace lightproof {
+
+/// What is estimated and how. The scene and the light must outlive it.
+struct Lighting {
+  const Scene* scene;
+  const EnvironmentLight* light;
+  Material material;
+  Strategy strategy;
+};
+
+/// A direction towards the map and the texel that it meets. pdf 0: no sample.
+struct LightSample {
+  Direction direction;
+  double pdf;  ///< per steradian
+  std::int32_t x;
+  std::int32_t y;
+};
+
+/// Up to kCapacity samples on their way; one per thread, reused.
+class LightBatch {
+ public:
+  static constexpr std::size_t kCapacity = 256;
+
+  /// All four phases over the points [first, first + count) of the stream, count <= kCapacity.
+  /// Returns each sample's estimate of the outgoing radiance; their mean converges to L_o.
+  std::span<const Rgb> estimate(const Lighting& lighting, const ShadingPoint& at,
+                                const RandomStream& stream, std::uint64_t first, std::size_t count);
+
+  /// Fills the samples with directions.
+  void draw(const Lighting& lighting, const ShadingPoint& at, const RandomStream& stream,
+            std::uint64_t first, std::size_t count);
+  /// Weighs them by k / pdf and makes rays of those that matter.
+  void shade(const Lighting& lighting, const ShadingPoint& at);
+  /// Asks the scene which rays are blocked.
+  void trace(const Scene& scene) { scene.trace({rays_.data(), ray_count_}); }
+  /// Collects the radiance along the rays that nothing blocks.
+  std::span<const Rgb> resolve();
+
+  std::span<const ShadowRay> rays() const { return {rays_.data(), ray_count_}; }
+
+ private:
+  template <class Draw>
+  void fill(const RandomStream& stream, std::uint64_t first, std::size_t count, const Draw& draw);
+
+  /// What a ray brings if nothing blocks it. The texel is prefetched while the rays are traced.
+  struct Arrival {
+    const Rgb* radiance;
+    float weight;
+    std::uint32_t sample;
+  };
+
+  std::size_t count_ = 0;
+  std::size_t ray_count_ = 0;
+  std::array<LightSample, kCapacity> samples_;
+  std::array<Rgb, kCapacity> estimates_;
+  std::array<Arrival, kCapacity> arrivals_;
+  std::array<ShadowRay, kCapacity> rays_;
+};
+
+}  // namespace lightproof

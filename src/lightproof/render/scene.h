@@ -1,0 +1,66 @@
+// The geometry that receives and blocks light: nothing, a unit sphere, the plane below it, or
+// both. The only file, with its source, that knows Embree.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "lightproof/core/direction.h"
+
+namespace lightproof {
+
+/// A ray in Embree's own layout (RTCRay), so that batches are handed over without a copy.
+struct alignas(16) ShadowRay {
+  float origin[3];
+  float near;
+  float direction[3];
+  float time;
+  float far;  ///< infinite before tracing; negative after it if something is in the way
+  unsigned int mask;
+  unsigned int id;
+  unsigned int flags;
+};
+
+/// A ray from the point that nothing but the scene ends.
+ShadowRay shadow_ray(glm::dvec3 origin, Direction direction);
+
+/// True after Scene::trace if something blocks the ray.
+inline bool is_blocked(const ShadowRay& ray) { return ray.far < 0.0F; }
+
+struct SurfaceHit {
+  glm::dvec3 position;  ///< moved off the surface by kSurfaceOffset along the normal
+  Direction normal;
+};
+
+/// Shadow rays start this far above the surface, in units of the sphere's radius: enough that a
+/// convex surface never shadows itself, too little to see.
+inline constexpr double kSurfaceOffset = 1e-4;
+
+/// The unit sphere sits on the plane z = -1.
+struct SceneContent {
+  bool sphere = false;
+  bool plane = false;
+};
+
+class Scene {
+ public:
+  explicit Scene(SceneContent content);
+  ~Scene();
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  SceneContent content() const { return content_; }
+  /// The first surface along the ray; safe from many threads.
+  std::optional<SurfaceHit> intersect(glm::dvec3 origin, Direction direction) const;
+  /// Marks the rays that are blocked; safe from many threads.
+  void trace(std::span<ShadowRay> rays) const;
+  bool is_visible(glm::dvec3 origin, Direction direction) const;
+
+ private:
+  struct Device;
+  SceneContent content_;
+  std::unique_ptr<Device> device_;
+};
+
+}  // namespace lightproof

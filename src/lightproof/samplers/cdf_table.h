@@ -1,0 +1,53 @@
+// The cumulative distributions of all rows and of the columns in each row, in fixed point.
+//
+// Knots are integers in units of 2^-31. Compared with 32-bit floats of the same size their step is
+// the same everywhere (a float's is 2^-25 below 1), differences are exact, so the pdf that is
+// returned is the density that is drawn, and they compare with the random number's integer bits.
+// Compared with doubles they take half the memory. A texel of positive weight always keeps at
+// least one unit: f > 0 implies p > 0.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lightproof/core/grid.h"
+#include "lightproof/core/measure.h"
+#include "lightproof/image/target_density.h"
+
+namespace lightproof {
+
+/// Knots of a whole distribution: knots[k] is the mass before cell k, knots.back() == kCdfOne.
+using CdfKnots = std::span<const std::uint32_t>;
+inline constexpr std::uint32_t kCdfOne = 1U << 31U;
+
+/// Writes weights.size() + 1 knots. All zero if every weight is zero.
+void quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> knots);
+
+/// Marginal over rows and conditional over columns of a map's target density.
+class CdfTable {
+ public:
+  /// Throws InputError if the map is black.
+  CdfTable(const EnvironmentMap& map, TargetDensity target);
+
+  Extent extent() const { return extent_; }
+  Weighting weighting() const { return weighting_; }
+  CdfKnots rows() const { return rows_; }
+  CdfKnots columns(int y) const {
+    const std::size_t stride = static_cast<std::size_t>(extent_.width) + 1;
+    return {columns_.data() + static_cast<std::size_t>(y) * stride, stride};
+  }
+  /// Probability of texel (x, y) as drawn.
+  double mass(int x, int y) const;
+  /// Density over the square at `at`, inside texel (x, y).
+  PerSquare pdf(int x, int y, SquarePoint at) const;
+  std::size_t bytes() const { return (rows_.size() + columns_.size()) * sizeof(std::uint32_t); }
+
+ private:
+  Extent extent_;
+  Weighting weighting_;
+  std::vector<std::uint32_t> rows_;
+  std::vector<std::uint32_t> columns_;
+};
+
+}  // namespace lightproof

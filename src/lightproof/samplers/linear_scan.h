@@ -1,0 +1,15 @@
+// The lecture's linear scan without its defects: it stops at the first texel whose cumulative mass
+// lies *above* the random number, never at one without mass, over stored sums.
+// O(W + H) per sample.
+#pragma once
+
+#include "lightproof/samplers/cdf_inversion.h"
+
+namespace lightproof {
+
+/// Walks from the first cell.
+int search_by_scan(CdfKnots knots, std::uint32_t u);
+
+using LinearScan = CdfInversion<search_by_scan>;
+
+}  // namespace lightproof

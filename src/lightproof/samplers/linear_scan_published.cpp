@@ -1,0 +1,112 @@
+#include "lightproof/samplers/linear_scan_published.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lightproof/core/error.h"
+#include "lightproof/warp/lat_long.h"
+
+namespace lightproof {
+namespace {
+
+/// Where a scan stopped and how far between the sums around it; index == count if it ran off.
+struct Stop {
+  int index;
+  float fraction;
+};
+
+template <class Probability>
+Stop scan(int count, float u, const Probability& probability) {
+  float sum = 0.0F;
+  float previous = 0.0F;
+  int index = 0;
+  for (; index < count; ++index) {
+    sum += probability(index) / static_cast<float>(count);
+    if (sum >= u) break;
+    previous = sum;
+  }
+  return {index, (u - previous) / (sum - previous)};
+}
+
+/// The shader's random numbers are floats in [0,1): drop the bits that do not fit.
+float to_shader_random(double u) { return static_cast<float>(std::floor(u * 0x1p24) * 0x1p-24); }
+
+}  // namespace
+
+LinearScanPublished::LinearScanPublished(const EnvironmentMap& map, TargetDensity target)
+    : map_(&map),
+      weighting_(target.weighting),
+      solid_angle_rows_(map.radiance.extent().height),
+      grey_(target.grey.red, target.grey.green, target.grey.blue) {
+  const Extent extent = map.radiance.extent();
+  const auto columns = static_cast<float>(extent.width);
+  float total = 0.0F;
+  for (int y = 0; y < extent.height; ++y) {
+    row_factor_.push_back(
+        weighting_ == Weighting::A ? 1.0F : static_cast<float>(texel_solid_angle(extent, y)));
+    float sum = 0.0F;
+    for (int x = 0; x < extent.width; ++x) sum += weight(x, y);
+    row_average_.push_back(sum / columns);
+    total += row_average_.back();
+  }
+  total_average_ = total / static_cast<float>(extent.height);
+  if (!(total_average_ > 0.0F)) {
+    throw InputError(fmt::format("{}: the map is black: there is no light to sample", map.name));
+  }
+}
+
+float LinearScanPublished::weight(int x, int y) const {
+  return glm::dot(grey_, map_->radiance(x, y)) * row_factor_[static_cast<std::size_t>(y)];
+}
+
+float LinearScanPublished::average_of(int y) const {
+  // After a scan that ran off the end the shader still holds the last row's average.
+  const auto last = row_average_.size() - 1;
+  return row_average_[std::min(static_cast<std::size_t>(y), last)];
+}
+
+TexelSample LinearScanPublished::sample(SquarePoint u) const {
+  const Extent extent = map_->radiance.extent();
+  const Stop row = scan(extent.height, to_shader_random(u.t),
+                        [&](int y) { return average_of(y) / total_average_; });
+  const float average = average_of(row.index);
+  const Stop column = scan(extent.width, to_shader_random(u.s), [&](int x) {
+    const bool fetch_is_inside = row.index < extent.height;
+    return (fetch_is_inside ? weight(x, row.index) : 0.0F) / average;
+  });
+  const float s =
+      (static_cast<float>(column.index) + column.fraction) / static_cast<float>(extent.width);
+  const float t =
+      (static_cast<float>(row.index) + row.fraction) / static_cast<float>(extent.height);
+  SquarePoint at = {static_cast<double>(s), static_cast<double>(t)};
+  const bool on_map = column.index < extent.width && row.index < extent.height && at.s >= 0.0 &&
+                      at.s < 1.0 && at.t >= 0.0 && at.t < 1.0;
+  if (!on_map) return {at, column.index, row.index, PerSquare{0.0}};
+  if (weighting_ == Weighting::B) {
+    at.t = solid_angle_rows_.place(row.index, static_cast<double>(row.fraction));
+  }
+  return {at, column.index, row.index, pdf_in(column.index, row.index, at)};
+}
+
+PerSquare LinearScanPublished::pdf(SquarePoint at) const {
+  const Extent extent = map_->radiance.extent();
+  return pdf_in(cell_of(at.s, extent.width), cell_of(at.t, extent.height), at);
+}
+
+PerSquare LinearScanPublished::pdf_in(int x, int y, SquarePoint at) const {
+  if (weighting_ == Weighting::A) {
+    return {static_cast<double>(weight(x, y) / total_average_)};
+  }
+  const double mass = static_cast<double>(weight(x, y) / total_average_) /
+                      static_cast<double>(map_->radiance.extent().count());
+  return to_square(PerSteradian{mass / texel_solid_angle(map_->radiance.extent(), y)}, at);
+}
+
+std::size_t LinearScanPublished::table_bytes() const {
+  return map_->radiance.extent().count() * sizeof(Rgb) + row_average_.size() * sizeof(float);
+}
+
+static_assert(EnvSampler<LinearScanPublished>);
+
+}  // namespace lightproof

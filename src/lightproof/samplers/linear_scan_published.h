@@ -1,0 +1,38 @@
+// The sampler of the lecture "Image-based Lighting", as published: float sums over precomputed row
+// averages, then over the grey values of the row, stopping where the sum *reaches* the random
+// number. Its edge behaviour is kept: the first row or column is chosen at u = 0 even without mass
+// (0/0), a sum that rounds below the random number runs off the end, a fetch outside reads black.
+// The only liberty: our maps are linear, so its decoding of 8-bit texels (^2.2) has been done.
+#pragma once
+
+#include <vector>
+
+#include "lightproof/samplers/sampler.h"
+
+namespace lightproof {
+
+class LinearScanPublished {
+ public:
+  /// Refers to the map, which must outlive the sampler. Throws InputError if the map is black.
+  LinearScanPublished(const EnvironmentMap& map, TargetDensity target);
+
+  TexelSample sample(SquarePoint u) const;
+  PerSquare pdf(SquarePoint at) const;
+  /// The map itself is the table: 12 bytes a texel.
+  std::size_t table_bytes() const;
+
+ private:
+  float weight(int x, int y) const;
+  float average_of(int y) const;
+  PerSquare pdf_in(int x, int y, SquarePoint at) const;
+
+  const EnvironmentMap* map_;
+  Weighting weighting_;
+  SolidAngleRows solid_angle_rows_;
+  glm::vec3 grey_;
+  std::vector<float> row_factor_;   ///< 1 under A; the texel's solid angle under B
+  std::vector<float> row_average_;  ///< of the weights
+  float total_average_ = 0.0F;
+};
+
+}  // namespace lightproof

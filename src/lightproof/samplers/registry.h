@@ -1,0 +1,36 @@
+// Every environment-map sampler, once. Tests, benchmarks, command line and report iterate over
+// this table; a new sampler is a file pair, a variant name and a row.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "lightproof/samplers/binary_search.h"
+#include "lightproof/samplers/linear_scan.h"
+#include "lightproof/samplers/linear_scan_published.h"
+
+namespace lightproof {
+
+/// Visit once per batch, outside the loop.
+using AnySampler = std::variant<LinearScanPublished, LinearScan, BinarySearch>;
+
+struct SamplerInfo {
+  std::string_view name;
+  std::string_view source;  ///< paper or lecture
+  std::string_view growth;  ///< cost of one sample for a map of S x T texels
+  LuminanceWeights grey;    ///< the grey value that the sampler declares
+  bool known_defects;       ///< kept as published, to show what the gate finds
+  bool inverts_shared_cdf;  ///< returns the texel of LinearScan for every point
+  /// The map must outlive the sampler. Throws InputError if it is black.
+  AnySampler (*make)(const EnvironmentMap& map, Weighting weighting);
+
+  TargetDensity target(Weighting weighting) const { return {weighting, grey}; }
+};
+
+std::span<const SamplerInfo> samplers();
+
+/// Throws InputError listing the names if there is none of this name.
+const SamplerInfo& sampler_by_name(std::string_view name);
+
+}  // namespace lightproof

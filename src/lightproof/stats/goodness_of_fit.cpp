@@ -1,0 +1,70 @@
+#include "lightproof/stats/goodness_of_fit.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "lightproof/stats/tails.h"
+
+namespace lightproof {
+namespace {
+
+struct Pool {
+  double observed = 0.0;
+  double expected = 0.0;
+};
+
+/// 2/(λ(λ+1)) O((O/E)^λ − 1) for λ = 2/3, plus the terms that vanish when ΣO = ΣE but keep each
+/// cell's share positive: 2/(λ+1) (E − O).
+double cell_divergence(const Pool& pool) {
+  const double ratio = pool.observed / pool.expected;
+  return 1.8 * pool.observed * (std::cbrt(ratio * ratio) - 1.0) +
+         1.2 * (pool.expected - pool.observed);
+}
+
+std::vector<Pool> pool_cells(std::span<const std::uint64_t> observed,
+                             std::span<const double> probability, double samples) {
+  std::vector<Pool> pools;
+  Pool open;
+  for (std::size_t i = 0; i < observed.size(); ++i) {
+    if (probability[i] <= 0.0) continue;
+    open.observed += static_cast<double>(observed[i]);
+    open.expected += probability[i] * samples;
+    if (open.expected < kPooledExpectation) continue;
+    pools.push_back(open);
+    open = {};
+  }
+  if (open.expected > 0.0) {
+    if (pools.empty()) pools.emplace_back();
+    pools.back().observed += open.observed;
+    pools.back().expected += open.expected;
+  }
+  return pools;
+}
+
+}  // namespace
+
+GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
+                           std::span<const double> probability, std::uint64_t samples) {
+  assert(observed.size() == probability.size());
+  GoodnessOfFit fit;
+  for (std::size_t i = 0; i < observed.size(); ++i) {
+    if (probability[i] > 0.0) ++fit.possible_cells;
+    if (probability[i] > 0.0 || observed[i] == 0) continue;
+    fit.impossible_hits += observed[i];
+    if (!fit.first_impossible) fit.first_impossible = i;
+  }
+  const auto n = static_cast<double>(samples);
+  const std::vector<Pool> pools = pool_cells(observed, probability, n);
+  for (const Pool& pool : pools) fit.statistic += cell_divergence(pool);
+  fit.dof = pools.empty() ? 0.0 : static_cast<double>(pools.size() - 1);
+  if (fit.impossible_hits > 0) {
+    fit.log10_p = -INFINITY;
+  } else if (fit.dof > 0.0) {
+    fit.log10_p = log10_chi_square_tail(fit.statistic, fit.dof);
+  }
+  fit.effect = std::sqrt(std::max(0.0, fit.statistic - fit.dof) / n);
+  return fit;
+}
+
+}  // namespace lightproof

@@ -1,0 +1,51 @@
+// Goodness of fit of counts to exact expectations.
+//
+// The power divergence of Cressie and Read (1984) with lambda = 2/3, on cells pooled to an
+// expectation of at least 25: at strict levels its size is right where Pearson's is several times
+// too large. Nothing is dropped: neighbouring cells are pooled, and a remainder joins the last
+// pool. Cells of zero expectation are not part of the sum; a single hit in one is a rejection.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lightproof/core/grid.h"
+
+namespace lightproof {
+
+inline constexpr double kPooledExpectation = 25.0;
+
+struct GoodnessOfFit {
+  double statistic = 0.0;
+  double dof = 0.0;                ///< pools - 1; 0 means that nothing can be said
+  double log10_p = 0.0;            ///< -infinity if an impossible cell was hit
+  double effect = 0.0;             ///< Cohen's w = sqrt(sum (q-p)^2/p), less what noise alone gives
+  std::size_t possible_cells = 0;  ///< cells of positive expectation
+  std::uint64_t impossible_hits = 0;
+  std::optional<std::size_t> first_impossible;  ///< index of the first impossible cell hit
+};
+
+/// Counts against probabilities, in an order in which neighbours in the sequence are neighbours in
+/// space. The probabilities sum to 1; the counts sum to `samples`.
+GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
+                           std::span<const double> probability, std::uint64_t samples);
+
+/// Row by row, every second row backwards, so that consecutive cells touch.
+template <class T>
+std::vector<T> serpentine(const Grid<T>& grid) {
+  std::vector<T> sequence;
+  sequence.reserve(grid.extent().count());
+  for (int y = 0; y < grid.extent().height; ++y) {
+    const auto row = grid.row(y);
+    if (y % 2 == 0) {
+      sequence.insert(sequence.end(), row.begin(), row.end());
+    } else {
+      sequence.insert(sequence.end(), row.rbegin(), row.rend());
+    }
+  }
+  return sequence;
+}
+
+}  // namespace lightproof

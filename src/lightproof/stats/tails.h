@@ -1,0 +1,20 @@
+// Upper tails of the distributions that the gate judges by, as logarithms: a p-value is never
+// rounded to 0, however small. Boost.Math where its doubles reach, continued fractions beyond.
+#pragma once
+
+namespace lightproof {
+
+/// log10 P(chi-square with `dof` degrees of freedom >= statistic). dof > 0; statistic >= 0.
+double log10_chi_square_tail(double statistic, double dof);
+
+/// log10 P(|standard normal| >= |z|).
+double log10_normal_tails(double z);
+
+/// The non-centrality at which a chi-square test of size alpha rejects with the given power.
+double detectable_noncentrality(double dof, double alpha, double power);
+
+/// The deviation of a mean in standard errors at which a two-sided z-test of size alpha rejects
+/// with the given power.
+double detectable_z(double alpha, double power);
+
+}  // namespace lightproof

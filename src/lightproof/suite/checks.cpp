@@ -1,0 +1,167 @@
+#include "lightproof/suite/checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "lightproof/suite/draws.h"
+
+namespace lightproof {
+namespace {
+
+constexpr std::array<double, 5> kCorners = {0.0, 0x1p-24, 0.5, 1.0 - 0x1p-24, 1.0 - 0x1p-53};
+
+/// The cumulative sums of `masses`, normalised, each with its neighbours on either side.
+std::vector<double> around_knots(std::span<const double> masses) {
+  std::vector<double> values;
+  const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
+  double sum = 0.0;
+  for (const double mass : masses) {
+    sum += mass;
+    const double knot = sum / total;
+    for (const double u : {std::nextafter(knot, 0.0), knot, std::nextafter(knot, 1.0)}) {
+      if (u < 1.0) values.push_back(u);
+    }
+  }
+  return values;
+}
+
+/// The number of random points in a check over points.
+constexpr std::uint64_t kCheckPoints = std::uint64_t{1} << 16U;
+
+std::vector<SquarePoint> random_points(const RandomStream& stream) {
+  std::vector<SquarePoint> points;
+  for (std::uint64_t i = 0; i < kCheckPoints; ++i) points.push_back(stream.point(i));
+  return points;
+}
+
+std::vector<TexelSample> samples_at(const BoundSampler& sampler,
+                                    const std::vector<SquarePoint>& points) {
+  std::vector<TexelSample> samples(points.size());
+  sampler.sample(points, samples);
+  return samples;
+}
+
+}  // namespace
+
+CheckResult check_pdf_integral(const BoundSampler& sampler, Extent extent) {
+  constexpr double kNodes[2] = {0.21132486540518712, 0.78867513459481288};
+  // Rows higher than 1/256 of the square are split: the rule is then exact to 1e-9 for sin(theta).
+  const int parts = std::max(1, 256 / extent.height);
+  double integral = 0.0;
+  for (int y = 0; y < extent.height * parts; ++y) {
+    double row = 0.0;
+    for (const double node : kNodes) {
+      const double t = (y + node) / (extent.height * parts);
+      for (int x = 0; x < extent.width; ++x) {
+        row += sampler.pdf({(x + 0.5) / extent.width, t}).value;
+      }
+    }
+    integral += 0.5 * row / (static_cast<double>(extent.count()) * parts);
+  }
+  const double error = std::abs(integral - 1.0);
+  return {"pdf integrates to 1", error <= 1e-6, error,
+          error <= 1e-6 ? "" : fmt::format("the pdf integrates to {:.9g}", integral)};
+}
+
+CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& stream) {
+  CheckResult result{"pdf of the sample", true, 0.0, ""};
+  const std::vector<SquarePoint> points = random_points(stream);
+  const std::vector<TexelSample> samples = samples_at(sampler, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SquarePoint u = points[i];
+    const TexelSample& sample = samples[i];
+    if (!(sample.pdf.value > 0.0)) continue;  // strays are counted by another test
+    const double error = std::abs(sampler.pdf(sample.at).value / sample.pdf.value - 1.0);
+    if (error <= result.worst) continue;
+    result.worst = error;
+    if (error <= 1e-5) continue;
+    result.passed = false;
+    result.detail = fmt::format(
+        "at u = ({:.17g}, {:.17g}) pdf() differs from the returned pdf by {:.3g}", u.s, u.t, error);
+  }
+  return result;
+}
+
+CheckResult check_edges(const BoundSampler& sampler, const Expectation& expectation) {
+  const Extent extent = expectation.masses.extent();
+  CheckResult result{"edges of u", true, 0.0, ""};
+  std::uint64_t failures = 0;
+  const std::vector<SquarePoint> points = edge_points(expectation);
+  const std::vector<TexelSample> samples = samples_at(sampler, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SquarePoint u = points[i];
+    const TexelSample& sample = samples[i];
+    const bool sound = is_on_map(sample, extent) &&
+                       cell_of(sample.at.s, extent.width) == sample.x &&
+                       cell_of(sample.at.t, extent.height) == sample.y &&
+                       expectation.masses(sample.x, sample.y) > 0.0;
+    if (sound) continue;
+    if (failures++ == 0) {
+      result.detail =
+          fmt::format("u = ({:.17g}, {:.17g}) gives texel ({}, {}) at ({:.9g}, {:.9g}), pdf {:.3g}",
+                      u.s, u.t, sample.x, sample.y, sample.at.s, sample.at.t, sample.pdf.value);
+    }
+  }
+  result.passed = failures == 0;
+  result.worst = static_cast<double>(failures) / static_cast<double>(points.size());
+  if (failures > 0) {
+    result.detail =
+        fmt::format("{} of {} edge points leave the map or reach a texel without light; first: {}",
+                    failures, points.size(), result.detail);
+  }
+  return result;
+}
+
+CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,
+                             const Expectation& expectation, const RandomStream& stream) {
+  CheckResult result{"same texel as linear_scan", true, 0.0, ""};
+  std::vector<SquarePoint> points = edge_points(expectation);
+  const std::vector<SquarePoint> random = random_points(stream);
+  points.insert(points.end(), random.begin(), random.end());
+  const std::vector<TexelSample> samples = samples_at(sampler, points);
+  const std::vector<TexelSample> expected = samples_at(other, points);
+  std::uint64_t failures = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SquarePoint u = points[i];
+    const TexelSample& a = samples[i];
+    const TexelSample& b = expected[i];
+    if (a.x == b.x && a.y == b.y) continue;
+    if (failures++ == 0) {
+      result.detail = fmt::format("u = ({:.17g}, {:.17g}): texel ({}, {}) instead of ({}, {})", u.s,
+                                  u.t, a.x, a.y, b.x, b.y);
+    }
+  }
+  result.passed = failures == 0;
+  result.worst = static_cast<double>(failures) / static_cast<double>(points.size());
+  return result;
+}
+
+std::vector<SquarePoint> edge_points(const Expectation& expectation) {
+  std::vector<SquarePoint> points;
+  for (const double s : kCorners) {
+    for (const double t : kCorners) points.push_back({s, t});
+  }
+  for (const double t : around_knots(expectation.rows)) points.push_back({0.5, t});
+
+  constexpr int kRows = 16;
+  const int height = expectation.masses.extent().height;
+  double below = 0.0;
+  int visited = 0;
+  for (int y = 0; y < height; ++y) {
+    const double mass = expectation.rows[static_cast<std::size_t>(y)];
+    if (mass > 0.0 && y * kRows >= visited * height) {
+      ++visited;
+      for (const double s : around_knots(expectation.masses.row(y))) {
+        points.push_back({s, below + 0.5 * mass});
+      }
+    }
+    below += mass;
+  }
+  return points;
+}
+
+}  // namespace lightproof

@@ -1,0 +1,39 @@
+// Checks that need no statistics: what a sampler must do for certain points, exactly.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightproof/core/random.h"
+#include "lightproof/suite/expectation.h"
+#include "lightproof/suite/subject.h"
+
+namespace lightproof {
+
+/// The outcome of one check: the size of the worst deviation, and where it was seen.
+struct CheckResult {
+  std::string name;
+  bool passed = true;
+  double worst = 0.0;
+  std::string detail;
+};
+
+/// |∫ pdf ds dt - 1| <= 1e-6, over t by Gauss-Legendre inside every texel row.
+CheckResult check_pdf_integral(const BoundSampler& sampler, Extent extent);
+
+/// pdf(sample(u).at) equals the pdf that sample(u) returned, to 1e-5.
+CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& stream);
+
+/// The corners of the random numbers' range and every knot of the reference's distribution, one
+/// step to either side: the sample stays on the map, inside its texel, and that texel has light.
+CheckResult check_edges(const BoundSampler& sampler, const Expectation& expectation);
+
+/// The same texel as another sampler for the same point.
+CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,
+                             const Expectation& expectation, const RandomStream& stream);
+
+/// Points at the edges of the random numbers' range and around the knots of the marginal and of
+/// the conditional distributions of up to 16 rows.
+std::vector<SquarePoint> edge_points(const Expectation& expectation);
+
+}  // namespace lightproof

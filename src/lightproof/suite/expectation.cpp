@@ -1,0 +1,67 @@
+#include "lightproof/suite/expectation.h"
+
+#include <numeric>
+
+#include "lightproof/warp/lat_long.h"
+#include "reference/texel_masses.h"
+
+namespace lightproof {
+namespace {
+
+/// ∫ sin^2(theta) ds dt over one texel of row y.
+double squared_sine_area(Extent extent, int y) {
+  const auto primitive = [](double theta) { return 0.5 * theta - 0.25 * std::sin(2.0 * theta); };
+  const double low = kPi * y / extent.height;
+  const double high = kPi * (y + 1.0) / extent.height;
+  return (primitive(high) - primitive(low)) / (kPi * extent.width);
+}
+
+/// First and second moment of 1/p(omega) over the bright texels. Under A the density over (s,t) is
+/// constant in a texel and 1/p(omega) = 2 pi^2 sin(theta) / p(s,t); under B p(omega) is constant.
+reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) {
+  const Extent extent = expectation.masses.extent();
+  reference::EstimatorMoments moments;
+  for (int y = 0; y < extent.height; ++y) {
+    const double solid_angle = texel_solid_angle(extent, y);
+    const double square = 4.0 * kPi * kPi * kPi * kPi * squared_sine_area(extent, y) /
+                          static_cast<double>(extent.count());
+    for (int x = 0; x < extent.width; ++x) {
+      if (!expectation.is_bright(x, y)) continue;
+      const double mass = expectation.masses(x, y);
+      moments.raw[0] += solid_angle;
+      moments.raw[1] += expectation.target.weighting == Weighting::A
+                            ? square / mass
+                            : solid_angle * solid_angle / mass;
+    }
+  }
+  return moments;
+}
+
+}  // namespace
+
+const std::array<MeanCase, kMeanCaseCount> kMeanCases = {{
+    {"irradiance, normal +z", {0.0, 0.0, 1.0}},
+    {"irradiance, normal +x", {1.0, 0.0, 0.0}},
+}};
+
+Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
+  Expectation expectation{
+      target, luminance(map, target.grey), reference::texel_masses(map, target), {}, {}, {}, {},
+      {}};
+  expectation.bins = reference::bin_masses(expectation.masses, target.weighting, kGateBins);
+  expectation.rows = reference::row_marginal(expectation.masses);
+  expectation.columns = reference::column_marginal(expectation.masses);
+  const auto values = expectation.grey.values();
+  expectation.mean_grey =
+      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  for (std::size_t i = 0; i < kMeanCaseCount; ++i) {
+    const auto moments = reference::light_moments(reference::cosine_kernel(kMeanCases[i].normal),
+                                                  {&expectation.grey, 1});
+    expectation.estimators[i] =
+        target.weighting == Weighting::A ? moments[0].environment_a : moments[0].environment_b;
+  }
+  expectation.inverse_pdf = inverse_pdf_moments(expectation);
+  return expectation;
+}
+
+}  // namespace lightproof

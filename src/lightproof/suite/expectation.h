@@ -1,0 +1,46 @@
+// What the reference says about a target density on a map: the exact side of every comparison.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "lightproof/core/direction.h"
+#include "lightproof/core/grid.h"
+#include "lightproof/image/target_density.h"
+#include "reference/estimator_moments.h"
+
+namespace lightproof {
+
+/// Bins over (phi, theta).
+inline constexpr Extent kGateBins = {32, 16};
+
+/// The integrals that the estimator is tested on: irradiance for two normals. One looks at a pole,
+/// one at the horizon, because the two weightings trade places between them.
+struct MeanCase {
+  std::string_view name;
+  Direction normal;
+};
+inline constexpr std::size_t kMeanCaseCount = 2;
+extern const std::array<MeanCase, kMeanCaseCount> kMeanCases;
+
+struct Expectation {
+  TargetDensity target;
+  Grid<double> grey;
+  Grid<double> masses;          ///< of texels
+  Grid<double> bins;            ///< of kGateBins
+  std::vector<double> rows;     ///< marginal
+  std::vector<double> columns;  ///< marginal
+  std::array<reference::EstimatorMoments, kMeanCaseCount> estimators;
+  /// 1/p(omega) over the texels at least a tenth as bright as the mean.
+  reference::EstimatorMoments inverse_pdf;
+
+  /// Whether a texel belongs to the part of the map over which 1/p is averaged.
+  bool is_bright(int x, int y) const { return grey(x, y) >= 0.1 * mean_grey; }
+  double mean_grey = 0.0;
+};
+
+/// Throws InputError if the map is black.
+Expectation expectation_of(const EnvironmentMap& map, TargetDensity target);
+
+}  // namespace lightproof

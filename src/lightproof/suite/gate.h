@@ -1,0 +1,30 @@
+// The gate: every subject on every map, against the reference, with one error probability for the
+// whole run.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lightproof/core/progress.h"
+#include "lightproof/suite/results.h"
+#include "lightproof/suite/subject.h"
+
+namespace lightproof {
+
+struct GateOptions {
+  std::uint64_t samples = std::uint64_t{1} << 22U;  ///< per sampler, weighting and map
+  std::uint64_t seed = 1;
+  /// Probability that a run over correct samplers rejects anything (Holm over all its tests).
+  double family_alpha = 1e-6;
+};
+
+/// The same bits for any number of threads.
+GateResult run_gate(std::span<const EnvironmentMap> maps, std::span<const Subject> subjects,
+                    const GateOptions& options, const Progress& progress = {});
+
+/// Reject if any test that counts was rejected, else inconclusive if any was, else accept. Tests
+/// of samplers with known defects count only where `count_known_defects` says so.
+Outcome overall_outcome(const GateResult& result, bool count_known_defects);
+
+}  // namespace lightproof

@@ -1,0 +1,84 @@
+#include "lightproof/suite/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "lightproof/core/random.h"
+#include "lightproof/samplers/binary_search.h"
+#include "lightproof/suite/throughput.h"
+#include "lightproof/warp/lat_long.h"
+
+namespace lightproof {
+namespace {
+
+constexpr std::uint64_t kDrawnPoints = 400;
+
+/// "AMD EPYC, 2 cores".
+std::string machine_name() {
+  std::ifstream info("/proc/cpuinfo");
+  std::string model = "unknown processor";
+  for (std::string line; std::getline(info, line);) {
+    if (!line.starts_with("model name")) continue;
+    model = line.substr(line.find(':') + 2);
+    break;
+  }
+  return fmt::format("{}, {} cores", model, std::thread::hardware_concurrency());
+}
+
+}  // namespace
+
+MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed) {
+  MapRecord record;
+  record.map = map;
+  record.source = map.name;
+  double first = 0.0;
+  double second = 0.0;
+  double peak = 0.0;
+  const Extent extent = map.radiance.extent();
+  for (int y = 0; y < extent.height; ++y) {
+    const double solid_angle = texel_solid_angle(extent, y);
+    for (const Rgb rgb : map.radiance.row(y)) {
+      const double grey = luminance(rgb);
+      first += grey * solid_angle;
+      second += grey * grey * solid_angle;
+      peak = std::max(peak, grey);
+    }
+  }
+  record.mean_luminance = first / kSphere;
+  record.peak_ratio = peak / record.mean_luminance;
+  record.effective_fraction = first * first / (kSphere * second);
+  const BinarySearch sampler(map, {Weighting::B, kRec709});
+  const RandomStream stream("drawn/" + map.name, seed);
+  for (std::uint64_t i = 0; i < kDrawnPoints; ++i) {
+    record.drawn.push_back(sampler.sample(stream.point(i)).at);
+  }
+  return record;
+}
+
+StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& options,
+                      const Progress& progress) {
+  StudyResult result;
+  result.version = LIGHTPROOF_VERSION;
+  result.machine = machine_name();
+  result.seed = options.gate.seed;
+  // Speed first, while nothing else has warmed or filled the machine.
+  if (options.benchmarks) {
+    if (progress) progress("throughput", 0.0);
+    result.throughput = measure_throughput(*options.benchmarks);
+    result.growth = growth_of(result.throughput);
+  }
+  for (const EnvironmentMap& map : maps) {
+    result.maps.push_back(describe_map(map, options.gate.seed));
+  }
+  result.gate = run_gate(maps, all_subjects(), options.gate, part_of(progress, 0.25, 0.5));
+  const std::vector<EnvironmentLight> lights(maps.begin(), maps.end());
+  result.convergence = study_convergence(lights, options.convergence, part_of(progress, 0.5, 0.9));
+  result.renders = study_renders(lights, options.renders, part_of(progress, 0.9, 1.0));
+  return result;
+}
+
+}  // namespace lightproof

@@ -1,0 +1,36 @@
+// Warps from the unit square to the hemisphere around +z, each with its density.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "lightproof/core/direction.h"
+#include "lightproof/core/measure.h"
+
+namespace lightproof {
+
+/// The direction with this cosine to +z and azimuth 2 pi u.
+inline Direction direction_around_z(double cosine, double u) {
+  const double sine = std::sqrt(std::max(0.0, (1.0 - cosine) * (1.0 + cosine)));
+  const double phi = 2.0 * kPi * u;
+  return {sine * std::cos(phi), sine * std::sin(phi), cosine};
+}
+
+/// Density cos(theta)/pi. Inverse transform; u.t = 0 gives the pole.
+inline Direction cosine_hemisphere_from_square(SquarePoint u) {
+  return direction_around_z(std::sqrt(1.0 - u.t), u.s);
+}
+inline PerSteradian cosine_hemisphere_pdf(Direction local) {
+  return {std::max(0.0, local.z) / kPi};
+}
+
+/// Density (n+1)/2pi cos^n(theta) for an exponent n >= 0. Phong's lobe.
+inline Direction phong_lobe_from_square(SquarePoint u, double exponent) {
+  return direction_around_z(std::pow(1.0 - u.t, 1.0 / (exponent + 1.0)), u.s);
+}
+inline PerSteradian phong_lobe_pdf(double cosine, double exponent) {
+  if (cosine <= 0.0) return {0.0};
+  return {(exponent + 1.0) / (2.0 * kPi) * std::pow(cosine, exponent)};
+}
+
+}  // namespace lightproof
