@@ -7,8 +7,8 @@
 namespace lightproof {
 
 /// A relative variance (variance over squared mean) below which an estimator counts as exact: what
-/// is left is rounding.
-inline constexpr double kNoVariance = 1e-12;
+/// is left is the quadrature's own error.
+inline constexpr double kNoVariance = 1e-8;
 
 struct PowerLawPoint {
   double x;

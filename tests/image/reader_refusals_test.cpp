@@ -1,0 +1,214 @@
+// Files that are refused: what the message names.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "lightproof/core/error.h"
+#include "lightproof/core/random.h"
+#include "lightproof/image/reader.h"
+#include "tests/image/picture_files.h"
+
+namespace lightproof {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TemporaryFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// The message; empty if the file is read.
+std::string refusal(const fs::path& file, const ReadOptions& options = {}) {
+  try {
+    read_environment_map(file, options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(ReaderRefuses, WhatIsNoPicture) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(refusal(folder / "none.exr"), AllOf(HasSubstr("none.exr"), HasSubstr("no such")));
+  EXPECT_THAT(refusal(folder / ""), HasSubstr("is a folder"));
+  EXPECT_THAT(refusal("/dev/null"), HasSubstr("not a regular file"));
+  test::write_bytes(folder / "zero.hdr", "");
+  EXPECT_THAT(refusal(folder / "zero.hdr"), AllOf(HasSubstr("zero.hdr"), HasSubstr("0 bytes")));
+  test::write_bytes(folder / "text.png", "not a picture at all");
+  EXPECT_THAT(refusal(folder / "text.png"), HasSubstr("OpenEXR, Radiance .hdr, PNG or JPEG"));
+  test::write_bytes(folder / "magic.exr", "\x76\x2f\x31\x01");
+  EXPECT_THAT(refusal(folder / "magic.exr"), HasSubstr("cannot be read as OpenEXR"));
+}
+
+TEST(ReaderRefuses, MissingChannelsAndListsThose) {
+  const TemporaryFolder folder;
+  const Grid<Rgb> picture = test::numbered_picture({8, 4});
+  test::write_exr_file(folder / "a.exr", picture, {.channels = {"depth.Z", "Y"}});
+  EXPECT_THAT(refusal(folder / "a.exr"),
+              AllOf(HasSubstr("R, G and B needed"), HasSubstr("depth.Z"), HasSubstr("Y")));
+  test::write_integer_picture(folder / "grey.png", {2, 1}, 1, {1, 2}, 8);
+  EXPECT_THAT(refusal(folder / "grey.png"), HasSubstr("R, G and B needed"));
+}
+
+TEST(ReaderRefuses, KindsOfExrThatAreNoFlatRgb) {
+  const TemporaryFolder folder;
+  const Grid<Rgb> picture = test::numbered_picture({8, 4});
+  test::write_deep_exr(folder / "deep.exr", {8, 4});
+  EXPECT_THAT(refusal(folder / "deep.exr"), HasSubstr("deep samples"));
+  test::write_luminance_chroma_exr(folder / "yc.exr", {8, 4});
+  EXPECT_THAT(refusal(folder / "yc.exr"), HasSubstr("Subsampled channels"));
+  test::write_uint_exr(folder / "uint.exr", {8, 4});
+  EXPECT_THAT(refusal(folder / "uint.exr"), HasSubstr("half or float needed"));
+  test::write_exr_file(folder / "xyz.exr", picture, {.xyz = true});
+  EXPECT_THAT(refusal(folder / "xyz.exr"), HasSubstr("CIE XYZ"));
+  test::write_exr_file(folder / "crop.exr", picture, {.missing_columns = 2});
+  EXPECT_THAT(refusal(folder / "crop.exr"),
+              AllOf(HasSubstr("data window (8 x 4"), HasSubstr("display window (10 x 4")));
+}
+
+TEST(ReaderRefuses, CubeMapsWhateverThePreset) {
+  const TemporaryFolder folder;
+  test::write_exr_file(folder / "cube.exr", test::numbered_picture({4, 24}),
+                       {.envmap = test::Envmap::cube});
+  EXPECT_THAT(refusal(folder / "cube.exr"), HasSubstr("cube map"));
+  EXPECT_THAT(refusal(folder / "cube.exr", {.preset = Preset::z_up, .any_aspect = true}),
+              HasSubstr("cube map"));
+}
+
+TEST(ReaderRefuses, ColumnsStoredAsRows) {
+  const TemporaryFolder folder;
+  for (const char* resolution : {"+X 2 -Y 4", "-X 2 +Y 4", "+X 2 +Y 4", "-X 2 -Y 4"}) {
+    test::write_hdr_file(folder / "a.hdr", resolution, std::vector<test::Rgbe>(8, {1, 1, 1, 128}));
+    EXPECT_THAT(refusal(folder / "a.hdr"), HasSubstr("orientation")) << resolution;
+  }
+}
+
+TEST(ReaderRefuses, BadTexelsByCountPositionAndFlag) {
+  const TemporaryFolder folder;
+  const float infinity = std::numeric_limits<float>::infinity();
+  const struct {
+    float value;
+    const char* kind;
+  } cases[] = {{-1e-3F, "negative values"},
+               {std::numeric_limits<float>::quiet_NaN(), "NaN"},
+               {infinity, "infinite values"},
+               {-infinity, "infinite values"}};
+  for (const auto& [value, kind] : cases) {
+    Grid<Rgb> picture = test::numbered_picture({8, 4});
+    picture(6, 1).b = value;
+    picture(2, 3).r = value;
+    picture(2, 3).g = value;
+    test::write_exr_file(folder / "bad.exr", picture);
+    EXPECT_THAT(refusal(folder / "bad.exr"),
+                AllOf(HasSubstr("bad.exr"), HasSubstr("2 texels with " + std::string(kind)),
+                      HasSubstr("column 6, row 1"), HasSubstr("--repair")));
+    EXPECT_EQ(refusal(folder / "bad.exr", {.repair = true}), "");
+  }
+}
+
+TEST(ReaderRefuses, OtherAspectsAndNamesTheFlag) {
+  const TemporaryFolder folder;
+  test::write_exr_file(folder / "a.exr", test::numbered_picture({9, 4}));
+  EXPECT_THAT(refusal(folder / "a.exr"),
+              AllOf(HasSubstr("9 x 4"), HasSubstr("--any-aspect"), Not(HasSubstr("pbrt-v4"))));
+  EXPECT_EQ(refusal(folder / "a.exr", {.any_aspect = true}), "");
+
+  test::write_exr_file(folder / "square.exr", test::numbered_picture({8, 8}));
+  EXPECT_THAT(refusal(folder / "square.exr"), HasSubstr("--preset pbrt-v4"));
+  EXPECT_EQ(refusal(folder / "square.exr", {.preset = Preset::pbrt_v4}), "");
+
+  test::write_exr_file(folder / "wide.exr", test::numbered_picture({8, 4}));
+  EXPECT_THAT(refusal(folder / "wide.exr", {.preset = Preset::pbrt_v4, .any_aspect = true}),
+              AllOf(HasSubstr("8 x 4"), HasSubstr("square"), HasSubstr("--preset")));
+
+  test::write_exr_file(folder / "row.exr", test::numbered_picture({8, 1}));
+  EXPECT_THAT(refusal(folder / "row.exr", {.preset = Preset::openexr, .any_aspect = true}),
+              HasSubstr("at least 2 x 2"));
+}
+
+TEST(ReaderRefuses, SizesBeyondTheLimitBeforeReading) {
+  const TemporaryFolder folder;
+  for (const char* resolution : {"-Y 16385 +X 32770", "-Y 4 +X 32769", "-Y 2000000 +X 4000000"}) {
+    test::write_hdr_file(folder / "huge.hdr", resolution, {{1, 1, 1, 128}});
+    EXPECT_THAT(refusal(folder / "huge.hdr"), HasSubstr("32768 x 16384")) << resolution;
+  }
+}
+
+TEST(ReaderRefuses, BlackMaps) {
+  const TemporaryFolder folder;
+  test::write_exr_file(folder / "black.exr", Grid<Rgb>({8, 4}));
+  EXPECT_THAT(refusal(folder / "black.exr"), HasSubstr("every texel is black"));
+  test::write_exr_file(folder / "denormal.exr", Grid<Rgb>({8, 4}, Rgb(1e-39F)));
+  EXPECT_THAT(refusal(folder / "denormal.exr"), HasSubstr("every texel is black"));
+  test::write_exr_file(folder / "negative.exr", Grid<Rgb>({8, 4}, Rgb(-1.0F)));
+  EXPECT_THAT(refusal(folder / "negative.exr", {.repair = true}),
+              HasSubstr("every texel is black"));
+}
+
+/// One valid file of every format, 64 x 32.
+std::vector<fs::path> valid_files(const TemporaryFolder& folder) {
+  const Grid<Rgb> picture = test::numbered_picture({64, 32});
+  std::vector<unsigned> values;
+  const RandomStream stream("noise", 1);
+  for (unsigned i = 0; i < 64 * 32 * 3; ++i) {
+    values.push_back(static_cast<unsigned>(256.0 * stream.point(i).s));
+  }
+  test::write_exr_file(folder / "a.exr", picture);
+  test::write_hdr_file(folder / "a.hdr", "-Y 32 +X 64",
+                       std::vector<test::Rgbe>(64 * 32, {128, 64, 32, 129}));
+  test::write_integer_picture(folder / "a.png", {64, 32}, 3, values, 8);
+  test::write_integer_picture(folder / "a.jpg", {64, 32}, 3, values, 8);
+  return {folder / "a.exr", folder / "a.hdr", folder / "a.png", folder / "a.jpg"};
+}
+
+TEST(ReaderRefuses, FilesCutOffAnywhere) {
+  const TemporaryFolder folder;
+  for (const fs::path& file : valid_files(folder)) {
+    const std::string bytes = test::bytes_of(file);
+    ASSERT_EQ(refusal(file), "");
+    for (const double share : {0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97}) {
+      const auto kept = static_cast<std::size_t>(share * static_cast<double>(bytes.size()));
+      test::write_bytes(file, bytes.substr(0, kept));
+      EXPECT_THAT(refusal(file), HasSubstr(file.filename().string() + ": ")) << share;
+    }
+  }
+}
+
+// Cameras store a thumbnail, a JPEG of its own, ahead of the picture and append films to it.
+TEST(ReaderRefuses, JpegsCutOffBehindTheirThumbnail) {
+  const TemporaryFolder folder;
+  const fs::path file = valid_files(folder).back();
+  const std::string bytes = test::bytes_of(file);
+  const std::string thumbnail = std::string("\xff\xe2\x00\x06\xff\xd9\xff\xd9", 8);
+  const std::string with_thumbnail = bytes.substr(0, 2) + thumbnail + bytes.substr(2);
+  test::write_bytes(file, with_thumbnail + std::string(5000, 'f'));
+  EXPECT_EQ(refusal(file), "");
+  test::write_bytes(file, with_thumbnail.substr(0, with_thumbnail.size() / 2));
+  EXPECT_THAT(refusal(file), HasSubstr("cut off"));
+}
+
+// Whether a damaged file is read or refused depends on the damage; nothing but InputError may come
+// out of it.
+TEST(ReaderRefuses, DamagedFilesWithoutAnythingWorse) {
+  const TemporaryFolder folder;
+  for (const fs::path& file : valid_files(folder)) {
+    const std::string bytes = test::bytes_of(file);
+    const RandomStream stream("damage", 1);
+    int refused = 0;
+    for (std::uint64_t i = 0; i < 100; ++i) {
+      std::string damaged = bytes;
+      const SquarePoint u = stream.point(i);
+      const std::size_t reach =
+          i % 2 == 0 ? bytes.size() : std::min<std::size_t>(bytes.size(), 400);
+      const auto at = static_cast<std::size_t>(u.s * static_cast<double>(reach));
+      damaged[at] = static_cast<char>(static_cast<int>(u.t * 256.0));
+      test::write_bytes(file, damaged);
+      refused += refusal(file).empty() ? 0 : 1;
+    }
+    EXPECT_GT(refused, 0) << file;
+  }
+}
+
+}  // namespace
+}  // namespace lightproof

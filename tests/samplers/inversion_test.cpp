@@ -1,0 +1,150 @@
+// Claims about every sampler that inverts the shared table.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "lightproof/core/error.h"
+#include "lightproof/core/random.h"
+#include "lightproof/image/synthetic.h"
+#include "lightproof/samplers/registry.h"
+#include "reference/slow_sampler.h"
+
+namespace lightproof {
+namespace {
+
+constexpr double kLastBelowOne = 1.0 - 0x1p-53;
+
+std::vector<SquarePoint> hostile_points(const CdfTable& table) {
+  std::vector<SquarePoint> points;
+  std::vector<double> edges = {0.0, 0x1p-60, 0x1p-31, 0.5, 1.0 - 0x1p-24, kLastBelowOne};
+  for (const std::uint32_t knot : table.rows()) {
+    const double u = knot * 0x1p-31;
+    for (const double v : {std::nextafter(u, 0.0), u, std::nextafter(u, 1.0)}) {
+      if (v < 1.0) edges.push_back(v);
+    }
+  }
+  for (const double s : edges) {
+    for (const double t : edges) points.push_back({s, t});
+  }
+  return points;
+}
+
+class InversionOnMaps : public testing::TestWithParam<std::tuple<std::string_view, Weighting>> {
+ protected:
+  static constexpr Extent kSizes[] = {{1, 1}, {2, 1}, {1, 5}, {31, 15}, {64, 32}};
+};
+
+TEST_P(InversionOnMaps, ScanAndBisectionReturnTheSameTexelAndPlace) {
+  const auto [name, weighting] = GetParam();
+  for (const Extent extent : kSizes) {
+    const EnvironmentMap map = make_synthetic_map(name, extent);
+    const LinearScan scan(map, {weighting, kRec709});
+    const BinarySearch search(map, {weighting, kRec709});
+    std::vector<SquarePoint> points = hostile_points(scan.table());
+    const RandomStream stream("scan and bisection", 1);
+    for (std::uint64_t i = 0; i < 10000; ++i) points.push_back(stream.point(i));
+    for (const SquarePoint u : points) {
+      const TexelSample a = scan.sample(u);
+      const TexelSample b = search.sample(u);
+      ASSERT_EQ(a.x, b.x);
+      ASSERT_EQ(a.y, b.y);
+      ASSERT_EQ(a.at, b.at);
+      ASSERT_EQ(a.pdf.value, b.pdf.value);
+    }
+  }
+}
+
+TEST_P(InversionOnMaps, SamplesStayInsideATexelWithLight) {
+  const auto [name, weighting] = GetParam();
+  for (const Extent extent : kSizes) {
+    const EnvironmentMap map = make_synthetic_map(name, extent);
+    const BinarySearch sampler(map, {weighting, kRec709});
+    for (const SquarePoint u : hostile_points(sampler.table())) {
+      const TexelSample sample = sampler.sample(u);
+      ASSERT_EQ(cell_of(sample.at.s, extent.width), sample.x) << u.s << ", " << u.t;
+      ASSERT_EQ(cell_of(sample.at.t, extent.height), sample.y) << u.s << ", " << u.t;
+      ASSERT_GT(sample.at.t, 0.0);
+      ASSERT_LT(sample.at.t, 1.0);
+      ASSERT_GT(luminance(map.radiance(sample.x, sample.y)), 0.0);
+      ASSERT_TRUE(sample.pdf.value > 0.0 && std::isfinite(sample.pdf.value));
+      ASSERT_NEAR(sampler.pdf(sample.at).value / sample.pdf.value, 1.0, 1e-12);
+    }
+  }
+}
+
+TEST_P(InversionOnMaps, TexelsAreTheReferencesAwayFromItsKnots) {
+  const auto [name, weighting] = GetParam();
+  const Extent extent = {64, 32};
+  const EnvironmentMap map = make_synthetic_map(name, extent);
+  const BinarySearch sampler(map, {weighting, kRec709});
+  const reference::SlowSampler slow(map, {weighting, kRec709});
+  const RandomStream stream("reference", 1);
+  // A knot of the table is less than one unit per cell from the exact one.
+  const double tolerance = (extent.width + 1) * 0x1p-31;
+  int compared = 0;
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    const SquarePoint u = stream.point(i);
+    if (slow.near_knot(u, tolerance)) continue;
+    const TexelSample sample = sampler.sample(u);
+    ++compared;
+    ASSERT_EQ((reference::Texel{sample.x, sample.y}), slow.sample(u)) << u.s << ", " << u.t;
+  }
+  EXPECT_GT(compared, 19900);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, InversionOnMaps,
+                         testing::Combine(testing::Values("constant", "one-texel", "gradient",
+                                                          "cosine-lobe", "step", "sun-sky",
+                                                          "checker", "black-first-row"),
+                                          testing::Values(Weighting::A, Weighting::B)));
+
+TEST(Inversion, PlacesAreMonotoneInTheRandomNumber) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
+  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+    const BinarySearch sampler(map, {weighting, kRec709});
+    double previous = 0.0;
+    for (int i = 0; i < 100000; ++i) {
+      const double t = sampler.sample({0.5, i / 100000.0}).at.t;
+      ASSERT_GE(t, previous);
+      previous = t;
+    }
+  }
+}
+
+TEST(Inversion, EqualSolidAnglesAreEquallyLikelyUnderB) {
+  const EnvironmentMap map = make_synthetic_map("constant", {4, 2});
+  const BinarySearch sampler(map, {Weighting::B, kRec709});
+  // On a constant map cos(theta) is linear in u; units of 2^-31 and 4 ulp of the warp.
+  for (int i = 1; i < 1000; ++i) {
+    const double u = i / 1000.0;
+    EXPECT_NEAR(cos_theta(sampler.sample({0.5, u}).at.t), 2.0 * u - 1.0, 4e-9);
+  }
+}
+
+TEST(Registry, NamesAreUniqueAndFoundAgain) {
+  for (const SamplerInfo& info : samplers()) {
+    EXPECT_EQ(&sampler_by_name(info.name), &info);
+  }
+  EXPECT_THROW(sampler_by_name("no such sampler"), InputError);
+}
+
+TEST(Registry, EverySamplerDrawsFromEveryMap) {
+  for (const SyntheticMap& entry : synthetic_maps()) {
+    const EnvironmentMap map = entry.make({16, 8});
+    for (const SamplerInfo& info : samplers()) {
+      for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+        const AnySampler any = info.make(map, weighting);
+        const TexelSample sample = std::visit(
+            [](const auto& sampler) {
+              return sampler.sample({0.3, 0.6});
+            },
+            any);
+        EXPECT_GT(sample.pdf.value, 0.0) << info.name << " on " << entry.name;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lightproof

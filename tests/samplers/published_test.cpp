@@ -1,0 +1,68 @@
+// The published sampler's edge behaviour, kept as it was printed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lightproof/image/synthetic.h"
+#include "lightproof/samplers/binary_search.h"
+#include "lightproof/samplers/linear_scan_published.h"
+
+namespace lightproof {
+namespace {
+
+constexpr TargetDensity kTarget = {Weighting::A, kPublishedLuminance};
+
+TEST(LinearScanPublished, BlackFirstRowAtZeroLeavesTheMap) {
+  const EnvironmentMap map = make_synthetic_map("black-first-row", {64, 32});
+  const TexelSample sample = LinearScanPublished(map, kTarget).sample({0.5, 0.0});
+  EXPECT_EQ(sample.y, 0);
+  EXPECT_EQ(sample.x, 64) << "0/0 probabilities never reach the random number";
+  EXPECT_TRUE(std::isnan(sample.at.t));
+  EXPECT_EQ(sample.pdf.value, 0.0);
+}
+
+TEST(LinearScanPublished, BlackFirstColumnAtZeroIsNotANumber) {
+  EnvironmentMap map = make_synthetic_map("constant", {64, 32});
+  for (int y = 0; y < 32; ++y) map.radiance(0, y) = Rgb(0.0F);
+  const TexelSample sample = LinearScanPublished(map, kTarget).sample({0.0, 0.5});
+  EXPECT_EQ(sample.x, 0);
+  EXPECT_TRUE(std::isnan(sample.at.s));
+}
+
+TEST(LinearScanPublished, SumsThatRoundBelowOneRunOffTheEnd) {
+  // 1/width of a width that is no power of two is rounded down; so is the sum of many.
+  int ran_off = 0;
+  for (int width = 3; width < 400; ++width) {
+    const EnvironmentMap map = make_synthetic_map("constant", {width, 2});
+    ran_off += LinearScanPublished(map, kTarget).sample({1.0 - 0x1p-24, 0.5}).x == width ? 1 : 0;
+  }
+  EXPECT_GT(ran_off, 0);
+}
+
+TEST(LinearScanPublished, AwayFromTheEdgesItIsTheExactSampler) {
+  const EnvironmentMap map = make_synthetic_map("gradient", {64, 32});
+  const LinearScanPublished published(map, kTarget);
+  const BinarySearch exact(map, kTarget);
+  int different = 0;
+  for (int i = 0; i < 100; ++i) {
+    for (int j = 0; j < 100; ++j) {
+      const SquarePoint u = {(i + 0.31) / 100.0, (j + 0.31) / 100.0};
+      const TexelSample a = published.sample(u);
+      const TexelSample b = exact.sample(u);
+      if (a.x != b.x || a.y != b.y) {
+        ++different;
+        continue;
+      }
+      // Float sums of n terms are off by at most n/2 ulp; a texel holds 1/n of the mass.
+      EXPECT_NEAR(a.at.s, b.at.s, 64.0 * 0x1p-24);
+      EXPECT_NEAR(a.at.t, b.at.t, 32.0 * 0x1p-24);
+      EXPECT_NEAR(a.pdf.value / b.pdf.value, 1.0, 64.0 * 0x1p-24);
+    }
+  }
+  // No point lies within 1e-4 of a knot of the columns, k/64, but some may of the rows': at most
+  // 32 knots * 64 ulp of 2^-24 of the interval, so one of the 100 rows of points.
+  EXPECT_LE(different, 100);
+}
+
+}  // namespace
+}  // namespace lightproof

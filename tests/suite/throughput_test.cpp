@@ -1,0 +1,87 @@
+#include "lightproof/suite/throughput.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "lightproof/core/error.h"
+
+namespace lightproof {
+namespace {
+
+class ThroughputFile : public testing::Test {
+ protected:
+  void TearDown() override { std::filesystem::remove(file_); }
+  void write(std::string_view text) { std::ofstream(file_) << text; }
+
+  std::filesystem::path file_ =
+      std::filesystem::temp_directory_path() /
+      ("lightproof-throughput-" +
+       std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".json");
+};
+
+std::string run(std::string_view name, double ns) {
+  return "{\"name\":\"" + std::string(name) + "\",\"run_name\":\"" + std::string(name) +
+         "\",\"run_type\":\"iteration\",\"ns_per_sample\":" + std::to_string(ns) +
+         ",\"table_bytes\":100,\"build_ms\":2.5}";
+}
+
+TEST_F(ThroughputFile, MedianAndRangeOfRepetitions) {
+  const std::string name = "sample/binary_search/sun-sky/512x256/random";
+  write("{\"benchmarks\":[" + run(name, 30) + "," + run(name, 50) + "," + run(name, 35) + "]}");
+  const auto records = read_throughput(file_);
+  ASSERT_EQ(records.size(), 1U);
+  EXPECT_EQ(records[0].sampler, "binary_search");
+  EXPECT_EQ(records[0].map, "sun-sky");
+  EXPECT_EQ(records[0].extent, (Extent{512, 256}));
+  EXPECT_EQ(records[0].ns_per_sample, 35.0);
+  EXPECT_EQ(records[0].ns_low, 30.0);
+  EXPECT_EQ(records[0].ns_high, 50.0);
+  EXPECT_EQ(records[0].table_bytes, 100.0);
+  EXPECT_EQ(records[0].build_ms, 2.5);
+}
+
+TEST_F(ThroughputFile, OtherBenchmarksAndAggregatesAreLeftOut) {
+  write("{\"benchmarks\":[" + run("render/uniform/lambert/64x32/plane", 9) +
+        ",{\"run_name\":\"sample/a/b/2x1/random\",\"run_type\":\"aggregate\"}]}");
+  EXPECT_TRUE(read_throughput(file_).empty());
+}
+
+TEST_F(ThroughputFile, WhatIsNotGoogleBenchmarksIsRefusedByName) {
+  for (const std::string_view text :
+       {"", "not json", "[]", "{\"benchmarks\":[{\"run_type\":3}]}"}) {
+    write(text);
+    try {
+      read_throughput(file_);
+      ADD_FAILURE() << "accepted: " << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(file_.string()), std::string::npos);
+    }
+  }
+  EXPECT_THROW(read_throughput("/no/such/file.json"), InputError);
+}
+
+TEST(MeasureThroughput, AProgramThatCannotRunIsNamed) {
+  EXPECT_THROW(measure_throughput("/no/such/program"), InputError);
+  EXPECT_THROW(measure_throughput("/bin/false"), InputError);
+}
+
+TEST(Growth, ExponentsOfALineAndALogarithm) {
+  std::vector<ThroughputRecord> records;
+  for (const int width : {512, 1024, 2048, 4096, 8192}) {
+    const double size = 1.5 * width;
+    records.push_back({"linear_scan", "sun-sky", {width, width / 2}, 0.3 * size, 0, 0, 0, 0});
+    records.push_back(
+        {"binary_search", "sun-sky", {width, width / 2}, 5.0 * std::log2(size), 0, 0, 0, 0});
+  }
+  const auto fits = growth_of(records);
+  ASSERT_EQ(fits.size(), 2U);
+  EXPECT_NEAR(fits[0].exponent, 1.0, 1e-12);
+  EXPECT_LT(fits[1].exponent, 0.2);
+  EXPECT_GT(fits[1].exponent, 0.0);
+}
+
+}  // namespace
+}  // namespace lightproof
