@@ -25,8 +25,8 @@ class SphereQuadrature {
   /// Texels that straddle are split into kSplit x kSplit.
   static constexpr int kSplit = 8;
   /// The sphere is never divided into fewer cells than this, however few texels the map has: the
-  /// rule's error is then below 1e-10 of an integrand as smooth as a cosine.
-  static constexpr Extent kLeastCells = {512, 256};
+  /// rule's error is then below 1e-9 of an integrand as smooth as a cosine.
+  static constexpr Extent kLeastCells = {256, 128};
 
   explicit SphereQuadrature(Extent extent);
 

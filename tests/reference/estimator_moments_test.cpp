@@ -1,0 +1,188 @@
+#include "reference/estimator_moments.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "lightproof/core/measure.h"
+#include "lightproof/image/synthetic.h"
+#include "lightproof/warp/lat_long.h"
+#include "maps.h"
+
+namespace lightproof::reference {
+namespace {
+
+Kernel constant_kernel() {
+  return {[](Direction) { return KernelValue{1.0, 0.0}; }, [](Direction, double) { return false; }};
+}
+
+LightMoments moments(const Kernel& kernel, const EnvironmentMap& map) {
+  const Grid<double> grids[] = {luminance(map)};
+  return light_moments(kernel, grids).front();
+}
+
+LightMoments constant_map(const Kernel& kernel, Extent extent) {
+  return moments(kernel, make_synthetic_map("constant", extent));
+}
+
+double relative_variance(const EstimatorMoments& m) { return m.variance() / (m.mean() * m.mean()); }
+
+/// Where the horizon runs inside cells, the rule errs on a kink of slope 1: by 0.02 h^2 per unit
+/// of its length 2 pi at worst, if it always lies in the middle of a cell; h = pi/2048 or less.
+constexpr double kKink = 2.0 * kPi * 0.02 * (kPi / 2048.0) * (kPi / 2048.0);
+// Mean pi and second moment follow with it; relative to the mean's square, times three.
+constexpr double kTolerance = 3.0 * kKink;
+/// No horizon, or along edges of cells: fourth order, 1e-10 for a cosine and 16 times that for
+/// its square.
+constexpr double kSmooth = 1.6e-9;
+
+TEST(EstimatorMoments, CentralOnesFollowFromRawOnes) {
+  // Two equal masses at 1 and 3: mean 2, variance 1, fourth central moment 1.
+  const EstimatorMoments m{{2.0, 5.0, 14.0, 41.0}};
+  EXPECT_EQ(m.mean(), 2.0);
+  EXPECT_EQ(m.variance(), 1.0);
+  EXPECT_EQ(m.fourth_central(), 1.0);
+  // Masses 3/4 at 0 and 1/4 at 4: variance 3, fourth central moment 3/4 + 81/4.
+  const EstimatorMoments skewed{{1.0, 4.0, 16.0, 64.0}};
+  EXPECT_EQ(skewed.variance(), 3.0);
+  EXPECT_EQ(skewed.fourth_central(), 21.0);
+}
+
+TEST(EstimatorMoments, AreNeverNegative) {
+  const EstimatorMoments constant{{1.0, 1.0 - 1e-16, 1.0, 1.0 - 1e-15}};
+  EXPECT_EQ(constant.variance(), 0.0);
+  EXPECT_EQ(constant.fourth_central(), 0.0);
+}
+
+class EveryExtent : public testing::TestWithParam<Extent> {};
+
+TEST_P(EveryExtent, IntegralOfAConstantMapIsTheSphere) {
+  const LightMoments m = constant_map(constant_kernel(), GetParam());
+  for (const EstimatorMoments* each : {&m.uniform, &m.environment_a, &m.environment_b}) {
+    EXPECT_NEAR(each->mean() / kSphere, 1.0, kSmooth);
+  }
+  EXPECT_NEAR(relative_variance(m.environment_a), kPi * kPi / 8.0 - 1.0, kSmooth);
+  EXPECT_NEAR(relative_variance(m.environment_a), 0.2337, 5e-5) << "as printed";
+  EXPECT_NEAR(relative_variance(m.environment_b), 0.0, kSmooth);
+  EXPECT_NEAR(relative_variance(m.uniform), 0.0, kSmooth);
+}
+
+TEST_P(EveryExtent, IrradianceOfAConstantMapAtThePoles) {
+  for (const double z : {-1.0, 1.0}) {
+    const LightMoments m = constant_map(cosine_kernel({0, 0, z}), GetParam());
+    EXPECT_NEAR(m.uniform.mean(), kPi, kTolerance);
+    EXPECT_NEAR(relative_variance(m.environment_a), kPi * kPi / 4.0 - 1.0, kTolerance);
+    EXPECT_NEAR(relative_variance(m.environment_a), 1.4674, 5e-5) << "as printed";
+    EXPECT_NEAR(relative_variance(m.environment_b), 5.0 / 3.0, kTolerance);
+    EXPECT_NEAR(relative_variance(m.uniform), 5.0 / 3.0, kTolerance);
+  }
+}
+
+TEST_P(EveryExtent, IrradianceOfAConstantMapAtTheHorizon) {
+  for (const double azimuth : {0.0, 0.5 * kPi, 1.0, 4.0}) {
+    const Direction normal = {std::cos(azimuth), std::sin(azimuth), 0.0};
+    const LightMoments m = constant_map(cosine_kernel(normal), GetParam());
+    EXPECT_NEAR(m.uniform.mean(), kPi, kTolerance);
+    EXPECT_NEAR(relative_variance(m.environment_a), 3.0 * kPi * kPi / 8.0 - 1.0, kTolerance);
+    EXPECT_NEAR(relative_variance(m.environment_a), 2.701, 5e-4) << "as printed";
+    EXPECT_NEAR(relative_variance(m.environment_b), 5.0 / 3.0, kTolerance);
+  }
+}
+
+TEST_P(EveryExtent, IrradianceOfAConstantMapIsPiForAnyNormal) {
+  for (const Direction along : {Direction(1, 2, 3), Direction(-3, 1, -0.5), Direction(0.1, 0, 1)}) {
+    const LightMoments m = constant_map(cosine_kernel(glm::normalize(along)), GetParam());
+    for (const EstimatorMoments* each : {&m.uniform, &m.environment_a, &m.environment_b}) {
+      EXPECT_NEAR(each->mean(), kPi, kTolerance);
+    }
+    EXPECT_NEAR(relative_variance(m.environment_b), 5.0 / 3.0, kTolerance);
+    // E[X^3] = (4 pi)^2 2 pi/4 and E[X^4] = (4 pi)^3 2 pi/5: no kink is left in them.
+    EXPECT_NEAR(m.uniform.raw[2] / (kSphere * kSphere * kPi / 2.0), 1.0, kTolerance);
+    EXPECT_NEAR(m.uniform.raw[3] / (std::pow(kSphere, 3) * 2.0 * kPi / 5.0), 1.0, kTolerance);
+  }
+}
+
+TEST_P(EveryExtent, DiffuseStrategyHasNoVarianceOnAConstantMap) {
+  constexpr double kAlbedo = 0.8;
+  const Direction normal = glm::normalize(Direction(1, -2, 0.5));
+  Kernel lambert = cosine_kernel(normal);
+  lambert.at = [=](Direction d) {
+    const double pdf = std::max(0.0, glm::dot(normal, d)) / kPi;
+    return KernelValue{kAlbedo * pdf, pdf};
+  };
+  const LightMoments m = constant_map(lambert, GetParam());
+  EXPECT_NEAR(m.material.mean(), kAlbedo, kTolerance);
+  // E[X^m] = albedo^m, times the same integral of the pdf, which is 1 up to the kink.
+  EXPECT_NEAR(m.material.variance(), 0.0, kTolerance);
+  EXPECT_NEAR(m.material.raw[3], std::pow(kAlbedo, 4), kTolerance);
+  EXPECT_NEAR(m.uniform.mean(), kAlbedo, kTolerance);
+}
+
+constexpr Extent kShapes[] = {{1, 1}, {2, 1}, {3, 5}, {33, 17}, {64, 32}};
+std::string extent_name(const testing::TestParamInfo<Extent>& param) {
+  return std::to_string(param.param.width) + "x" + std::to_string(param.param.height);
+}
+INSTANTIATE_TEST_SUITE_P(LightMoments, EveryExtent, testing::ValuesIn(kShapes), extent_name);
+
+TEST(LightMoments, OfOneTexelAreClosedForms) {
+  // k = 1: under A, E[X^2] = 4 pi^4 A W2, A = 1/(ST), W2 = (theta/2 - sin(2 theta)/4)/(pi S);
+  // under B X is the texel's solid angle itself.
+  const Extent extent = {7, 5};
+  const LightMoments m = moments(constant_kernel(), make_synthetic_map("one-texel", extent));
+  const double solid_angle = texel_solid_angle(extent, 3);
+  EXPECT_NEAR(m.environment_b.mean() / solid_angle, 1.0, kSmooth);
+  EXPECT_NEAR(relative_variance(m.environment_b), 0.0, kSmooth);
+  EXPECT_NEAR(relative_variance(m.uniform), kSphere / solid_angle - 1.0, 1e-7);
+  const auto primitive = [](double theta) { return 0.5 * theta - 0.25 * std::sin(2.0 * theta); };
+  const double w2 = (primitive(2.0 * kPi / 5.0) - primitive(kPi / 5.0)) / (kPi * 7.0);
+  EXPECT_NEAR(m.environment_a.raw[1] / (4.0 * std::pow(kPi, 4) / 35.0 * w2), 1.0, kSmooth);
+}
+
+TEST(LightMoments, OfSeveralMapsAreThoseOfEach) {
+  const Extent extent = {33, 17};
+  const Kernel kernel = cosine_kernel(glm::normalize(Direction(1, 1, 2)));
+  const EnvironmentMap first = make_synthetic_map("gradient", extent);
+  const EnvironmentMap second = make_synthetic_map("sun-sky", extent);
+  const Grid<double> grids[] = {luminance(first), luminance(second)};
+  const auto together = light_moments(kernel, grids);
+  ASSERT_EQ(together.size(), 2U);
+  EXPECT_EQ(together[0].environment_a.raw, moments(kernel, first).environment_a.raw);
+  EXPECT_EQ(together[1].environment_b.raw, moments(kernel, second).environment_b.raw);
+  EXPECT_EQ(together[1].uniform.raw, moments(kernel, second).uniform.raw);
+}
+
+TEST(LightMoments, ScaleWithTheExposure) {
+  const Extent extent = {3, 5};
+  const Kernel kernel = cosine_kernel({0, 0, 1});
+  Grid<double> grey = luminance(make_synthetic_map("gradient", extent));
+  const Grid<double> unit[] = {grey};
+  for (double& value : grey.values()) value *= 0x1p60;
+  const Grid<double> bright[] = {grey};
+  const LightMoments a = light_moments(kernel, unit).front();
+  const LightMoments b = light_moments(kernel, bright).front();
+  for (std::size_t m = 0; m < 4; ++m) {
+    const double scale = std::pow(0x1p60, static_cast<double>(m + 1));
+    EXPECT_EQ(b.environment_a.raw[m], a.environment_a.raw[m] * scale);
+    EXPECT_EQ(b.environment_b.raw[m], a.environment_b.raw[m] * scale);
+    EXPECT_EQ(b.uniform.raw[m], a.uniform.raw[m] * scale);
+  }
+}
+
+TEST(CosineKernel, StraddlesExactlyNextToTheHorizon) {
+  const Kernel kernel = cosine_kernel({0, 0, 1});
+  const auto at_elevation = [](double angle) {
+    return Direction(std::cos(angle), 0, std::sin(angle));
+  };
+  EXPECT_EQ(kernel.at(at_elevation(-0.1)).k, 0.0);
+  EXPECT_DOUBLE_EQ(kernel.at(at_elevation(0.1)).k, std::sin(0.1));
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_TRUE(kernel.straddles(at_elevation(side * 0.099), 0.1));
+    EXPECT_FALSE(kernel.straddles(at_elevation(side * 0.101), 0.1));
+    EXPECT_TRUE(kernel.straddles(at_elevation(side * 1.5), 3.0)) << "a cap beyond a hemisphere";
+  }
+}
+
+}  // namespace
+}  // namespace lightproof::reference

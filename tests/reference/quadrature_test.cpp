@@ -1,0 +1,108 @@
+#include "reference/quadrature.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "lightproof/warp/lat_long.h"
+#include "maps.h"
+
+namespace lightproof::reference {
+namespace {
+
+double integral(Extent extent, bool split, const std::function<double(const Node&)>& f) {
+  const SphereQuadrature quadrature(extent);
+  double sum = 0.0;
+  for (int y = 0; y < extent.height; ++y) {
+    for (int x = 0; x < extent.width; ++x) {
+      quadrature.visit(x, y, split, [&](const Node& node) { sum += f(node) * node.solid_angle; });
+    }
+  }
+  return sum;
+}
+
+TEST(SphereQuadrature, WeightsOfATexelSumToItsSolidAngle) {
+  for (const Extent extent : kExtents) {
+    const SphereQuadrature quadrature(extent);
+    for (const bool split : {false, true}) {
+      for (int y = 0; y < extent.height; y += 3) {
+        double sum = 0.0;
+        std::size_t nodes = 0;
+        quadrature.visit(extent.width - 1, y, split, [&](const Node& node) {
+          sum += node.solid_angle;
+          ++nodes;
+        });
+        // Additions of numbers of one sign: the number of nodes times eps, and in practice its
+        // root.
+        const double bound = 1e-14 + 2.3e-16 * std::sqrt(static_cast<double>(nodes)) * 20.0;
+        EXPECT_NEAR(sum / texel_solid_angle(extent, y), 1.0, bound);
+      }
+    }
+  }
+}
+
+TEST(SphereQuadrature, NodesLieInsideTheirTexel) {
+  const Extent extent = {33, 17};
+  const SphereQuadrature quadrature(extent);
+  for (const bool split : {false, true}) {
+    for (int y = 0; y < extent.height; ++y) {
+      for (const int x : {0, 16, 32}) {
+        quadrature.visit(x, y, split, [&](const Node& node) {
+          const SquarePoint at = square_from_direction(node.direction);
+          EXPECT_EQ(static_cast<int>(at.s * extent.width), x);
+          EXPECT_EQ(static_cast<int>(at.t * extent.height), y);
+          EXPECT_NEAR(node.sin_theta, std::hypot(node.direction.x, node.direction.y), 1e-15);
+          EXPECT_NEAR(glm::length(node.direction), 1.0, 1e-15);
+          EXPECT_LE(glm::length(node.direction - quadrature.centre(x, y)), quadrature.radius());
+        });
+      }
+    }
+  }
+}
+
+TEST(SphereQuadrature, RadiusReachesTheCorners) {
+  for (const Extent extent : kExtents) {
+    const SphereQuadrature quadrature(extent);
+    for (int y = 0; y < extent.height; ++y) {
+      const Direction centre = quadrature.centre(0, y);
+      for (const int edge : {y, y + 1}) {
+        const auto t = static_cast<double>(edge) / extent.height;
+        const double cosine = glm::dot(centre, direction_from_square({0.0, t}));
+        EXPECT_LE(std::acos(std::clamp(cosine, -1.0, 1.0)), quadrature.radius() + 1e-7);
+      }
+    }
+  }
+}
+
+TEST(SphereQuadrature, IntegratesPolynomialsOfTheDirection) {
+  // Promised: an error below 1e-10 of an integrand as smooth as a cosine. A square is half as
+  // smooth, a fourth power a quarter: the rule is of fourth order, hence 16 and 256 times.
+  for (const Extent extent : kExtents) {
+    const auto of = [&](const std::function<double(const Node&)>& f) {
+      return integral(extent, false, f) / kSphere;
+    };
+    EXPECT_NEAR(of([](const Node& n) { return n.direction.x; }), 0.0, 1e-10);
+    EXPECT_NEAR(of([](const Node& n) { return n.direction.z; }), 0.0, 1e-10);
+    EXPECT_NEAR(of([](const Node& n) { return n.direction.x * n.direction.x; }), 1.0 / 3.0, 1.6e-9);
+    EXPECT_NEAR(of([](const Node& n) { return n.direction.z * n.direction.z; }), 1.0 / 3.0, 1.6e-9);
+    EXPECT_NEAR(of([](const Node& n) { return n.direction.x * n.direction.y; }), 0.0, 1.6e-9);
+    EXPECT_NEAR(of([](const Node& n) { return std::pow(n.direction.z, 4); }), 0.2, 2.6e-8);
+    EXPECT_NEAR(of([](const Node& n) { return n.sin_theta; }), kPi / 4.0, 1e-10);
+  }
+}
+
+TEST(SphereQuadrature, SplitIsFinerByTheFourthPower) {
+  // Of z^64, whose mean is 1/65: the coarse error is 8^4 = 4096 times the fine one, up to the
+  // rounding of 3e7 additions of numbers of one sign, each half an ulp at random: 6e3 eps.
+  const auto power = [](const Node& n) { return std::pow(n.direction.z, 64) / kSphere; };
+  const Extent extent = {64, 32};
+  const double coarse = std::abs(integral(extent, false, power) - 1.0 / 65.0);
+  const double fine = std::abs(integral(extent, true, power) - 1.0 / 65.0);
+  EXPECT_GT(coarse, 1e-9) << "nothing to improve";
+  EXPECT_LT(fine, coarse / 2000.0 + 5e-12);
+}
+
+}  // namespace
+}  // namespace lightproof::reference

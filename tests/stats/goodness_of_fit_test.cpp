@@ -1,0 +1,166 @@
+#include "lightproof/stats/goodness_of_fit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+namespace lightproof {
+namespace {
+
+using testing::ElementsAre;
+using Counts = std::vector<std::uint64_t>;
+
+/// Cressie-Read's statistic as printed: 9/5 sum O ((O/E)^(2/3) - 1), for sums O and E that agree.
+double printed_statistic(const std::vector<double>& observed, const std::vector<double>& expected) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < observed.size(); ++i) {
+    sum += observed[i] * (std::pow(observed[i] / expected[i], 2.0 / 3.0) - 1.0);
+  }
+  return 9.0 / 5.0 * sum;
+}
+
+/// Half a unit in the last place of terms up to N, a few times.
+constexpr double kRounding = 1e-12;
+
+TEST(CressieRead, OfAHandComputedTable) {
+  const auto fit = cressie_read(Counts{80, 90, 30}, std::array{0.3, 0.5, 0.2}, 200);
+  EXPECT_NEAR(fit.statistic, 10.031094561320407, kRounding);
+  EXPECT_EQ(fit.dof, 2.0);
+  // Two degrees of freedom: the tail is exp(-x/2).
+  EXPECT_NEAR(fit.log10_p, -0.5 * 10.031094561320407 / std::numbers::ln10, kRounding);
+  EXPECT_NEAR(fit.effect, std::sqrt((10.031094561320407 - 2.0) / 200.0), kRounding);
+  EXPECT_EQ(fit.possible_cells, 3U);
+  EXPECT_EQ(fit.impossible_hits, 0U);
+  EXPECT_FALSE(fit.first_impossible);
+}
+
+TEST(CressieRead, OfAPerfectFitIsZero) {
+  const auto fit = cressie_read(Counts{60, 100, 40}, std::array{0.3, 0.5, 0.2}, 200);
+  EXPECT_NEAR(fit.statistic, 0.0, kRounding);
+  EXPECT_NEAR(fit.log10_p, 0.0, kRounding);
+  EXPECT_EQ(fit.effect, 0.0);
+}
+
+TEST(CressieRead, OfAnEmptyCellIsFinite) {
+  const auto fit = cressie_read(Counts{0, 200}, std::array{0.25, 0.75}, 200);
+  EXPECT_NEAR(fit.statistic, printed_statistic({1e-300, 200}, {50, 150}), kRounding);
+  EXPECT_LT(fit.log10_p, -6.0);
+}
+
+TEST(CressieRead, PoolsNeighboursToTwentyFiveAndTheRestWithTheLast) {
+  // Ten expected in each of 8 cells: pools of 3, 3, and the last takes the 2 that are left.
+  const std::vector<double> probability(8, 0.125);
+  const auto fit = cressie_read(Counts{10, 5, 12, 3, 13, 9, 18, 10}, probability, 80);
+  EXPECT_EQ(fit.dof, 1.0);
+  EXPECT_NEAR(fit.statistic, printed_statistic({27, 53}, {30, 50}), kRounding);
+  EXPECT_EQ(fit.possible_cells, 8U);
+}
+
+TEST(CressieRead, KeepsACellOfTwentyFiveToItself) {
+  const std::vector<double> probability(4, 0.25);
+  EXPECT_EQ(cressie_read(Counts{25, 25, 25, 25}, probability, 100).dof, 3.0);
+  EXPECT_EQ(cressie_read(Counts{24, 24, 24, 24}, probability, 96).dof, 1.0);
+}
+
+TEST(CressieRead, HasNoVerdictOnASinglePool) {
+  for (const auto& probability : {std::vector{1.0}, std::vector{0.5, 0.5}}) {
+    Counts counts(probability.size());
+    counts[0] = 30;
+    const auto fit = cressie_read(counts, probability, 30);
+    EXPECT_EQ(fit.dof, 0.0);
+    EXPECT_EQ(fit.log10_p, 0.0);
+  }
+  const auto few = cressie_read(Counts{2, 1}, std::array{0.5, 0.5}, 3);
+  EXPECT_EQ(few.dof, 0.0) << "fewer samples than one pool needs";
+}
+
+TEST(CressieRead, RejectsAHitInAnImpossibleCellAndNamesIt) {
+  const auto fit =
+      cressie_read(Counts{500, 0, 498, 1, 1}, std::array{0.5, 0.0, 0.5, 0.0, 0.0}, 1000);
+  EXPECT_EQ(fit.log10_p, -INFINITY);
+  EXPECT_EQ(fit.impossible_hits, 2U);
+  ASSERT_TRUE(fit.first_impossible);
+  EXPECT_EQ(*fit.first_impossible, 3U);
+  EXPECT_EQ(fit.possible_cells, 2U);
+}
+
+TEST(CressieRead, RejectsAnImpossibleHitEvenWithoutDegreesOfFreedom) {
+  const auto fit = cressie_read(Counts{999, 1}, std::array{1.0, 0.0}, 1000);
+  EXPECT_EQ(fit.dof, 0.0);
+  EXPECT_EQ(fit.log10_p, -INFINITY);
+  EXPECT_EQ(fit.first_impossible, 1U);
+}
+
+TEST(CressieRead, IgnoresImpossibleCellsThatAreNotHit) {
+  const auto without = cressie_read(Counts{80, 90, 30}, std::array{0.3, 0.5, 0.2}, 200);
+  const auto with =
+      cressie_read(Counts{0, 80, 0, 90, 30, 0}, std::array{0.0, 0.3, 0.0, 0.5, 0.2, 0.0}, 200);
+  EXPECT_EQ(with.statistic, without.statistic);
+  EXPECT_EQ(with.log10_p, without.log10_p);
+}
+
+/// 1000 cells, the last 49 of which expect 0.1 each, 4.9 in all.
+struct ThinTail {
+  static constexpr std::uint64_t kSamples = 100000;
+  std::vector<double> probability = std::vector<double>(1000, 0.1 / kSamples);
+  Counts counts = Counts(1000, 0);
+
+  /// Counts as expected, but with `leak` of the samples spread over the thin cells.
+  explicit ThinTail(double leak) {
+    const double thick = (1.0 - 49.0 * 0.1 / kSamples) / 951.0;
+    std::fill_n(probability.begin(), 951, thick);
+    const auto leaked = static_cast<std::uint64_t>(leak * kSamples);
+    const std::uint64_t rest = kSamples - leaked;
+    for (std::size_t i = 0; i < 951; ++i) counts[i] = rest * (i + 1) / 951 - rest * i / 951;
+    for (std::size_t i = 0; i < 49; ++i) counts[951 + i] = leaked * (i + 1) / 49 - leaked * i / 49;
+  }
+};
+
+TEST(CressieRead, SeesALeakIntoCellsThatPoolingMightDrop) {
+  const ThinTail sound(0.00005);
+  ASSERT_EQ(std::accumulate(sound.counts.begin(), sound.counts.end(), std::uint64_t{0}),
+            ThinTail::kSamples);
+  EXPECT_GT(cressie_read(sound.counts, sound.probability, ThinTail::kSamples).log10_p, -6.0);
+  const ThinTail leaking(0.01);
+  EXPECT_LT(cressie_read(leaking.counts, leaking.probability, ThinTail::kSamples).log10_p, -6.0);
+}
+
+TEST(CressieRead, SeesALeakWhereverTheThinCellsLie) {
+  // Rotated by every amount, the thin cells stand first, in the middle and last.
+  ThinTail leaking(0.01);
+  for (int i = 0; i < 1000; ++i) {
+    std::rotate(leaking.counts.begin(), leaking.counts.begin() + 1, leaking.counts.end());
+    std::rotate(leaking.probability.begin(), leaking.probability.begin() + 1,
+                leaking.probability.end());
+    EXPECT_LT(cressie_read(leaking.counts, leaking.probability, ThinTail::kSamples).log10_p, -6.0)
+        << i;
+  }
+}
+
+TEST(CressieRead, ResolvesTailsBeyondDoubles) {
+  const auto fit = cressie_read(Counts{900000, 100000}, std::array{0.5, 0.5}, 1000000);
+  EXPECT_LT(fit.log10_p, -1000.0);
+  EXPECT_GT(fit.log10_p, -INFINITY);
+}
+
+TEST(CressieRead, EffectIsCohensW) {
+  // w^2 = sum (q-p)^2/p = 2 * 0.01^2/0.5. N w^2 = 400, of which the one degree of freedom is
+  // taken off; the cubic terms of the statistic cancel between the cells.
+  const auto fit = cressie_read(Counts{510000, 490000}, std::array{0.5, 0.5}, 1000000);
+  EXPECT_NEAR(fit.effect, std::sqrt(399.0 / 1e6), 1e-6);
+}
+
+TEST(Serpentine, TurnsEverySecondRow) {
+  Grid<int> grid({3, 3});
+  std::iota(grid.values().begin(), grid.values().end(), 0);
+  EXPECT_THAT(serpentine(grid), ElementsAre(0, 1, 2, 5, 4, 3, 6, 7, 8));
+}
+
+}  // namespace
+}  // namespace lightproof

@@ -1,0 +1,92 @@
+#include "lightproof/stats/moment_tests.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "lightproof/stats/tails.h"
+
+namespace lightproof {
+namespace {
+
+Moments moments_of(const std::vector<double>& values) {
+  Moments moments;
+  for (const double x : values) moments.add(x);
+  return moments;
+}
+
+/// `count` values of this mean, half of them `deviation` above, half below.
+Moments two_values(int count, double mean, double deviation) {
+  Moments moments;
+  for (int i = 0; i < count; ++i) moments.add(mean + (i % 2 == 0 ? deviation : -deviation));
+  return moments;
+}
+
+// A few roundings of numbers of order 1.
+constexpr double kRounding = 1e-13;
+
+TEST(MeanTest, OfAHandComputedSample) {
+  // Mean 11 of 100 against 10 with variance 25: standard error 0.5.
+  const ZTest test = mean_test(two_values(100, 11.0, 3.0), 10.0, 25.0);
+  EXPECT_NEAR(test.z, 2.0, kRounding);
+  EXPECT_NEAR(test.effect, 0.1, kRounding);
+  EXPECT_EQ(test.log10_p, log10_normal_tails(test.z));
+  // P(|Z| > 2) from the table.
+  EXPECT_NEAR(test.log10_p, std::log10(0.04550026389635842), kRounding);
+}
+
+TEST(MeanTest, UsesTheExactVarianceAndKeepsTheSign) {
+  const ZTest wide = mean_test(two_values(100, 9.0, 1000.0), 10.0, 25.0);
+  EXPECT_NEAR(wide.z, -2.0, 1e-11) << "cancellation of 1000s";
+  EXPECT_NEAR(wide.effect, -0.1, 1e-12);
+}
+
+TEST(MeanTest, DoesNotDependOnTheScale) {
+  const ZTest unit = mean_test(two_values(100, 11.0, 3.0), 10.0, 25.0);
+  for (const double scale : {0x1p-60, 0x1p60}) {
+    const ZTest scaled =
+        mean_test(two_values(100, 11.0 * scale, 3.0 * scale), 10.0 * scale, 25.0 * scale * scale);
+    EXPECT_EQ(scaled.z, unit.z);
+    EXPECT_EQ(scaled.log10_p, unit.log10_p);
+    EXPECT_EQ(scaled.effect, unit.effect);
+  }
+}
+
+TEST(MeanTest, RejectsAMeanThatIsOffByTwoOnADimMap) {
+  // A floor of 1e-5 under the variance would accept this one.
+  const ZTest test = mean_test(two_values(10000, 2e-6, 1e-6), 1e-6, 1e-12);
+  EXPECT_NEAR(test.z, 100.0, 1e-8);
+  EXPECT_LT(test.log10_p, -1000.0);
+}
+
+TEST(VarianceTest, OfAHandComputedSample) {
+  // The sample variance of 1, 2, 3, 6 is 14/3; sqrt((mu4 - sigma^4)/N) = sqrt((25 - 9)/4) = 2.
+  const ZTest test = variance_test(moments_of({1, 2, 3, 6}), 3.0, 25.0);
+  EXPECT_NEAR(test.z, 5.0 / 6.0, kRounding);
+  EXPECT_NEAR(test.effect, 5.0 / 9.0, kRounding);
+  EXPECT_EQ(test.log10_p, log10_normal_tails(test.z));
+}
+
+TEST(VarianceTest, AcceptsTheVarianceItself) {
+  EXPECT_EQ(variance_test(moments_of({1, 2, 3}), 1.0, 3.0).z, 0.0);
+  EXPECT_EQ(variance_test(moments_of({1, 2, 3}), 1.0, 3.0).log10_p, 0.0);
+}
+
+TEST(WelchTest, OfAHandComputedPair) {
+  // Means 3 and 2, variances 14/3 of four and 1 of three: 7/6 + 1/3 = 3/2.
+  const ZTest test = welch_test(moments_of({1, 2, 3, 6}), moments_of({1, 2, 3}));
+  EXPECT_NEAR(test.z, 1.0 / std::sqrt(1.5), kRounding);
+  EXPECT_NEAR(test.effect, 0.5, kRounding);
+  EXPECT_EQ(test.log10_p, log10_normal_tails(test.z));
+  EXPECT_NEAR(welch_test(moments_of({1, 2, 3}), moments_of({1, 2, 3, 6})).z, -test.z, kRounding);
+}
+
+TEST(WelchTest, OfTwoConstantsSeesOnlyWhetherTheyDiffer) {
+  const Moments ones = moments_of({1, 1, 1});
+  EXPECT_EQ(welch_test(ones, ones).log10_p, 0.0);
+  EXPECT_EQ(welch_test(ones, moments_of({2, 2, 2})).log10_p, -INFINITY);
+}
+
+}  // namespace
+}  // namespace lightproof
