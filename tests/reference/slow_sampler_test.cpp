@@ -108,10 +108,12 @@ TEST(NearKnot, KnowsTheKnotsOfRowsAndColumns) {
 }
 
 TEST(NearKnot, CountsBothEnds) {
-  const SlowSampler sampler(framed_map(), {Weighting::B});
-  for (const double end : {0.0, 1e-7, 1.0 - 1e-7, kBelowOne}) {
-    EXPECT_TRUE(sampler.near_knot({end, 0.3}, 1e-6)) << end;
-    EXPECT_TRUE(sampler.near_knot({0.6, end}, 1e-6)) << end;
+  for (const EnvironmentMap& map : {framed_map(), grey_map({2, 2}, {1, 3, 2, 5})}) {
+    const SlowSampler sampler(map, {Weighting::B});
+    for (const double end : {0.0, 1e-7, 1.0 - 1e-7, kBelowOne}) {
+      EXPECT_TRUE(sampler.near_knot({end, 0.3}, 1e-6)) << end;
+      EXPECT_TRUE(sampler.near_knot({0.6, end}, 1e-6)) << end;
+    }
   }
 }
 

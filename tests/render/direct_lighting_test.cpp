@@ -42,7 +42,8 @@ Moments grey_moments(const Lighting& lighting, const ShadingPoint& point,
 }
 
 /// The number of samples at which the first two terms of Edgeworth's expansion change a p-value at
-/// z = 6 by no more than a factor e^(1/3) each: z^3 skewness / (6 sqrt N) and z^4 kurtosis / (24 N).
+/// z = 6 by no more than a factor e^(1/3) each: z^3 skewness / (6 sqrt N) and z^4 kurtosis / (24
+/// N).
 std::uint64_t samples_for_normal_tails(const reference::EstimatorMoments& exact) {
   constexpr double kZ = 6.0;
   const double variance = std::max(exact.variance(), 1e-300);

@@ -15,7 +15,8 @@ namespace {
 std::vector<ConvergenceRecord> small_study(std::string_view name, std::uint64_t seed) {
   const EnvironmentMap map = make_synthetic_map(name, {64, 32});
   const std::vector<EnvironmentLight> lights(1, EnvironmentLight(map));
-  return study_convergence(lights, {.seed = seed, .most_samples = 1024, .estimates = 64, .picture = {3, 2}});
+  return study_convergence(
+      lights, {.seed = seed, .most_samples = 1024, .estimates = 64, .picture = {3, 2}});
 }
 
 TEST(Convergence, MeasuredErrorsAreThePredictedOnes) {

@@ -172,7 +172,7 @@ ConvergenceRecord record_of(const Line& line, std::span<const PixelErrors> error
   std::vector<PowerLawPoint> measured;
   for (const ConvergencePoint& point : record.points) {
     const double error = point.rmse_error / point.predicted;
-    if (error > kMeasurableError) continue;
+    if (!(error > 0.0 && error <= kMeasurableError)) continue;
     measured.push_back({static_cast<double>(point.samples), point.rmse, error});
   }
   if (measured.size() < 3) {

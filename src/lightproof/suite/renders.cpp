@@ -60,6 +60,7 @@ std::vector<RenderRecord> study_renders(std::span<const EnvironmentLight> lights
       record.strategy = strategy.name;
       record.samples = options.samples;
       record.reference = reference;
+      record.reference_samples = options.reference_samples;
       compare(record);
       records.push_back(std::move(record));
     }

@@ -1,0 +1,50 @@
+// Draws every chart from the specification that stands beside it.
+"use strict";
+(() => {
+  const narrow = 640;
+
+  // On a narrow page legends have one column, and the kinds of line go below the chart.
+  function fitted(spec, width) {
+    if (width >= narrow) return spec;
+    spec.config.legend.columns = 1;
+    for (const layer of spec.layer) {
+      for (const [name, channel] of Object.entries(layer.encoding)) {
+        if (!channel.legend) continue;
+        channel.legend.columns = 1;
+        if (name === "strokeDash") channel.legend.orient = "bottom";
+      }
+    }
+    return spec;
+  }
+
+  async function draw(figure) {
+    const target = figure.querySelector(".drawing");
+    const small = figure.classList.contains("small");
+    try {
+      const spec = JSON.parse(figure.querySelector("script").textContent);
+      await vegaEmbed(target, fitted(spec, target.clientWidth), {
+        mode: "vega-lite",
+        bind: figure.querySelector(".controls"),
+        renderer: "svg",
+        actions: small ? false : { export: true, source: false, compiled: false, editor: false },
+        downloadFileName: figure.id,
+        tooltip: { theme: "light" },
+      });
+      figure.dataset.drawn = "yes";
+    } catch (error) {
+      figure.dataset.drawn = "no";
+      target.textContent = `This chart could not be drawn: ${error.message}`;
+      console.error(error);
+    }
+  }
+
+  const samples = document.getElementById("show-samples");
+  if (samples) {
+    samples.addEventListener("change", () => {
+      document.body.classList.toggle("hide-samples", !samples.checked);
+    });
+  }
+  Promise.all([...document.querySelectorAll("figure.chart")].map(draw)).then(() => {
+    document.documentElement.dataset.charts = "done";
+  });
+})();

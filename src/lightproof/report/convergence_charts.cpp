@@ -1,0 +1,217 @@
+// Convergence: the error of every estimator against its number of samples.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "lightproof/report/chart_parts.h"
+#include "lightproof/report/charts.h"
+#include "lightproof/report/findings.h"
+#include "lightproof/report/gate_summary.h"
+
+namespace lightproof {
+namespace {
+
+Json convergence_row(const ConvergenceRecord& r, const ConvergencePoint& p) {
+  // A logarithmic axis has no room for an end at or below zero.
+  const double low = std::max(p.rmse - kBarHalfLength * p.rmse_error, 0.05 * p.rmse);
+  Json row = {{"series", r.strategy},
+              {"n", p.samples},
+              {"rmse", rounded(p.rmse)},
+              {"low", rounded(low)},
+              {"high", rounded(p.rmse + kBarHalfLength * p.rmse_error)}};
+  row["predicted"] = drawable(p.predicted) ? rounded(p.predicted) : Json(nullptr);
+  return row;
+}
+
+/// Every number of samples, or every second, third, … one so that at most `limit` remain.
+Json sample_counts(const std::vector<ConvergenceRecord>& records, std::size_t limit) {
+  std::set<std::uint64_t> counts;
+  for (const ConvergenceRecord& r : records) {
+    for (const ConvergencePoint& p : r.points) counts.insert(p.samples);
+  }
+  const std::size_t step = (counts.size() + limit - 1) / limit;
+  Json kept = Json::array();
+  std::size_t place = 0;
+  for (const std::uint64_t count : counts) {
+    if (place++ % step == 0) kept.push_back(count);
+  }
+  return kept;
+}
+
+Json samples_axis(const std::vector<ConvergenceRecord>& records, const char* title,
+                  std::size_t labels) {
+  Json x = quantity("n", title, "log");
+  x["scale"]["nice"] = false;
+  x["scale"]["padding"] = 12;
+  x["axis"] = {{"values", sample_counts(records, labels)}, {"format", ",d"}};
+  return x;
+}
+
+LogRange error_range(const std::vector<ConvergenceRecord>& records) {
+  LogRange range;
+  for (const ConvergenceRecord& r : records) {
+    if (is_all_but_exact(r)) continue;
+    for (const ConvergencePoint& p : r.points) {
+      range.add(p.rmse);
+      range.add(p.predicted);
+    }
+  }
+  return range;
+}
+
+Json error_axis(const std::string& field, LogRange range) {
+  Json y = quantity(field, "RMSE / mean (log)", "log");
+  y["axis"] = log_axis(range.low, range.high);
+  return y;
+}
+
+Json kind_of_line(const char* kind, bool legend) {
+  Json dash = {{"datum", kind},
+               {"type", "nominal"},
+               {"scale",
+                {{"domain", {"measured \u00b1 2 standard errors", "predicted"}},
+                 {"range", {{1, 0}, {6, 4}}}}}};
+  dash["legend"] = nullptr;
+  if (legend) dash["legend"] = {{"title", nullptr}, {"symbolType", "stroke"}, {"symbolSize", 300}};
+  return dash;
+}
+
+Json convergence_tooltip() {
+  return {tooltip("series", "strategy", ""),
+          tooltip("n", "samples N", ",d"),
+          tooltip("rmse", "measured RMSE / mean", ".3~g"),
+          tooltip("low", "minus 2 SE", ".3~g"),
+          tooltip("high", "plus 2 SE", ".3~g"),
+          tooltip("predicted", "predicted", ".3~g")};
+}
+
+Json line_layer(const Json& y, const Json& colour, const Json& dash) {
+  const bool measured = y["field"] == "rmse";
+  return {{"mark", {{"type", "line"}, {"strokeWidth", measured ? 2.0 : 1.5}}},
+          {"encoding", {{"y", y}, {"color", colour}, {"strokeDash", dash}}}};
+}
+
+Json convergence_layers(const std::vector<SeriesStyle>& styles, LogRange range, bool legends) {
+  const Json legend = legends ? Json{{"title", nullptr}} : Json(nullptr);
+  const Json colour = series(styles, &SeriesStyle::colour, legend);
+  const Json shape = series(styles, &SeriesStyle::shape, legend);
+  Json predicted =
+      line_layer(error_axis("predicted", range), colour, kind_of_line("predicted", legends));
+  predicted["transform"] = {{{"filter", "datum.predicted > 0"}}};
+  const Json measured = line_layer(error_axis("rmse", range), colour,
+                                   kind_of_line("measured \u00b1 2 standard errors", legends));
+  const Json bars = {
+      {"mark", {{"type", "rule"}, {"strokeWidth", 1.5}, {"clip", true}}},
+      {"encoding",
+       {{"y", error_axis("low", range)}, {"y2", {{"field", "high"}}}, {"color", colour}}}};
+  const Json points = {
+      {"mark", {{"type", "point"}, {"filled", true}, {"size", legends ? 55 : 28}, {"opacity", 1}}},
+      {"encoding",
+       {{"y", error_axis("rmse", range)},
+        {"color", colour},
+        {"shape", shape},
+        {"tooltip", convergence_tooltip()}}}};
+  return {predicted, bars, measured, points};
+}
+
+/// What the reader can choose between.
+struct Choices {
+  std::vector<std::string> maps;
+  std::vector<std::string> scenes;
+  std::vector<std::string> places;  ///< map and scene in one
+  bool full = false;                ///< every scene was measured on every map
+};
+
+std::string place_name(const ConvergenceRecord& r) { return r.map + ", " + scene_name(r); }
+
+Choices choices_of(const std::vector<ConvergenceRecord>& records) {
+  Choices all;
+  for (const ConvergenceRecord& r : records) {
+    all.maps.push_back(r.map);
+    all.scenes.push_back(scene_name(r));
+    all.places.push_back(place_name(r));
+  }
+  all.maps = unique_names(all.maps);
+  all.scenes = unique_names(all.scenes);
+  all.places = unique_names(all.places);
+  all.full = all.places.size() == all.maps.size() * all.scenes.size();
+  return all;
+}
+
+Json choice(const char* param, const char* label, const Json& options) {
+  return {{"name", param},
+          {"value", options.front()},
+          {"bind", {{"input", "select"}, {"options", options}, {"name", label}}}};
+}
+
+/// What a row says about where it belongs.
+enum class Rows { plain, with_map_and_scene, with_place };
+
+Json convergence_rows(const std::vector<ConvergenceRecord>& records, Rows kind) {
+  Json rows = Json::array();
+  for (const ConvergenceRecord& r : records) {
+    for (const ConvergencePoint& p : r.points) {
+      if (!drawable(p.rmse) || is_all_but_exact(r)) continue;
+      rows.push_back(convergence_row(r, p));
+      if (kind == Rows::with_map_and_scene) {
+        rows.back()["map"] = r.map;
+        rows.back()["scene"] = scene_name(r);
+      } else if (kind == Rows::with_place) {
+        rows.back()["place"] = place_name(r);
+      }
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<SeriesStyle> strategy_styles(const std::vector<ConvergenceRecord>& records) {
+  std::vector<std::string> names;
+  for (const ConvergenceRecord& r : records) names.push_back(r.strategy);
+  return series_styles(names);
+}
+
+std::string scene_name(const ConvergenceRecord& record) {
+  return record.receiver + ", " + record.material;
+}
+
+std::string convergence_chart(const std::vector<ConvergenceRecord>& records) {
+  Json chart = base_chart(380);
+  chart["params"] = Json::array();
+  const Choices choices = choices_of(records);
+  if (choices.full) {
+    chart["params"].push_back(choice("chosen_map", "Map", choices.maps));
+    chart["params"].push_back(choice("chosen_scene", "Receiver, material", choices.scenes));
+    chart["transform"] = {{{"filter", "datum.map === chosen_map && datum.scene === chosen_scene"}}};
+  } else {
+    chart["params"].push_back(choice("chosen_place", "Map, receiver, material", choices.places));
+    chart["transform"] = {{{"filter", "datum.place === chosen_place"}}};
+  }
+  chart["data"] = {{"values", convergence_rows(records, choices.full ? Rows::with_map_and_scene
+                                                                     : Rows::with_place)}};
+  chart["encoding"] = {{"x", samples_axis(records, "samples N per estimate (log)", 12)}};
+  chart["layer"] = convergence_layers(strategy_styles(records), error_range(records), true);
+  return text_of(chart);
+}
+
+std::string small_convergence_chart(const std::vector<ConvergenceRecord>& records,
+                                    const std::string& map, const std::string& scene) {
+  std::vector<ConvergenceRecord> shown;
+  std::copy_if(records.begin(), records.end(), std::back_inserter(shown),
+               [&](const ConvergenceRecord& r) { return scene_name(r) == scene; });
+  const LogRange range = error_range(shown);
+  std::erase_if(shown, [&](const ConvergenceRecord& r) { return r.map != map; });
+  Json chart = base_chart(190);
+  chart["data"] = {{"values", convergence_rows(shown, Rows::plain)}};
+  chart["encoding"] = {{"x", samples_axis(records, "samples N (log)", 4)}};
+  chart["layer"] = convergence_layers(strategy_styles(records), range, false);
+  for (Json& layer : chart["layer"]) {
+    layer["encoding"]["y"]["scale"]["domain"] = {range.low / 1.2, range.high * 1.2};
+  }
+  return text_of(chart);
+}
+
+}  // namespace lightproof

@@ -1,0 +1,153 @@
+// Convergence of every estimator, and its variance against the prediction.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lightproof/report/charts.h"
+#include "lightproof/report/csv.h"
+#include "lightproof/report/findings.h"
+#include "lightproof/report/gate_summary.h"
+#include "lightproof/report/html.h"
+#include "lightproof/report/numbers.h"
+#include "lightproof/report/sections.h"
+
+namespace lightproof {
+namespace {
+
+Table slope_table(const std::vector<ConvergenceRecord>& records) {
+  Table table("Fitted slopes", {"Strategy", "Map", "Receiver", "Material", "Slope",
+                                "Standard error", "Largest N", "RMSE / mean there", "Predicted"});
+  for (const ConvergenceRecord& r : records) {
+    if (r.points.empty()) continue;
+    const ConvergencePoint& last = r.points.back();
+    table.add({text_cell(r.strategy),
+               text_cell(r.map),
+               text_cell(r.receiver),
+               text_cell(r.material),
+               number_cell(r.slope),
+               number_cell(r.slope_error, 2),
+               {with_thousands(last.samples), "number", ""},
+               number_cell(last.rmse),
+               number_cell(last.predicted)});
+  }
+  return table;
+}
+
+Table variance_table(const std::vector<ConvergenceRecord>& records) {
+  Table table("Variances", {"Strategy", "Map", "Receiver", "Material", "Measured / mean\u00b2",
+                            "Predicted / mean\u00b2", "Ratio", "Standard error"});
+  for (const ConvergenceRecord& r : records) {
+    const bool ratio = has_ratio(r);
+    table.add({text_cell(r.strategy), text_cell(r.map), text_cell(r.receiver),
+               text_cell(r.material), number_cell(r.measured_variance),
+               number_cell(r.predicted_variance),
+               ratio ? number_cell(r.measured_variance / r.predicted_variance, 4)
+                     : Cell{"\u2013", "number", ""},
+               number_cell(r.variance_ratio_error, 2)});
+  }
+  return table;
+}
+
+/// The glyph of a Vega symbol, drawn by hand in a box of 12 by 12.
+std::string glyph(const SeriesStyle& style) {
+  std::string path = "M6 1A5 5 0 1 0 6 11A5 5 0 1 0 6 1Z";
+  if (style.shape == "square") path = "M1.5 1.5H10.5V10.5H1.5Z";
+  if (style.shape == "triangle-up") path = "M6 1L11.5 10.5H.5Z";
+  if (style.shape == "triangle-down") path = "M6 11L.5 1.5H11.5Z";
+  if (style.shape == "triangle-right") path = "M11 6L1.5 .5V11.5Z";
+  if (style.shape == "triangle-left") path = "M1 6L10.5 .5V11.5Z";
+  if (style.shape == "diamond") path = "M6 0L11 6L6 12L1 6Z";
+  if (style.shape == "cross") path = "M4 1H8V4H11V8H8V11H4V8H1V4H4Z";
+  return fmt::format(
+      "<svg viewBox=\"0 0 12 12\" width=\"12\" height=\"12\" aria-hidden=\"true\">"
+      "<path d=\"{}\" fill=\"{}\"/></svg>",
+      path, style.colour);
+}
+
+std::string legend(const std::vector<ConvergenceRecord>& records) {
+  std::string items;
+  for (const SeriesStyle& style : strategy_styles(records)) {
+    items += fmt::format("<li>{} {}</li>", glyph(style), escaped(style.name));
+  }
+  return "<ul class=\"legend\">" + items +
+         "<li>solid: measured</li><li>dashed: predicted</li></ul>\n";
+}
+
+std::string small_multiples(const std::vector<ConvergenceRecord>& records) {
+  const std::string scene = scene_name(records.front());
+  std::vector<std::string> maps;
+  for (const ConvergenceRecord& r : records) {
+    if (scene_name(r) == scene) maps.push_back(r.map);
+  }
+  maps = unique_names(maps);
+  if (maps.size() < 2) return "";
+  std::string html = fmt::format("<h3>{} at once: {}</h3>\n", escaped(counted(maps.size(), "map")),
+                                 escaped(scene));
+  html += legend(records) + "<div class=\"multiples\">\n";
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const std::string text = fmt::format("RMSE against samples on {}, {}", maps[i], scene);
+    html += chart_figure({fmt::format("convergence-{}", i + 1), maps[i], text, "",
+                          small_convergence_chart(records, maps[i], scene)},
+                         "", true);
+  }
+  return html + "</div>\n";
+}
+
+constexpr std::string_view kConvergenceNote =
+    "Root mean square error over pixels and independent repetitions, divided by the mean value. "
+    "Dashed: what the exact variance predicts, with nothing fitted. Bars: two standard errors on "
+    "either side, often smaller than the symbols.";
+
+constexpr std::string_view kVarianceNote =
+    "Every estimator of the convergence study once: its measured variance per sample divided by "
+    "the "
+    "variance that was computed from the map by exact sums. Bars: two standard errors on either "
+    "side, so about one in twenty may miss the line at 1.";
+
+}  // namespace
+
+std::string convergence_section(const std::vector<ConvergenceRecord>& records) {
+  std::string html = "<section id=\"convergence\">\n<h2>Convergence</h2>\n";
+  if (records.empty()) {
+    return html + paragraph("Convergence was not measured in this study.", "empty") +
+           "</section>\n";
+  }
+  const auto exact = static_cast<std::size_t>(std::count_if(
+      records.begin(), records.end(), [](const auto& r) { return is_all_but_exact(r); }));
+  std::string note = fmt::format("{} {}", kConvergenceNote, prediction_finding(records));
+  if (exact > 0) {
+    note += fmt::format(" Not shown: {} that {} all but exact (variance below 1e-8 of mean\u00b2).",
+                        counted(exact, "estimator"), exact == 1 ? "is" : "are");
+  }
+  const Chart chart = {"convergence-chart", convergence_finding(records),
+                       "Error of each strategy against its number of samples, measured and "
+                       "predicted, for a map and receiver of your choice",
+                       note, convergence_chart(records)};
+  html += chart_figure(chart, collapsible("Slopes as a table", slope_table(records).html()) +
+                                  download_link("convergence.csv", convergence_csv(records)));
+  return html + small_multiples(records) + "</section>\n";
+}
+
+std::string variance_section(const std::vector<ConvergenceRecord>& records) {
+  std::string html = "<section id=\"variance\">\n<h2>Variance</h2>\n";
+  const auto without = static_cast<std::size_t>(
+      std::count_if(records.begin(), records.end(), [](const auto& r) { return !has_ratio(r); }));
+  if (without == records.size()) {
+    return html + paragraph("No variance was both measured and predicted in this study.", "empty") +
+           "</section>\n";
+  }
+  std::string note(kVarianceNote);
+  if (without > 0) {
+    note += fmt::format(" Not shown: {} all but exact, or without a standard error.",
+                        counted(without, "estimator"));
+  }
+  const Chart chart = {"variance-chart", variance_finding(records),
+                       "Ratio of measured to predicted variance against the predicted variance",
+                       note, variance_chart(records)};
+  return html +
+         chart_figure(chart, collapsible("Variances as a table", variance_table(records).html()) +
+                                 download_link("variance.csv", variance_csv(records))) +
+         "</section>\n";
+}
+
+}  // namespace lightproof

@@ -1,0 +1,112 @@
+#include "lightproof/report/csv.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string_view>
+
+#include "lightproof/report/names.h"
+
+namespace lightproof {
+namespace {
+
+std::string field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string field(const std::string& text) { return field(std::string_view(text)); }
+std::string field(const char* text) { return field(std::string_view(text)); }
+std::string field(double value) { return fmt::format("{}", value); }
+std::string field(std::uint64_t value) { return std::to_string(value); }
+std::string field(int value) { return std::to_string(value); }
+std::string field(const std::optional<double>& value) { return value ? field(*value) : ""; }
+
+template <class... Values>
+std::string row(const Values&... values) {
+  std::string line;
+  ((line += field(values), line += ','), ...);
+  line.back() = '\n';
+  return line;
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : "; ") + text;
+  return all;
+}
+
+}  // namespace
+
+std::string gate_csv(const GateResult& gate) {
+  std::string csv =
+      "sampler,weighting,map,oracle,test,samples,statistic,dof,log10_p,effect,detectable_effect,"
+      "outcome,known_defect,detail\n";
+  for (const TestRecord& t : gate.tests) {
+    csv += row(t.sampler, t.weighting, t.map, t.oracle, t.test, t.samples, t.statistic, t.dof,
+               t.log10_p, t.effect, t.detectable_effect, to_string(t.outcome),
+               t.known_defect ? "yes" : "no", t.detail);
+  }
+  return csv;
+}
+
+std::string convergence_csv(const std::vector<ConvergenceRecord>& records) {
+  std::string csv =
+      "map,receiver,material,strategy,pixels,replicates,samples,rmse,rmse_error,predicted\n";
+  for (const ConvergenceRecord& r : records) {
+    for (const ConvergencePoint& p : r.points) {
+      csv += row(r.map, r.receiver, r.material, r.strategy, r.pixels, r.replicates, p.samples,
+                 p.rmse, p.rmse_error, p.predicted);
+    }
+  }
+  return csv;
+}
+
+std::string variance_csv(const std::vector<ConvergenceRecord>& records) {
+  std::string csv =
+      "map,receiver,material,strategy,measured_variance,predicted_variance,ratio,ratio_error,"
+      "slope,slope_error\n";
+  for (const ConvergenceRecord& r : records) {
+    csv += row(r.map, r.receiver, r.material, r.strategy, r.measured_variance, r.predicted_variance,
+               r.measured_variance / r.predicted_variance, r.variance_ratio_error, r.slope,
+               r.slope_error);
+  }
+  return csv;
+}
+
+std::string throughput_csv(const std::vector<ThroughputRecord>& records) {
+  std::string csv = "sampler,map,width,height,ns_per_sample,ns_low,ns_high,table_bytes,build_ms\n";
+  for (const ThroughputRecord& r : records) {
+    csv += row(r.sampler, r.map, r.extent.width, r.extent.height, r.ns_per_sample, r.ns_low,
+               r.ns_high, r.table_bytes, r.build_ms);
+  }
+  return csv;
+}
+
+std::string renders_csv(const std::vector<RenderRecord>& records) {
+  std::string csv = "map,receiver,material,strategy,samples,width,height,rmse,seconds,picture\n";
+  const std::vector<std::string> stems = render_stems(records);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const RenderRecord& r = records[i];
+    csv += row(r.map, r.receiver, r.material, r.strategy, r.samples, r.picture.extent().width,
+               r.picture.extent().height, r.rmse, r.seconds, stems[i] + ".exr");
+  }
+  return csv;
+}
+
+std::string maps_csv(const std::vector<MapRecord>& records) {
+  std::string csv = "map,source,width,height,mean_luminance,peak_ratio,effective_fraction,notes\n";
+  for (const MapRecord& r : records) {
+    const Extent extent = r.map.radiance.extent();
+    csv += row(r.map.name, r.source, extent.width, extent.height, r.mean_luminance, r.peak_ratio,
+               r.effective_fraction, joined(r.map.notes));
+  }
+  return csv;
+}
+
+}  // namespace lightproof

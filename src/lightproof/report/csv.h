@@ -1,0 +1,22 @@
+// The numbers behind every chart and table as comma-separated values (RFC 4180, but lines end in
+// \n). Doubles are written with the digits that restore them exactly; "nan", "inf" and "-inf" are
+// possible, and an empty field is a value that does not exist.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightproof/suite/results.h"
+
+namespace lightproof {
+
+std::string gate_csv(const GateResult& gate);
+/// One row per record and number of samples.
+std::string convergence_csv(const std::vector<ConvergenceRecord>& records);
+/// One row per record: variance, its prediction, their ratio, and the fitted slope.
+std::string variance_csv(const std::vector<ConvergenceRecord>& records);
+std::string throughput_csv(const std::vector<ThroughputRecord>& records);
+std::string renders_csv(const std::vector<RenderRecord>& records);
+std::string maps_csv(const std::vector<MapRecord>& records);
+
+}  // namespace lightproof

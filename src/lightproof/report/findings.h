@@ -1,0 +1,59 @@
+// What the numbers say, in sentences. Every claim is computed from the data it stands above, and
+// the worst case is named wherever not everything agrees. Plain text (UTF-8), not escaped.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightproof/suite/results.h"
+
+namespace lightproof {
+
+/// The sampler that the study is about: "binary_search" if it was tested, else the first one.
+std::string subject_of(const GateResult& gate);
+
+/// The headline: the verdict on the subject.
+std::string headline(const StudyResult& study);
+
+struct SamplerFinding {
+  Outcome outcome = Outcome::inconclusive;
+  std::string sentence;
+};
+
+/// One sentence per sampler, with the most suspicious test of those that are not accepted.
+std::vector<SamplerFinding> sampler_findings(const GateResult& gate);
+
+/// Do the errors fall as N^(-1/2)? Judged at 3 standard errors of each fitted slope.
+std::string convergence_finding(const std::vector<ConvergenceRecord>& records);
+
+/// How many points lie within 3 standard errors of the predicted error. Points whose standard
+/// error exceeds a third of the prediction hardly test it: they are counted apart.
+std::string prediction_finding(const std::vector<ConvergenceRecord>& records);
+
+/// Is the measured variance the predicted one? Judged at 3 standard errors of each ratio.
+std::string variance_finding(const std::vector<ConvergenceRecord>& records);
+
+/// How much faster the subject is than the baseline (the published linear scan where there is one,
+/// else the slowest sampler), and whether that grows with the map.
+std::string throughput_finding(const StudyResult& study);
+
+/// Which strategy has the smallest error in one scene. `scene` is not empty.
+std::string render_finding(const std::vector<const RenderRecord*>& scene);
+
+/// Which strategy wins how often over all scenes. `renders` is not empty.
+std::string renders_finding(const std::vector<RenderRecord>& renders);
+
+/// What the effective fraction means for this map, with the variance of uniform sampling.
+std::string map_finding(const MapRecord& map);
+
+/// The variance is so small, measured and predicted (below 1e-8 of mean^2), that rounding and
+/// quadrature decide it: nothing to compare or to draw.
+bool is_all_but_exact(const ConvergenceRecord& record);
+
+/// Measured / predicted variance has a standard error, and the estimator is not all but exact.
+bool has_ratio(const ConvergenceRecord& record);
+
+/// A slope could be fitted, with a standard error.
+bool has_slope(const ConvergenceRecord& record);
+
+}  // namespace lightproof

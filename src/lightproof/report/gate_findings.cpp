@@ -1,0 +1,96 @@
+// The findings on the gate.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "lightproof/report/findings.h"
+#include "lightproof/report/gate_summary.h"
+#include "lightproof/report/numbers.h"
+
+namespace lightproof {
+namespace {
+
+std::size_t map_count(const GateResult& gate) {
+  std::vector<std::string> maps;
+  for (const TestRecord& test : gate.tests) maps.push_back(test.map);
+  return unique_names(maps).size();
+}
+
+std::string tests_of(const Tally& tally, std::string_view what) {
+  const std::size_t count = what == "rejected" ? tally.rejected : tally.inconclusive;
+  return fmt::format("{} of {} {}", with_thousands(count), counted(tally.tests, "test"), what);
+}
+
+SamplerFinding sampler_finding(const GateResult& gate, const std::string& sampler) {
+  const Tally tally =
+      tally_of(gate, [&](const TestRecord& test) { return test.sampler == sampler; });
+  SamplerFinding finding{tally.outcome(), ""};
+  const bool open = finding.outcome == Outcome::inconclusive;
+  finding.sentence =
+      fmt::format("{}: {}", sampler, tests_of(tally, open ? "inconclusive" : "rejected"));
+  if (finding.outcome == Outcome::reject && tally.inconclusive > 0) {
+    finding.sentence += fmt::format(", {} inconclusive", tally.inconclusive);
+  }
+  const bool known = std::any_of(gate.tests.begin(), gate.tests.end(), [&](const TestRecord& t) {
+    return t.sampler == sampler && t.known_defect;
+  });
+  if (known) {
+    finding.sentence += finding.outcome == Outcome::accept
+                            ? " (kept as published; its known defects were not seen)"
+                            : " (kept as published, with its known defects)";
+  }
+  if (finding.outcome == Outcome::accept) return finding;
+  for (const GateCell& cell : summarise(gate)) {
+    if (cell.sampler != sampler || cell.worst->outcome != finding.outcome) continue;
+    finding.sentence += fmt::format("; for example {} {} of {} on {}", cell.worst->oracle,
+                                    cell.worst->test, cell.configuration, cell.map);
+    if (!cell.worst->detail.empty()) finding.sentence += " (" + cell.worst->detail + ")";
+    break;
+  }
+  return finding;
+}
+
+}  // namespace
+
+std::string subject_of(const GateResult& gate) {
+  const auto known = std::find_if(gate.tests.begin(), gate.tests.end(),
+                                  [](const TestRecord& t) { return t.sampler == "binary_search"; });
+  if (known != gate.tests.end()) return known->sampler;
+  return gate.tests.empty() ? "" : gate.tests.front().sampler;
+}
+
+std::string headline(const StudyResult& study) {
+  const GateResult& gate = study.gate;
+  if (gate.tests.empty()) return "No test was run";
+  const std::string subject = subject_of(gate);
+  const Tally tally =
+      tally_of(gate, [&](const TestRecord& test) { return test.sampler == subject; });
+  const std::size_t maps = map_count(gate);
+  const std::string where = fmt::format("On {} {}", count_word(maps), maps == 1 ? "map" : "maps");
+  const std::string error = "at a family-wise error of " + significant(gate.family_alpha, 2);
+  switch (tally.outcome()) {
+    case Outcome::accept:
+      return fmt::format("{}, {} draws the right distribution: {} {}", where, subject,
+                         tests_of(tally, "rejected"), error);
+    case Outcome::reject:
+      return fmt::format("{}, {} does not draw the right distribution: {} {}", where, subject,
+                         tests_of(tally, "rejected"), error);
+    case Outcome::inconclusive:
+      break;
+  }
+  return fmt::format("{}, the verdict on {} is open: {}, none rejected", where, subject,
+                     tests_of(tally, "inconclusive"));
+}
+
+std::vector<SamplerFinding> sampler_findings(const GateResult& gate) {
+  std::vector<std::string> samplers;
+  for (const TestRecord& test : gate.tests) samplers.push_back(test.sampler);
+  std::vector<SamplerFinding> findings;
+  for (const std::string& sampler : unique_names(samplers)) {
+    findings.push_back(sampler_finding(gate, sampler));
+  }
+  return findings;
+}
+
+}  // namespace lightproof

@@ -1,0 +1,189 @@
+// The gate: every sampler against every map, and each test behind a verdict.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lightproof/report/csv.h"
+#include "lightproof/report/gate_summary.h"
+#include "lightproof/report/html.h"
+#include "lightproof/report/numbers.h"
+#include "lightproof/report/sections.h"
+
+namespace lightproof {
+namespace {
+
+Cell outcome_cell(Outcome outcome) { return {outcome_text(outcome), to_string(outcome), ""}; }
+
+Cell tally_cell(const GateCell& cell) {
+  const Tally& tally = cell.tally;
+  std::string text = outcome_text(tally.outcome());
+  if (tally.rejected > 0) {
+    text += fmt::format(" {}/{}", tally.rejected, tally.tests);
+  } else if (tally.inconclusive > 0) {
+    text += fmt::format(" {}/{}", tally.inconclusive, tally.tests);
+  }
+  const std::string worst = fmt::format(
+      "{}; most suspicious: {}/{}, log10 p {}", counted(tally.tests, "test"), cell.worst->oracle,
+      cell.worst->test,
+      cell.worst->log10_p ? significant(*cell.worst->log10_p) : std::string("none (exact check)"));
+  return {text, to_string(tally.outcome()), worst};
+}
+
+std::string matrix(const GateResult& gate) {
+  const std::vector<GateCell> cells = summarise(gate);
+  std::vector<std::string> maps;
+  std::vector<std::string> configurations;
+  for (const GateCell& cell : cells) {
+    maps.push_back(cell.map);
+    configurations.push_back(cell.configuration);
+  }
+  maps = unique_names(maps);
+  std::vector<std::string> columns = {"Sampler"};
+  columns.insert(columns.end(), maps.begin(), maps.end());
+  Table table("Verdict of every sampler on every map", columns, "matrix");
+  for (const std::string& configuration : unique_names(configurations)) {
+    std::vector<Cell> row = {text_cell(configuration)};
+    bool known_defect = false;
+    for (const std::string& map : maps) {
+      const auto found = std::find_if(cells.begin(), cells.end(), [&](const GateCell& c) {
+        return c.configuration == configuration && c.map == map;
+      });
+      if (found != cells.end()) known_defect = found->known_defect;
+      row.push_back(found == cells.end() ? Cell{"\u2013 not run", "absent", ""}
+                                         : tally_cell(*found));
+    }
+    if (known_defect) row[0].text += " *";
+    table.add(row);
+  }
+  return table.html();
+}
+
+std::vector<std::string> test_columns() {
+  return {"Sampler", "Map",    "Test",       "Verdict",   "Detail",
+          "log10 p", "Effect", "Detectable", "Statistic", "Degrees of freedom",
+          "Samples"};
+}
+
+Cell log10_p_cell(const TestRecord& test) {
+  return test.log10_p ? number_cell(*test.log10_p) : Cell{"exact", "number", "no probability"};
+}
+
+std::vector<Cell> test_row(const TestRecord& t) {
+  return {text_cell(configuration_name(t)),
+          text_cell(t.map),
+          text_cell(t.oracle + ": " + t.test),
+          outcome_cell(t.outcome),
+          {t.detail, t.detail.empty() ? "" : "detail", ""},
+          log10_p_cell(t),
+          number_cell(t.effect),
+          t.detectable_effect ? number_cell(*t.detectable_effect) : Cell{"\u2013", "number", ""},
+          number_cell(t.statistic, 5),
+          t.dof > 0.0 ? number_cell(t.dof, 6) : Cell{"\u2013", "number", ""},
+          {with_thousands(t.samples), "number", ""}};
+}
+
+template <class Selected>
+std::string test_table(const GateResult& gate, const std::string& caption,
+                       const Selected& selected) {
+  Table table(caption, test_columns());
+  for (const TestRecord& test : gate.tests) {
+    if (selected(test)) table.add(test_row(test));
+  }
+  return table.html();
+}
+
+/// What one kind of test saw over all samplers and maps.
+struct Sight {
+  std::string oracle;
+  std::string test;
+  Tally tally;
+  double detectable = std::nan("");  ///< the largest over its runs
+};
+
+std::vector<Sight> sights(const GateResult& gate) {
+  std::vector<Sight> kinds;
+  for (const TestRecord& t : gate.tests) {
+    auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const Sight& s) {
+      return s.oracle == t.oracle && s.test == t.test;
+    });
+    if (kind == kinds.end()) kind = kinds.insert(kinds.end(), Sight{t.oracle, t.test, {}});
+    kind->tally.add(t.outcome);
+    if (t.detectable_effect) kind->detectable = std::fmax(kind->detectable, *t.detectable_effect);
+  }
+  return kinds;
+}
+
+std::string sight_table(const GateResult& gate) {
+  Table table(
+      "What each kind of test saw and could have seen",
+      {"Oracle", "Test", "Runs", "Rejected", "Inconclusive", "Detectable effect, worst run"});
+  for (const Sight& s : sights(gate)) {
+    table.add(
+        {text_cell(s.oracle),
+         text_cell(s.test),
+         {with_thousands(s.tally.tests), "number", ""},
+         {with_thousands(s.tally.rejected), "number", ""},
+         {with_thousands(s.tally.inconclusive), "number", ""},
+         std::isnan(s.detectable) ? Cell{"\u2013", "number", ""} : number_cell(s.detectable)});
+  }
+  return table.html();
+}
+
+std::string tally_text(const Tally& tally) {
+  std::string text = fmt::format("{} of {} rejected", with_thousands(tally.rejected),
+                                 counted(tally.tests, "test"));
+  if (tally.inconclusive > 0) text += fmt::format(", {} inconclusive", tally.inconclusive);
+  return text;
+}
+
+std::string gate_title(const GateResult& gate) {
+  const Tally deciding = deciding_tally(gate);
+  const Tally known = known_defect_tally(gate);
+  if (known.tests == 0) return tally_text(deciding);
+  const std::string published = "samplers kept as published: " + tally_text(known);
+  return deciding.tests == 0 ? published : tally_text(deciding) + "; " + published;
+}
+
+std::string failed_tests(const GateResult& gate, const Tally& all) {
+  std::string html;
+  if (all.rejected > 0) {
+    html += "<h4>Rejected tests</h4>\n" +
+            test_table(gate, "Rejected tests",
+                       [](const TestRecord& t) { return t.outcome == Outcome::reject; });
+  }
+  if (all.inconclusive > 0) {
+    html += "<h4>Inconclusive tests</h4>\n" +
+            test_table(gate, "Inconclusive tests",
+                       [](const TestRecord& t) { return t.outcome == Outcome::inconclusive; });
+  }
+  return html;
+}
+
+constexpr std::string_view kLegend =
+    "A and B are the weightings: A draws texels in proportion to their grey value, B to grey value "
+    "times solid angle. Oracles: self compares the samples with the sampler's own pdf, reference "
+    "with the map itself, mean and variance with integrals of the map; check needs no statistics. "
+    "A fraction behind a verdict counts the tests that led to it. An asterisk marks samplers that "
+    "are "
+    "kept as published, with their known defects, to show what the gate finds; they decide "
+    "nothing.";
+
+}  // namespace
+
+std::string gate_section(const GateResult& gate) {
+  const Tally all = tally_of(gate, [](const TestRecord&) { return true; });
+  std::string html = "<section id=\"gate\">\n<h2>Gate</h2>\n";
+  if (all.tests == 0) {
+    return html + paragraph("No test was run: run `lightproof gate` on these maps.", "empty") +
+           "</section>\n";
+  }
+  html += fmt::format("<h3>{}</h3>\n", escaped(gate_title(gate)));
+  html += paragraph(kLegend, "note") + matrix(gate) + failed_tests(gate, all);
+  html += collapsible("What each kind of test could have seen", sight_table(gate));
+  html += collapsible(fmt::format("All {}", counted(all.tests, "test")),
+                      test_table(gate, "All tests", [](const TestRecord&) { return true; }));
+  return html + download_link("gate.csv", gate_csv(gate)) + "</section>\n";
+}
+
+}  // namespace lightproof

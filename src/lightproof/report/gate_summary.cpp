@@ -1,0 +1,95 @@
+#include "lightproof/report/gate_summary.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace lightproof {
+namespace {
+
+int severity(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::reject:
+      return 0;
+    case Outcome::inconclusive:
+      return 1;
+    case Outcome::accept:
+      return 2;
+  }
+  return 2;
+}
+
+/// Deterministic checks have no probability: among equals they count as the least telling when
+/// they pass, and as the most telling when they fail.
+double suspicion(const TestRecord& test) {
+  if (test.log10_p) return *test.log10_p;
+  return test.outcome == Outcome::reject ? -1e300 : 1.0;
+}
+
+bool worse(const TestRecord& a, const TestRecord& b) {
+  return std::tuple(severity(a.outcome), suspicion(a)) <
+         std::tuple(severity(b.outcome), suspicion(b));
+}
+
+}  // namespace
+
+void Tally::add(Outcome outcome) {
+  ++tests;
+  if (outcome == Outcome::reject) ++rejected;
+  if (outcome == Outcome::inconclusive) ++inconclusive;
+}
+
+Outcome Tally::outcome() const {
+  if (rejected > 0) return Outcome::reject;
+  return inconclusive > 0 || tests == 0 ? Outcome::inconclusive : Outcome::accept;
+}
+
+std::string configuration_name(const TestRecord& test) {
+  return test.weighting.empty() ? test.sampler : test.sampler + " " + test.weighting;
+}
+
+std::vector<GateCell> summarise(const GateResult& gate) {
+  std::vector<GateCell> cells;
+  for (const TestRecord& test : gate.tests) {
+    const std::string name = configuration_name(test);
+    auto cell = std::find_if(cells.begin(), cells.end(), [&](const GateCell& c) {
+      return c.configuration == name && c.map == test.map;
+    });
+    if (cell == cells.end()) {
+      cell = cells.insert(cells.end(),
+                          GateCell{name, test.sampler, test.map, test.known_defect, {}, &test});
+    }
+    cell->tally.add(test.outcome);
+    if (worse(test, *cell->worst)) cell->worst = &test;
+  }
+  return cells;
+}
+
+Tally deciding_tally(const GateResult& gate) {
+  return tally_of(gate, [](const TestRecord& test) { return !test.known_defect; });
+}
+
+Tally known_defect_tally(const GateResult& gate) {
+  return tally_of(gate, [](const TestRecord& test) { return test.known_defect; });
+}
+
+std::string outcome_text(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::accept:
+      return "\u2713 accept";
+    case Outcome::reject:
+      return "\u2717 reject";
+    case Outcome::inconclusive:
+      return "? inconclusive";
+  }
+  return "";
+}
+
+std::vector<std::string> unique_names(const std::vector<std::string>& names) {
+  std::vector<std::string> unique;
+  for (const std::string& name : names) {
+    if (std::find(unique.begin(), unique.end(), name) == unique.end()) unique.push_back(name);
+  }
+  return unique;
+}
+
+}  // namespace lightproof

@@ -1,0 +1,61 @@
+// The tests of a gate counted by configuration; tables, pages and sentences all start from here.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lightproof/suite/results.h"
+
+namespace lightproof {
+
+/// Outcomes of a set of tests.
+struct Tally {
+  std::size_t tests = 0;
+  std::size_t rejected = 0;
+  std::size_t inconclusive = 0;
+
+  void add(Outcome outcome);
+  /// Reject if any test rejects, else inconclusive if any is or there are none, else accept.
+  Outcome outcome() const;
+};
+
+/// All tests of one sampler, weighting and map.
+struct GateCell {
+  std::string configuration;  ///< see configuration_name
+  std::string sampler;
+  std::string map;
+  bool known_defect = false;
+  Tally tally;
+  const TestRecord* worst = nullptr;  ///< points into the GateResult; never null
+};
+
+/// "binary_search B"; the sampler alone where there is no weighting.
+std::string configuration_name(const TestRecord& test);
+
+/// In the order in which the configurations first appear.
+std::vector<GateCell> summarise(const GateResult& gate);
+
+/// The tally of the tests that `selected` returns true for.
+template <class Selected>
+Tally tally_of(const GateResult& gate, const Selected& selected) {
+  Tally tally;
+  for (const TestRecord& test : gate.tests) {
+    if (selected(test)) tally.add(test.outcome);
+  }
+  return tally;
+}
+
+/// The tests that decide: those of samplers without known defects.
+Tally deciding_tally(const GateResult& gate);
+
+/// The tests of samplers that are kept as published, with their known defects.
+Tally known_defect_tally(const GateResult& gate);
+
+/// "✓ accept", "✗ reject", "? inconclusive": a sign and a word, so that colour is never needed.
+std::string outcome_text(Outcome outcome);
+
+/// The names in order of first appearance, each once.
+std::vector<std::string> unique_names(const std::vector<std::string>& names);
+
+}  // namespace lightproof

@@ -1,0 +1,164 @@
+#include "lightproof/report/json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "lightproof/report/gate_summary.h"
+#include "lightproof/report/names.h"
+
+namespace lightproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// NaN is left to the library, which writes null.
+Json number(double value) {
+  if (std::isinf(value)) return value < 0.0 ? "-Infinity" : "Infinity";
+  return value;
+}
+
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+
+Json json_of(Extent extent) { return Json::array({extent.width, extent.height}); }
+
+Json json_of(const TestRecord& t) {
+  return {{"sampler", t.sampler},
+          {"weighting", t.weighting},
+          {"map", t.map},
+          {"oracle", t.oracle},
+          {"test", t.test},
+          {"samples", t.samples},
+          {"statistic", number(t.statistic)},
+          {"dof", number(t.dof)},
+          {"log10_p", number(t.log10_p)},
+          {"effect", number(t.effect)},
+          {"detectable_effect", number(t.detectable_effect)},
+          {"outcome", to_string(t.outcome)},
+          {"known_defect", t.known_defect},
+          {"detail", t.detail}};
+}
+
+// Declared here so that list_of finds them all.
+Json json_of(const ConvergencePoint& p);
+Json json_of(const ConvergenceRecord& r);
+Json json_of(const ThroughputRecord& r);
+Json json_of(const GrowthFit& fit);
+Json json_of(const MapRecord& r);
+Json json_of(const RenderRecord& r);
+
+template <class Record>
+Json list_of(const std::vector<Record>& records) {
+  Json list = Json::array();
+  for (const Record& record : records) list.push_back(json_of(record));
+  return list;
+}
+
+Json json_of(const GateResult& gate, Outcome overall) {
+  return {{"outcome", to_string(overall)},
+          {"family_alpha", number(gate.family_alpha)},
+          {"samples", gate.samples},
+          {"seed", gate.seed},
+          {"tests", list_of(gate.tests)}};
+}
+
+Json json_of(const ConvergencePoint& p) {
+  return {{"samples", p.samples},
+          {"rmse", number(p.rmse)},
+          {"rmse_error", number(p.rmse_error)},
+          {"predicted", number(p.predicted)}};
+}
+
+Json json_of(const ConvergenceRecord& r) {
+  return {{"map", r.map},
+          {"receiver", r.receiver},
+          {"material", r.material},
+          {"strategy", r.strategy},
+          {"pixels", r.pixels},
+          {"replicates", r.replicates},
+          {"points", list_of(r.points)},
+          {"slope", number(r.slope)},
+          {"slope_error", number(r.slope_error)},
+          {"measured_variance", number(r.measured_variance)},
+          {"predicted_variance", number(r.predicted_variance)},
+          {"variance_ratio_error", number(r.variance_ratio_error)}};
+}
+
+Json json_of(const ThroughputRecord& r) {
+  return {{"sampler", r.sampler},
+          {"map", r.map},
+          {"size", json_of(r.extent)},
+          {"ns_per_sample", number(r.ns_per_sample)},
+          {"ns_low", number(r.ns_low)},
+          {"ns_high", number(r.ns_high)},
+          {"table_bytes", number(r.table_bytes)},
+          {"build_ms", number(r.build_ms)}};
+}
+
+Json json_of(const GrowthFit& fit) {
+  return {{"sampler", fit.sampler},
+          {"model", fit.model},
+          {"exponent", number(fit.exponent)},
+          {"exponent_error", number(fit.exponent_error)}};
+}
+
+Json json_of(const MapRecord& r) {
+  Json drawn = Json::array();
+  for (const SquarePoint& p : r.drawn) drawn.push_back(Json::array({number(p.s), number(p.t)}));
+  return {{"name", r.map.name},
+          {"source", r.source},
+          {"size", json_of(r.map.radiance.extent())},
+          {"mean_luminance", number(r.mean_luminance)},
+          {"peak_ratio", number(r.peak_ratio)},
+          {"effective_fraction", number(r.effective_fraction)},
+          {"notes", r.map.notes},
+          {"drawn", drawn}};
+}
+
+Json json_of(const RenderRecord& r) {
+  return {{"map", r.map},
+          {"receiver", r.receiver},
+          {"material", r.material},
+          {"strategy", r.strategy},
+          {"samples", r.samples},
+          {"size", json_of(r.picture.extent())},
+          {"reference_samples", r.reference_samples},
+          {"rmse", number(r.rmse)},
+          {"seconds", number(r.seconds)}};
+}
+
+Json renders_json(const std::vector<RenderRecord>& renders) {
+  Json list = list_of(renders);
+  const std::vector<std::string> stems = render_stems(renders);
+  for (std::size_t i = 0; i < stems.size(); ++i) {
+    list[i]["picture"] = stems[i] + ".exr";
+    list[i]["error"] = stems[i] + "-error.exr";
+  }
+  for (const RenderScene& scene : render_scenes(renders)) {
+    for (const std::size_t i : scene.members) list[i]["reference"] = scene.stem + "-reference.exr";
+  }
+  return list;
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string gate_json(const GateResult& gate, Outcome overall) {
+  return text_of(json_of(gate, overall));
+}
+
+std::string study_json(const StudyResult& study) {
+  return text_of({{"version", study.version},
+                  {"machine", study.machine},
+                  {"seed", study.seed},
+                  {"maps", list_of(study.maps)},
+                  {"gate", json_of(study.gate, deciding_tally(study.gate).outcome())},
+                  {"convergence", list_of(study.convergence)},
+                  {"throughput", list_of(study.throughput)},
+                  {"growth", list_of(study.growth)},
+                  {"renders", renders_json(study.renders)}});
+}
+
+}  // namespace lightproof

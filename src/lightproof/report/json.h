@@ -1,0 +1,24 @@
+// Results for other programs.
+//
+// Numbers that JSON cannot hold, in both documents: NaN is null, the infinities are the strings
+// "Infinity" and "-Infinity". Text that is not UTF-8 (file names may be anything) has its bad bytes
+// replaced by U+FFFD.
+#pragma once
+
+#include <string>
+
+#include "lightproof/suite/results.h"
+
+namespace lightproof {
+
+/// Keys: outcome, family_alpha, samples, seed, tests: [sampler, weighting, map, oracle, test,
+/// samples, statistic, dof, log10_p (null for a deterministic check), effect, detectable_effect
+/// (null where there is none), outcome, known_defect, detail]. `overall` is the verdict on the
+/// whole run: the caller decides whether known defects count.
+std::string gate_json(const GateResult& gate, Outcome overall);
+
+/// Everything in the study but the pixels, which lie in the EXR files that it names. Tests of
+/// samplers with known defects do not count towards gate.outcome.
+std::string study_json(const StudyResult& study);
+
+}  // namespace lightproof

@@ -1,0 +1,127 @@
+// The maps as pictures, with samples drawn over them.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "lightproof/image/writer.h"
+#include "lightproof/report/csv.h"
+#include "lightproof/report/findings.h"
+#include "lightproof/report/html.h"
+#include "lightproof/report/numbers.h"
+#include "lightproof/report/pictures.h"
+#include "lightproof/report/sections.h"
+
+namespace lightproof {
+namespace {
+
+constexpr int kWidth = 640;  // pixels of the large picture, at most
+constexpr int kThumbnailWidth = 256;
+constexpr std::array<int, 3> kStops = {-3, 0, 3};
+constexpr double kUnits = 1000.0;  // width of the overlay's coordinate system
+
+std::string image(const Grid<Rgb>& linear, double scale, std::string_view alternative) {
+  const Extent size = linear.extent();
+  return fmt::format("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">",
+                     data_uri("image/png", png_bytes(tone_mapped(linear, scale))), size.width,
+                     size.height, escaped(alternative));
+}
+
+/// Zero-length strokes with round caps are dots whose size does not depend on the picture's.
+std::string dots(const std::vector<SquarePoint>& drawn, double height) {
+  std::string path;
+  for (const SquarePoint& p : drawn) {
+    if (!std::isfinite(p.s) || !std::isfinite(p.t)) continue;
+    path += fmt::format("M{:.1f} {:.1f}h.01", p.s * kUnits, (1.0 - p.t) * height);
+  }
+  return path;
+}
+
+std::string overlay(const MapRecord& record) {
+  const Extent size = record.map.radiance.extent();
+  const double height = kUnits * size.height / size.width;
+  const std::string path = dots(record.drawn, height);
+  return fmt::format(
+      "<svg class=\"samples\" viewBox=\"0 0 {} {:.1f}\" preserveAspectRatio=\"none\" "
+      "aria-hidden=\"true\"><path class=\"edge\" d=\"{}\"/><path class=\"core\" d=\"{}\"/></svg>",
+      kUnits, height, path, path);
+}
+
+std::string stop_text(int stops) {
+  return stops == 0 ? "0 EV" : fmt::format("{}{} EV", stops < 0 ? "\u2212" : "+", std::abs(stops));
+}
+
+std::string thumbnails(const MapRecord& record, const Grid<Rgb>& picture, double scale) {
+  const Grid<Rgb> small = shrunk(picture, kThumbnailWidth);
+  std::string html = "<div class=\"exposures\">\n";
+  for (const int stops : kStops) {
+    const std::string text = stop_text(stops);
+    html += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
+                        image(small, scale * std::exp2(stops),
+                              fmt::format("{} exposed at {}", record.map.name, text)),
+                        text);
+  }
+  return html + "</div>\n";
+}
+
+std::string quantities(const MapRecord& record) {
+  return fmt::format(
+      "{}, {} texels. Mean luminance over the sphere {}; the brightest texel is {} times the "
+      "mean. ",
+      record.source, extent_text(record.map.radiance.extent()), page_number(record.mean_luminance),
+      page_number(record.peak_ratio));
+}
+
+std::string notes(const std::vector<std::string>& texts) {
+  std::string html;
+  for (const std::string& text : texts) html += fmt::format("<li>{}</li>", escaped(text));
+  return html.empty() ? "" : "<ul class=\"notes\">" + html + "</ul>\n";
+}
+
+std::string map_figure(const MapRecord& record) {
+  const Grid<Rgb> picture = flip_rows(record.map.radiance);
+  const double scale = grey_exposure(picture);
+  const std::string alternative =
+      fmt::format("Environment map {}, with {} drawn over it", record.map.name,
+                  counted(record.drawn.size(), "sample"));
+  return fmt::format("<figure class=\"map\">\n<h3>{}</h3>\n<div class=\"picture\">{}{}</div>\n",
+                     escaped(record.map.name), image(shrunk(picture, kWidth), scale, alternative),
+                     overlay(record)) +
+         thumbnails(record, picture, scale) +
+         fmt::format("<figcaption>{}</figcaption>\n",
+                     escaped(quantities(record) + map_finding(record))) +
+         notes(record.map.notes) + "</figure>\n";
+}
+
+constexpr std::string_view kIntroduction =
+    "Each map as it is read, zenith at the top. At 0 EV the geometric mean of the luminances is "
+    "middle grey; values are clipped and sRGB-encoded. Dots are samples that the binary search "
+    "drew "
+    "in proportion to luminance times solid angle: they gather where the light is.";
+
+}  // namespace
+
+std::string map_section(const std::vector<MapRecord>& maps) {
+  std::string html = "<section id=\"maps\">\n<h2>Maps</h2>\n";
+  if (maps.empty()) return html + paragraph("No map was recorded.", "empty") + "</section>\n";
+  html += paragraph(kIntroduction, "note");
+  html +=
+      "<p class=\"control\"><label><input type=\"checkbox\" id=\"show-samples\" checked> "
+      "Show the samples</label></p>\n<div class=\"maps\">\n";
+  for (const MapRecord& record : maps) html += map_figure(record);
+  html += "</div>\n";
+  Table table("The maps in numbers", {"Map", "Source", "Size", "Mean luminance",
+                                      "Brightest texel / mean", "Effective fraction"});
+  for (const MapRecord& r : maps) {
+    table.add({text_cell(r.map.name),
+               text_cell(r.source),
+               {extent_text(r.map.radiance.extent()), "number", ""},
+               number_cell(r.mean_luminance),
+               number_cell(r.peak_ratio),
+               number_cell(r.effective_fraction)});
+  }
+  return html + collapsible("The maps in numbers", table.html()) +
+         download_link("maps.csv", maps_csv(maps)) + "</section>\n";
+}
+
+}  // namespace lightproof

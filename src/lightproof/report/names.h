@@ -1,0 +1,33 @@
+// Names of the files beside the report.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lightproof/suite/results.h"
+
+namespace lightproof {
+
+/// The text with everything but ASCII letters, digits, '.', '_' and '-' replaced by '_', and
+/// without leading dots: safe in any folder and in a URL. Never empty.
+std::string file_name_part(std::string_view text);
+
+/// One stem per render, "<map>-<receiver>-<material>-<strategy>", all different: a repeated one
+/// gets "-2", "-3", …
+std::vector<std::string> render_stems(const std::vector<RenderRecord>& renders);
+
+/// The renders of one receiver on one map with one material; they share the reference.
+struct RenderScene {
+  std::string stem;                  ///< "<map>-<receiver>-<material>", unique
+  std::vector<std::size_t> members;  ///< positions in the list of renders; never empty
+};
+
+/// Its records, in their order.
+std::vector<const RenderRecord*> members_of(const RenderScene& scene,
+                                            const std::vector<RenderRecord>& renders);
+
+/// In the order of first appearance.
+std::vector<RenderScene> render_scenes(const std::vector<RenderRecord>& renders);
+
+}  // namespace lightproof

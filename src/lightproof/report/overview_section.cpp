@@ -1,0 +1,72 @@
+// The headline, what was found, and how to read the rest.
+#include <fmt/format.h>
+
+#include "lightproof/report/findings.h"
+#include "lightproof/report/gate_summary.h"
+#include "lightproof/report/html.h"
+#include "lightproof/report/numbers.h"
+#include "lightproof/report/sections.h"
+
+namespace lightproof {
+namespace {
+
+std::string finding(std::string_view link, std::string_view topic, std::string_view text) {
+  return fmt::format("<li><a href=\"#{}\">{}</a><span>{}.</span></li>\n", escaped(link),
+                     escaped(topic), escaped(text));
+}
+
+std::string sampler_list(const GateResult& gate) {
+  std::string items;
+  for (const SamplerFinding& f : sampler_findings(gate)) {
+    items += fmt::format("<li><strong class=\"{}\">{}</strong> <span>{}</span></li>\n",
+                         to_string(f.outcome), outcome_text(f.outcome), escaped(f.sentence));
+  }
+  return items.empty() ? "" : "<ul class=\"verdicts\">\n" + items + "</ul>\n";
+}
+
+std::string other_findings(const StudyResult& study) {
+  std::string items = finding("convergence", "Convergence", convergence_finding(study.convergence));
+  items += finding("variance", "Variance", variance_finding(study.convergence));
+  items += finding("throughput", "Throughput", throughput_finding(study));
+  if (!study.renders.empty()) {
+    items += finding("renders", "Renders", renders_finding(study.renders));
+  }
+  return "<ul class=\"findings\">\n" + items + "</ul>\n";
+}
+
+std::string fact(std::string_view name, std::string_view value) {
+  return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escaped(name), escaped(value));
+}
+
+std::string facts(const StudyResult& study) {
+  return "<dl class=\"facts\">\n" + fact("Version", study.version) +
+         fact("Machine", study.machine) + fact("Seed", std::to_string(study.seed)) +
+         fact("Maps", std::to_string(study.maps.size())) +
+         fact("Tests", with_thousands(study.gate.tests.size())) +
+         fact("Samples per tested configuration", with_thousands(study.gate.samples)) +
+         fact("Family-wise error", significant(study.gate.family_alpha)) + "</dl>\n";
+}
+
+constexpr std::string_view kHowToRead =
+    "A test rejects a sampler when samples as unlikely as those drawn would hardly ever come from "
+    "the distribution that the map demands. The family-wise error is the probability that a run "
+    "over correct samplers rejects anything at all. A test that accepts proves nothing beyond its "
+    "own sight, so each one also states the smallest deviation that it would have seen with a "
+    "power of 99\u00a0%. Error bars are two standard errors long on either side unless a chart "
+    "says "
+    "otherwise. Pictures, tables and data lie beside this file as EXR, CSV and JSON.";
+
+}  // namespace
+
+std::string overview_section(const StudyResult& study) {
+  return fmt::format(
+             "<header id=\"overview\">\n<p class=\"kicker\">Lightproof study</p>\n"
+             "<h1>{}</h1>\n",
+             escaped(headline(study))) +
+         sampler_list(study.gate) + other_findings(study) +
+         fmt::format("<p class=\"how\"><strong>How to read this.</strong> {}</p>\n",
+                     escaped(kHowToRead)) +
+         facts(study) + "</header>\n";
+}
+
+}  // namespace lightproof

@@ -1,0 +1,121 @@
+// Renders at equal numbers of samples, with their signed errors.
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "lightproof/image/writer.h"
+#include "lightproof/report/csv.h"
+#include "lightproof/report/findings.h"
+#include "lightproof/report/html.h"
+#include "lightproof/report/names.h"
+#include "lightproof/report/numbers.h"
+#include "lightproof/report/pictures.h"
+#include "lightproof/report/sections.h"
+
+namespace lightproof {
+namespace {
+
+using Scene = std::vector<const RenderRecord*>;
+
+std::string image(const Grid<Rgb>& encoded, std::string_view alternative) {
+  return fmt::format("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">",
+                     data_uri("image/png", png_bytes(encoded)), encoded.extent().width,
+                     encoded.extent().height, escaped(alternative));
+}
+
+std::string seconds_text(double seconds) {
+  return seconds > 0.0 ? page_number(seconds) + " s" : "time not measured";
+}
+
+std::string strategy_figure(const RenderRecord& r, double scale, double range) {
+  return fmt::format(
+      "<figure>{}\n{}\n<figcaption><strong>{}</strong><br>RMSE / mean {}<br>{}, {} per "
+      "pixel</figcaption></figure>\n",
+      image(tone_mapped(r.picture, scale), "Picture by " + r.strategy),
+      image(
+          diverging_picture(r.error, range),
+          fmt::format("Signed error of {}, from blue (too dark) to red (too bright)", r.strategy)),
+      escaped(r.strategy), page_number(r.rmse), seconds_text(r.seconds),
+      counted(r.samples, "sample"));
+}
+
+std::string hex(Rgb colour) {
+  const auto byte = [](float v) { return static_cast<int>(v * 255.0F + 0.5F); };
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.r), byte(colour.g), byte(colour.b));
+}
+
+std::string colour_bar(double range) {
+  return fmt::format(
+      "<div class=\"colour-bar\"><svg viewBox=\"0 0 100 6\" preserveAspectRatio=\"none\" "
+      "role=\"img\" aria-label=\"Colour scale from {0} (blue) over 0 (white) to {1} (red)\">"
+      "<defs><linearGradient id=\"signed\"><stop offset=\"0\" stop-color=\"{2}\"/>"
+      "<stop offset=\".5\" stop-color=\"{3}\"/><stop offset=\"1\" stop-color=\"{4}\"/>"
+      "</linearGradient></defs><rect width=\"100\" height=\"6\" fill=\"url(#signed)\"/></svg>"
+      "<p><span>\u2264 {0}<br>too dark</span><span>0</span><span>\u2265 {1}<br>too bright</span>"
+      "</p></div>\n",
+      page_number(-range, 1), "+" + page_number(range, 1), hex(diverging_colour(-range, range)),
+      hex(diverging_colour(0.0, range)), hex(diverging_colour(range, range)));
+}
+
+std::string reference_text(const RenderRecord& r) {
+  if (r.reference_samples == 0) return "";
+  return fmt::format("<br>{} per pixel; its own noise counts in every RMSE",
+                     counted(r.reference_samples, "sample"));
+}
+
+std::string scene_html(const Scene& scene) {
+  const RenderRecord& first = *scene.front();
+  const double scale = mean_exposure(first.reference);
+  std::vector<const Grid<double>*> errors;
+  for (const RenderRecord* r : scene) errors.push_back(&r->error);
+  const double range = common_range(errors);
+  std::string html = fmt::format("<h3>{}</h3>\n", escaped(render_finding(scene)));
+  html += paragraph(
+      fmt::format("Map {}, receiver {}, material {}.", first.map, first.receiver, first.material));
+  html += "<div class=\"renders\">\n";
+  html +=
+      fmt::format("<figure>{}\n{}<figcaption><strong>Reference</strong>{}</figcaption></figure>\n",
+                  image(tone_mapped(first.reference, scale), "Reference picture"),
+                  colour_bar(range), reference_text(first));
+  for (const RenderRecord* r : scene) html += strategy_figure(*r, scale, range);
+  return html + "</div>\n";
+}
+
+std::string render_table(const std::vector<RenderRecord>& renders) {
+  Table table("Renders", {"Strategy", "Map", "Receiver", "Material", "Samples per pixel",
+                          "RMSE / mean", "Seconds"});
+  for (const RenderRecord& r : renders) {
+    table.add({text_cell(r.strategy),
+               text_cell(r.map),
+               text_cell(r.receiver),
+               text_cell(r.material),
+               {with_thousands(r.samples), "number", ""},
+               number_cell(r.rmse),
+               number_cell(r.seconds)});
+  }
+  return table.html();
+}
+
+constexpr std::string_view kNote =
+    "Above: the picture, exposed so that the mean luminance of the reference's lit pixels is 0.35, "
+    "clipped and sRGB-encoded. Below: picture minus reference in luminance, relative to the "
+    "reference's mean, on one scale for all strategies of a scene; at most "
+    "1\u00a0% of the errors lie beyond its ends. Equal numbers of samples are not equal times: the "
+    "seconds are in the captions.";
+
+}  // namespace
+
+std::string render_section(const std::vector<RenderRecord>& renders) {
+  std::string html = "<section id=\"renders\">\n<h2>Renders</h2>\n";
+  if (renders.empty()) {
+    return html + paragraph("Nothing was rendered in this study.", "empty") + "</section>\n";
+  }
+  html += paragraph(kNote, "note");
+  for (const RenderScene& group : render_scenes(renders)) {
+    html += scene_html(members_of(group, renders));
+  }
+  return html + collapsible("Renders as a table", render_table(renders)) +
+         download_link("renders.csv", renders_csv(renders)) + "</section>\n";
+}
+
+}  // namespace lightproof

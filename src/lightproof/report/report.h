@@ -1,0 +1,20 @@
+// A study as files for people and programs.
+#pragma once
+
+#include <filesystem>
+
+#include "lightproof/suite/results.h"
+
+namespace lightproof {
+
+/// Writes into `folder`, which is created if need be:
+///   report.html    one self-contained page
+///   results.json   everything but the pixels (report/json.h)
+///   gate.csv, convergence.csv, variance.csv, throughput.csv, renders.csv, maps.csv
+///   <map>-<receiver>-<material>-<strategy>.exr, …-error.exr (signed, relative to the reference's
+///   mean, the same in R, G and B), <map>-<receiver>-<material>-reference.exr
+/// Each file appears complete or not at all; report.html comes last. Throws InputError if a file
+/// cannot be written.
+void write_report(const StudyResult& study, const std::filesystem::path& folder);
+
+}  // namespace lightproof

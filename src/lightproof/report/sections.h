@@ -1,0 +1,18 @@
+// The parts of the page, each as markup, in the order in which they stand.
+#pragma once
+
+#include <string>
+
+#include "lightproof/suite/results.h"
+
+namespace lightproof {
+
+std::string overview_section(const StudyResult& study);
+std::string gate_section(const GateResult& gate);
+std::string map_section(const std::vector<MapRecord>& maps);
+std::string convergence_section(const std::vector<ConvergenceRecord>& records);
+std::string variance_section(const std::vector<ConvergenceRecord>& records);
+std::string throughput_section(const StudyResult& study);
+std::string render_section(const std::vector<RenderRecord>& renders);
+
+}  // namespace lightproof

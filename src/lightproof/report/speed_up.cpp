@@ -1,0 +1,124 @@
+// The finding on throughput: the subject against the baseline, size by size.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "lightproof/report/findings.h"
+#include "lightproof/report/gate_summary.h"
+#include "lightproof/report/numbers.h"
+
+namespace lightproof {
+namespace {
+
+struct SpeedUp {
+  const ThroughputRecord* subject;
+  double factor;
+};
+
+std::vector<std::string> samplers_of(const std::vector<ThroughputRecord>& records) {
+  std::vector<std::string> names;
+  for (const ThroughputRecord& r : records) names.push_back(r.sampler);
+  return unique_names(names);
+}
+
+const ThroughputRecord* slowest(const std::vector<ThroughputRecord>& records) {
+  return &*std::max_element(records.begin(), records.end(), [](const auto& a, const auto& b) {
+    return a.ns_per_sample < b.ns_per_sample;
+  });
+}
+
+const ThroughputRecord* fastest(const std::vector<ThroughputRecord>& records) {
+  return &*std::min_element(records.begin(), records.end(), [](const auto& a, const auto& b) {
+    return a.ns_per_sample < b.ns_per_sample;
+  });
+}
+
+/// The name itself if it is there, else the first one that contains it, else nothing.
+std::string containing(const std::vector<std::string>& names, std::string_view part) {
+  if (std::find(names.begin(), names.end(), part) != names.end()) return std::string(part);
+  const auto found = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+    return name.find(part) != std::string::npos;
+  });
+  return found == names.end() ? "" : *found;
+}
+
+std::string subject_name(const StudyResult& study) {
+  const std::string wanted = study.gate.tests.empty() ? "binary_search" : subject_of(study.gate);
+  const std::string found = containing(samplers_of(study.throughput), wanted);
+  return found.empty() ? fastest(study.throughput)->sampler : found;
+}
+
+std::string baseline_name(const StudyResult& study) {
+  const std::vector<std::string> names = samplers_of(study.throughput);
+  for (const std::string_view part : {"published", "linear_scan", "linear"}) {
+    if (const std::string found = containing(names, part); !found.empty()) return found;
+  }
+  return slowest(study.throughput)->sampler;
+}
+
+/// Ascending by size.
+std::vector<SpeedUp> speed_ups(const std::vector<ThroughputRecord>& records,
+                               const std::string& subject, const std::string& baseline) {
+  std::vector<SpeedUp> factors;
+  for (const ThroughputRecord& a : records) {
+    for (const ThroughputRecord& b : records) {
+      if (a.sampler != subject || b.sampler != baseline) continue;
+      if (a.map != b.map || !(a.extent == b.extent) || !(a.ns_per_sample > 0.0)) continue;
+      factors.push_back({&a, b.ns_per_sample / a.ns_per_sample});
+    }
+  }
+  std::stable_sort(factors.begin(), factors.end(), [](const SpeedUp& a, const SpeedUp& b) {
+    return a.subject->extent.count() < b.subject->extent.count();
+  });
+  return factors;
+}
+
+/// The factor rises from every size to the next (over all maps).
+bool grows(const std::vector<SpeedUp>& factors) {
+  double last = 0.0;
+  for (std::size_t i = 0; i < factors.size();) {
+    const std::size_t size = factors[i].subject->extent.count();
+    double low = factors[i].factor;
+    double high = low;
+    for (; i < factors.size() && factors[i].subject->extent.count() == size; ++i) {
+      low = std::min(low, factors[i].factor);
+      high = std::max(high, factors[i].factor);
+    }
+    if (low <= last) return false;
+    last = high;
+  }
+  return true;
+}
+
+std::string times(double factor) { return page_number(factor, 2); }
+
+std::string range_text(double low, double high) {
+  return times(low) == times(high) ? times(low) + " times"
+                                   : times(low) + " to " + times(high) + " times";
+}
+
+}  // namespace
+
+std::string throughput_finding(const StudyResult& study) {
+  if (study.throughput.empty()) return "Throughput was not measured";
+  const std::string subject = subject_name(study);
+  const std::string baseline = baseline_name(study);
+  const std::vector<SpeedUp> all = speed_ups(study.throughput, subject, baseline);
+  if (subject == baseline || all.empty()) {
+    const ThroughputRecord& best = *fastest(study.throughput);
+    return fmt::format("{} takes {} ns per sample on {}", best.sampler,
+                       page_number(best.ns_per_sample), extent_text(best.extent));
+  }
+  const auto [low, high] = std::minmax_element(
+      all.begin(), all.end(), [](const auto& a, const auto& b) { return a.factor < b.factor; });
+  const std::string sizes = fmt::format("from {} to {}", extent_text(all.front().subject->extent),
+                                        extent_text(all.back().subject->extent));
+  const bool one_size = all.front().subject->extent == all.back().subject->extent;
+  const std::string where = one_size ? "at " + extent_text(all.front().subject->extent) : sizes;
+  return fmt::format("{} is {} as fast as {}, {}{}", subject, range_text(low->factor, high->factor),
+                     baseline, where,
+                     !one_size && grows(all) ? ", and the gap grows with the map" : "");
+}
+
+}  // namespace lightproof

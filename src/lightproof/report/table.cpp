@@ -1,0 +1,118 @@
+#include "lightproof/report/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "lightproof/report/gate_summary.h"
+#include "lightproof/report/numbers.h"
+
+namespace lightproof {
+namespace {
+
+using Row = std::vector<std::string>;
+
+/// Columns on the screen: code points of UTF-8 (no wide or combining characters are printed).
+std::size_t screen_width(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+  }));
+}
+
+std::vector<std::size_t> column_widths(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths;
+  for (const Row& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()), 0);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      widths[i] = std::max(widths[i], screen_width(row[i]));
+    }
+  }
+  return widths;
+}
+
+std::string line(const Row& row, const std::vector<std::size_t>& widths) {
+  std::string text;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    text += row[i];
+    if (i + 1 < row.size()) text.append(widths[i] - screen_width(row[i]) + 2, ' ');
+  }
+  return text;
+}
+
+std::string painted(const std::string& text, Outcome outcome, Colour colour) {
+  if (colour == Colour::off) return text;
+  const int code = outcome == Outcome::accept ? 32 : outcome == Outcome::reject ? 31 : 33;
+  return fmt::format("\x1b[{}m{}\x1b[0m", code, text);
+}
+
+std::string log10_p_text(const TestRecord& test) {
+  return test.log10_p ? significant(*test.log10_p) : "exact";
+}
+
+std::string detectable_text(const TestRecord& test) {
+  return test.detectable_effect ? significant(*test.detectable_effect) : "-";
+}
+
+std::string tally_text(const Tally& tally) {
+  const std::size_t passed = tally.tests - tally.rejected - tally.inconclusive;
+  return fmt::format("{}/{}", passed, tally.tests);
+}
+
+std::string summary_lines(const GateResult& gate, Colour colour) {
+  const std::vector<GateCell> cells = summarise(gate);
+  std::vector<Row> rows = {
+      {"verdict", "sampler", "map", "passed", "worst test", "log10 p", "effect", "detectable"}};
+  for (const GateCell& cell : cells) {
+    const TestRecord& worst = *cell.worst;
+    rows.push_back({outcome_text(cell.tally.outcome()),
+                    cell.configuration + (cell.known_defect ? " *" : ""), cell.map,
+                    tally_text(cell.tally), worst.oracle + "/" + worst.test, log10_p_text(worst),
+                    significant(worst.effect), detectable_text(worst)});
+  }
+  const std::vector<std::size_t> widths = column_widths(rows);
+  std::string text = line(rows[0], widths) + "\n";
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    text += painted(line(rows[i + 1], widths), cells[i].tally.outcome(), colour) + "\n";
+  }
+  return text;
+}
+
+std::string full_text(const TestRecord& test) {
+  std::string text = fmt::format(
+      "{} on {}: {}/{}\n    statistic {}, dof {}, log10 p {}, effect {}, detectable {}, {} samples",
+      configuration_name(test), test.map, test.oracle, test.test, significant(test.statistic, 6),
+      significant(test.dof, 6), log10_p_text(test), significant(test.effect), detectable_text(test),
+      with_thousands(test.samples));
+  if (!test.detail.empty()) text += "\n    " + test.detail;
+  return text + "\n";
+}
+
+std::string rejected_lines(const GateResult& gate, Colour colour) {
+  std::string text;
+  for (const TestRecord& test : gate.tests) {
+    if (test.outcome != Outcome::reject) continue;
+    text += painted("\u2717 " + full_text(test), test.outcome, colour);
+  }
+  return text.empty() ? "" : "\nRejected tests\n" + text;
+}
+
+}  // namespace
+
+std::string gate_table(const GateResult& gate, Colour colour) {
+  const Tally all = deciding_tally(gate);
+  const Tally known = known_defect_tally(gate);
+  std::string total = fmt::format(
+      "{}: {}, {} rejected, {} inconclusive; family-wise error {}, {} samples per "
+      "configuration, seed {}",
+      outcome_text(all.outcome()), counted(all.tests, "test"), all.rejected, all.inconclusive,
+      significant(gate.family_alpha), with_thousands(gate.samples), gate.seed);
+  if (known.tests > 0) {
+    total += fmt::format("\n* kept as published, with known defects: {} of {} rejected",
+                         known.rejected, counted(known.tests, "test"));
+  }
+  return summary_lines(gate, colour) + rejected_lines(gate, colour) + "\n" +
+         painted(total, all.outcome(), colour) + "\n";
+}
+
+}  // namespace lightproof

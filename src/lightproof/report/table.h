@@ -1,0 +1,16 @@
+// The gate's verdicts as text for a terminal.
+#pragma once
+
+#include <string>
+
+#include "lightproof/suite/results.h"
+
+namespace lightproof {
+
+enum class Colour { off, ansi };
+
+/// Aligned columns: one line per sampler, weighting and map with its worst test, then every
+/// rejected test in full, then the totals. Ends with a newline.
+std::string gate_table(const GateResult& gate, Colour colour = Colour::off);
+
+}  // namespace lightproof

@@ -1,0 +1,182 @@
+// lightproof gate: exit codes, table, JSON, and what they depend on.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/cli/program.h"
+
+namespace lightproof::test {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const Words kSound = {"gate", "constant", "--size", "64x32", "-n", "65536"};
+
+Finished gate_into(const std::filesystem::path& file, Words words) {
+  words.insert(words.end(), {"--json", file.string()});
+  return lightproof(words);
+}
+
+bool has_rejected_check_at_origin(const json& gate) {
+  const auto& tests = gate.at("tests");
+  return std::any_of(tests.begin(), tests.end(), [](const json& test) {
+    const std::string detail = test.at("detail");
+    return test.at("outcome") == "reject" && test.at("oracle") == "check" &&
+           detail.find("u = (0, 0)") != std::string::npos;
+  });
+}
+
+TEST(Gate, AcceptsASoundSamplerWithATable) {
+  Words words = kSound;
+  words.insert(words.end(), {"--sampler", "binary_search"});
+  const Finished gate = lightproof(words);
+  EXPECT_EQ(gate.exit_code, 0);
+  EXPECT_THAT(gate.out, AllOf(HasSubstr("verdict"), HasSubstr("binary_search A"),
+                              HasSubstr("binary_search B"), HasSubstr("accept"),
+                              HasSubstr("0 rejected"), HasSubstr("65,536 samples")));
+  EXPECT_THAT(gate.out, Not(HasSubstr("linear_scan")));
+  EXPECT_THAT(gate.err, IsEmpty());
+}
+
+TEST(Gate, RejectsThePublishedScanWhereTheFirstRowIsBlack) {
+  const TemporaryFolder folder;
+  const Finished gate =
+      gate_into(folder / "g.json", {"gate", "black-first-row", "--sampler", "linear_scan_published",
+                                    "--size", "64x32", "-n", "65536"});
+  EXPECT_EQ(gate.exit_code, 1);
+  EXPECT_THAT(gate.out, AllOf(HasSubstr("reject"), HasSubstr("Rejected tests")));
+  const json results = json_of(folder / "g.json");
+  EXPECT_EQ(results.at("outcome"), "reject");
+  EXPECT_TRUE(has_rejected_check_at_origin(results)) << results.dump(1);
+}
+
+TEST(Gate, ShowsKnownDefectsButPassesWithoutThem) {
+  const TemporaryFolder folder;
+  const Finished gate =
+      gate_into(folder / "g.json", {"gate", "black-first-row", "--size", "64x32", "-n", "65536"});
+  EXPECT_EQ(gate.exit_code, 0) << gate.out;
+  EXPECT_THAT(gate.out, AllOf(HasSubstr("linear_scan_published"), HasSubstr("reject")));
+  const json results = json_of(folder / "g.json");
+  EXPECT_EQ(results.at("outcome"), "accept");
+  for (const json& test : results.at("tests")) {
+    EXPECT_EQ(test.at("known_defect"), test.at("sampler") == "linear_scan_published");
+    EXPECT_TRUE(test.at("known_defect") || test.at("outcome") == "accept") << test.dump();
+  }
+}
+
+/// One texel holds all light but a few hundred millionths: all bins make one pool.
+void put_light_into_one_texel(Grid<Rgb>& picture) {
+  std::ranges::fill(picture.values(), Rgb(1e-6F));
+  picture(16, 7) = Rgb(1e3F);
+}
+
+TEST(Gate, IsInconclusiveWhereSamplesAreTooFewToTell) {
+  const TemporaryFolder folder;
+  write_map(folder / "spike.exr", {32, 16}, put_light_into_one_texel);
+  const Finished gate = gate_into(folder / "g.json", {"gate", (folder / "spike.exr").string(), "-n",
+                                                      "1024", "--sampler", "binary_search"});
+  EXPECT_EQ(gate.exit_code, 3) << gate.out << gate.err;
+  EXPECT_THAT(gate.out, HasSubstr("inconclusive"));
+  EXPECT_EQ(json_of(folder / "g.json").at("outcome"), "inconclusive");
+}
+
+TEST(GateJson, HasTheTypesThatItsReadersExpect) {
+  const json gate = gate_results({"constant"});
+  EXPECT_TRUE(gate.at("outcome").is_string());
+  EXPECT_TRUE(gate.at("family_alpha").is_number());
+  EXPECT_EQ(gate.at("samples"), 1024);
+  EXPECT_EQ(gate.at("seed"), 1);
+  ASSERT_FALSE(gate.at("tests").empty());
+  for (const json& test : gate.at("tests")) {
+    for (const char* key : {"sampler", "weighting", "map", "oracle", "test", "outcome"}) {
+      EXPECT_TRUE(test.at(key).is_string() && !test.at(key).empty()) << key << test.dump();
+    }
+    const json& log10_p = test.at("log10_p");
+    EXPECT_EQ(log10_p.is_null(), test.at("oracle") == "check") << test.dump();
+    EXPECT_TRUE(log10_p.is_null() || (log10_p.is_number() && log10_p <= 0.0)) << test.dump();
+    EXPECT_TRUE(test.at("effect").is_number()) << test.dump();
+    EXPECT_TRUE(test.at("known_defect").is_boolean());
+    EXPECT_TRUE(test.at("detail").is_string());
+  }
+}
+
+TEST(GateJson, HoldsWhatWasChosen) {
+  EXPECT_THAT(values_of(gate_results({"constant", "step"}), "map"),
+              ElementsAre("constant", "step"));
+  const json scan = gate_results({"constant", "--sampler", "linear_scan", "--weighting", "B"});
+  EXPECT_THAT(values_of(scan, "sampler"), ElementsAre("linear_scan"));
+  EXPECT_THAT(values_of(scan, "weighting"), ElementsAre("B"));
+  EXPECT_EQ(values_of(gate_results({}), "map").size(), 8U);
+}
+
+TEST(GateJson, IsTheSameForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  // Three tasks of samples per configuration, the last one not full.
+  Words words = {"gate", "constant", "sun-sky", "--size", "32x16", "-n", "600000", "-q", "-t", "1"};
+  std::vector<std::string> texts;
+  for (const char* threads : {"1", "2", "7"}) {
+    words.back() = threads;
+    EXPECT_EQ(gate_into(folder / "g.json", words).exit_code, 0);
+    texts.push_back(bytes_of(folder / "g.json"));
+  }
+  EXPECT_EQ(texts[0], texts[1]);
+  EXPECT_EQ(texts[0], texts[2]);
+}
+
+TEST(GateJson, FollowsTheSeed) {
+  const Words words = {"constant", "--sampler", "binary_search", "--seed"};
+  const auto with_seed = [&](const char* seed) {
+    Words all = words;
+    all.emplace_back(seed);
+    return gate_results(all);
+  };
+  const json one = with_seed("1");
+  json two = with_seed("2");
+  EXPECT_EQ(one, with_seed("1"));
+  EXPECT_EQ(one, gate_results({"constant", "--sampler", "binary_search"}));
+  EXPECT_EQ(two.at("seed"), 2);
+  EXPECT_NE(one.at("tests"), two.at("tests"));
+}
+
+TEST(GateQuiet, PrintsNothing) {
+  const TemporaryFolder folder;
+  const Finished gate = quick_gate({"constant", "-q", "--json", (folder / "g.json").string()});
+  EXPECT_EQ(gate.exit_code, 0);
+  EXPECT_THAT(gate.out, IsEmpty());
+  EXPECT_THAT(gate.err, IsEmpty());
+  EXPECT_TRUE(std::filesystem::exists(folder / "g.json"));
+}
+
+TEST(GateQuiet, KeepsTheExitCode) {
+  const Finished gate = quick_gate({"black-first-row", "-q", "--sampler", "linear_scan_published"});
+  EXPECT_EQ(gate.exit_code, 1);
+  EXPECT_THAT(gate.out + gate.err, IsEmpty());
+}
+
+TEST(GateQuiet, StillSaysWhatIsWrong) {
+  EXPECT_THAT(quick_gate({"none.exr", "-q"}).err, HasSubstr("none.exr"));
+}
+
+TEST(GateOptions, LeaveAMapAfterASamplerAMap) {
+  const Finished gate = quick_gate({"--sampler", "binary_search", "constant"});
+  EXPECT_EQ(gate.exit_code, 0) << gate.err;
+}
+
+TEST(GateOptions, ReadSamplesAsDecimal) {
+  EXPECT_EQ(gate_results({"constant", "-n", "02048"}).at("samples"), 2048);
+}
+
+TEST(GateOptions, RefuseANegativeSeed) {
+  const Finished gate = quick_gate({"constant", "--seed", "-1"});
+  EXPECT_EQ(gate.exit_code, 2);
+  EXPECT_THAT(gate.err, HasSubstr("--seed"));
+}
+
+}  // namespace
+}  // namespace lightproof::test

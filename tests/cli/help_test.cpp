@@ -1,0 +1,176 @@
+// Help, version and usage errors.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+
+namespace lightproof::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::MatchesRegex;
+using testing::Not;
+using testing::StartsWith;
+
+struct HelpCase {
+  std::string subcommand;
+  Words mentioned;
+
+  friend void PrintTo(const HelpCase& c, std::ostream* out) { *out << c.subcommand; }
+};
+
+class Help : public testing::TestWithParam<HelpCase> {};
+
+TEST_P(Help, NamesEveryOptionOnStdout) {
+  Words words = {"--help"};
+  if (!GetParam().subcommand.empty()) words.insert(words.begin(), GetParam().subcommand);
+  const Finished help = lightproof(words);
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.err, IsEmpty());
+  for (const std::string& text : GetParam().mentioned) EXPECT_THAT(help.out, HasSubstr(text));
+}
+
+const Words kCommon = {"MAP",    "--preset",     "--size",  "--repair",   "--any-aspect",
+                       "--seed", "-t,--threads", "--color", "-q,--quiet", "-n,--samples"};
+
+Words with_common(Words words) {
+  words.insert(words.end(), kCommon.begin(), kCommon.end());
+  return words;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Commands, Help,
+    testing::Values(HelpCase{"", {"study", "gate", "list", "--version", "Usage: lightproof"}},
+                    HelpCase{"gate", with_common({"--sampler", "--weighting", "--json",
+                                                  "Exit codes", "inconclusive"})},
+                    HelpCase{"study", with_common({"-o,--output", "--throughput", "--no-throughput",
+                                                   "Exit codes"})},
+                    HelpCase{"list",
+                             {"samplers", "maps", "presets", "materials", "receivers", "strategies",
+                              "--json"}}),
+    [](const auto& test) {
+      return test.param.subcommand.empty() ? "lightproof" : test.param.subcommand;
+    });
+
+TEST(Version, IsOneLine) {
+  const Finished version = lightproof({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.out, MatchesRegex("lightproof [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  EXPECT_THAT(version.err, IsEmpty());
+}
+
+struct UsageCase {
+  std::string name;
+  Words words;
+  std::string message;
+
+  friend void PrintTo(const UsageCase& c, std::ostream* out) { *out << c.name; }
+};
+
+class Usage : public testing::TestWithParam<UsageCase> {};
+
+TEST_P(Usage, ErrorIsExit2WithAReasonOnStderr) {
+  const Finished finished = lightproof(GetParam().words);
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.out, IsEmpty());
+  EXPECT_THAT(finished.err, HasSubstr(GetParam().message));
+  EXPECT_THAT(finished.err, Not(HasSubstr("internal error")));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Errors, Usage,
+    testing::Values(UsageCase{"NoSubcommand", {}, "subcommand is required"},
+                    UsageCase{"UnknownSubcommand", {"prove"}, "subcommand"},
+                    UsageCase{"UnknownOption", {"gate", "--frobnicate"}, "--frobnicate"},
+                    UsageCase{"UnknownStudyOption", {"study", "--frobnicate"}, "--frobnicate"},
+                    UsageCase{"MissingValue", {"gate", "--size"}, "--size"},
+                    UsageCase{"TooFewSamples", {"gate", "-n", "1023"}, "--samples"},
+                    UsageCase{"TooManySamples", {"gate", "-n", "1099511627777"}, "--samples"},
+                    UsageCase{"NegativeSamples", {"gate", "-n", "-5"}, "--samples"},
+                    UsageCase{"FractionalSamples", {"gate", "-n", "2048.5"}, "--samples"},
+                    UsageCase{"SamplesInWords", {"study", "-n", "many"}, "--samples"},
+                    UsageCase{"NegativeThreads", {"gate", "-t", "-1"}, "--threads"},
+                    UsageCase{"TooManyThreads", {"gate", "-t", "4097"}, "--threads"},
+                    UsageCase{"SeedInWords", {"gate", "--seed", "x"}, "--seed"},
+                    UsageCase{"SeedBeyond64Bits",
+                              {"gate", "constant", "--size", "8x4", "-n", "1024", "--seed",
+                               "18446744073709551616"},
+                              "--seed"},
+                    UsageCase{"UnknownColor", {"gate", "--color", "red"}, "always"},
+                    UsageCase{"UnknownWeighting", {"gate", "--weighting", "C"}, "--weighting"},
+                    UsageCase{"UnknownRegistry", {"list", "cats"}, "samplers"},
+                    UsageCase{"NoRegistry", {"list"}, "WHAT"},
+                    UsageCase{"BothThroughputs",
+                              {"study", "--throughput", "f", "--no-throughput"},
+                              "--throughput"}),
+    [](const auto& test) { return test.param.name; });
+
+class BadSize : public testing::TestWithParam<std::string> {};
+
+TEST_P(BadSize, IsRefusedWithTheOptionAndTheText) {
+  const Finished finished = lightproof({"gate", "constant", "--size", GetParam()});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.err, AllOf(StartsWith("lightproof: "), HasSubstr("--size"),
+                                  HasSubstr("'" + GetParam() + "'"), HasSubstr("WIDTHxHEIGHT")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Errors, BadSize,
+                         testing::Values("64", "x", "64x", "x32", "0x32", "64x0", "-64x-32",
+                                         "64x32x2", "64x32 ", "64X32", "32769x1", "big", ""));
+
+TEST(SizeOfBuiltInMaps, OfTheSmallestMapsIsAccepted) {
+  for (const char* size : {"1x1", "2x1", "1x2", "3x2"}) {
+    const Finished finished = lightproof({"gate", "constant", "-n", "1024", "--size", size});
+    EXPECT_EQ(finished.exit_code, 0) << size << "\n" << finished.out << finished.err;
+  }
+}
+
+// Read as a 32-bit number, 2^32 + 64 is 64.
+TEST(SizeOfBuiltInMaps, IsNotCutTo32Bits) {
+  const Finished finished =
+      lightproof({"gate", "constant", "-n", "1024", "--size", "4294967360x32"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.err, HasSubstr("--size"));
+}
+
+TEST(SizeOfBuiltInMaps, IsCheckedEvenIfNoBuiltInMapUsesIt) {
+  const TemporaryFolder folder;
+  write_map(folder / "sky.exr");
+  const Finished finished =
+      lightproof({"gate", "sky.exr", "-n", "1024", "--size", "banana"}, folder / "");
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.err, HasSubstr("--size"));
+}
+
+TEST(UnknownName, OfASamplerListsTheKnownOnes) {
+  const Finished finished = lightproof({"gate", "constant", "--sampler", "alias"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.err, AllOf(HasSubstr("'alias'"), HasSubstr("linear_scan_published"),
+                                  HasSubstr("binary_search")));
+}
+
+TEST(UnknownName, OfAPresetListsTheKnownOnes) {
+  const TemporaryFolder folder;
+  write_map(folder / "sky.exr");
+  const Finished finished = quick_gate({"sky.exr", "--preset", "maya"}, folder / "");
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.err, AllOf(HasSubstr("'maya'"), HasSubstr("z-up"), HasSubstr("pbrt-v4")));
+}
+
+TEST(UnknownName, OfAPresetIsRefusedEvenIfNoFileUsesIt) {
+  const Finished finished = quick_gate({"constant", "--preset", "maya"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.err, HasSubstr("'maya'"));
+}
+
+TEST(UnknownName, OfAMapListsTheBuiltInOnes) {
+  const Finished finished = lightproof({"gate", "constnat"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.err,
+              AllOf(HasSubstr("constnat"), HasSubstr("constant"), HasSubstr("black-first-row")));
+}
+
+}  // namespace
+}  // namespace lightproof::test

@@ -1,0 +1,111 @@
+// Ctrl-C: exit code 130, soon, and nothing half-written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "tests/cli/program.h"
+
+namespace lightproof::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// What a user waits for before pressing Ctrl-C again.
+constexpr double kPatience = 5.0;
+
+Command on_terminal(const Words& words, const std::filesystem::path& folder) {
+  Command command = lightproof_command(words, folder);
+  command.terminal = Terminal::on_stderr;
+  return command;
+}
+
+/// Lets the program run on for this long after it has started to listen.
+void work_for(const Process& process, milliseconds time) {
+  ASSERT_TRUE(process.wait_to_catch(SIGINT, seconds(60)));
+  std::this_thread::sleep_for(time);
+}
+
+struct Interruption {
+  Finished finished;
+  double seconds = 0.0;
+};
+
+Interruption interrupt(Process& process, int signal = SIGINT) {
+  const auto start = std::chrono::steady_clock::now();
+  process.send(signal);
+  Interruption result{process.wait(), 0.0};
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+void expect_interrupted(const Interruption& interruption) {
+  EXPECT_EQ(interruption.finished.exit_code, 130) << interruption.finished.err;
+  EXPECT_THAT(interruption.finished.err, HasSubstr("interrupted"));
+  EXPECT_THAT(interruption.finished.out, IsEmpty());
+  EXPECT_LT(interruption.seconds, kPatience);
+}
+
+class StudyPhase : public testing::TestWithParam<const char*> {};
+
+TEST_P(StudyPhase, StopsSoonAndLeavesNothing) {
+  const TemporaryFolder folder;
+  Process study(on_terminal(
+      {"study", "constant", "--size", "32x16", "-n", "65536", "--no-throughput", "-o", "report"},
+      folder / ""));
+  ASSERT_TRUE(study.wait_for_err(GetParam(), seconds(60)));
+  expect_interrupted(interrupt(study));
+  EXPECT_THAT(names_in(folder / "report"), IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Interrupted, StudyPhase, testing::Values("gate", "convergence"),
+                         [](const auto& test) { return std::string(test.param); });
+
+const Words kLongGate = {"gate", "--size", "64x32", "-n", "1073741824", "--json", "gate.json"};
+
+TEST(Interrupted, GateStopsSoonAndLeavesNothing) {
+  const TemporaryFolder folder;
+  Process gate(lightproof_command(kLongGate, folder / ""));
+  work_for(gate, milliseconds(500));
+  expect_interrupted(interrupt(gate));
+  EXPECT_THAT(names_in(folder / ""), IsEmpty());
+}
+
+TEST(Interrupted, GateKeepsAnEarlierFile) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "gate.json", "earlier");
+  Process gate(lightproof_command(kLongGate, folder / ""));
+  work_for(gate, milliseconds(500));
+  expect_interrupted(interrupt(gate));
+  EXPECT_EQ(bytes_of(folder / "gate.json"), "earlier");
+}
+
+TEST(Interrupted, ByTerminationLikeByCtrlC) {
+  const TemporaryFolder folder;
+  Process gate(lightproof_command(kLongGate, folder / ""));
+  work_for(gate, milliseconds(500));
+  expect_interrupted(interrupt(gate, SIGTERM));
+}
+
+// Whatever an interrupt leaves unfinished must not be judged, whenever it comes.
+class GateMoment : public testing::TestWithParam<int> {};
+
+TEST_P(GateMoment, StopsSoonAndLeavesNothing) {
+  const TemporaryFolder folder;
+  Process gate(lightproof_command(
+      {"gate", "--size", "512x256", "-n", "4194304", "--json", "gate.json"}, folder / ""));
+  work_for(gate, milliseconds(GetParam()));
+  expect_interrupted(interrupt(gate));
+  EXPECT_THAT(names_in(folder / ""), IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(AfterMilliseconds, GateMoment,
+                         testing::Values(1, 30, 100, 300, 800, 2000));
+
+}  // namespace
+}  // namespace lightproof::test

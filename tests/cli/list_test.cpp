@@ -1,0 +1,78 @@
+// lightproof list: the registries as text and as JSON.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "tests/cli/program.h"
+
+namespace lightproof::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+struct Registry {
+  std::string name;
+  std::string member;
+
+  friend void PrintTo(const Registry& r, std::ostream* out) { *out << r.name; }
+};
+
+class List : public testing::TestWithParam<Registry> {
+ protected:
+  static Words lines(const std::string& text) {
+    Words lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+  }
+};
+
+TEST_P(List, StartsEachLineWithAName) {
+  const Finished list = lightproof({"list", GetParam().name});
+  EXPECT_EQ(list.exit_code, 0);
+  EXPECT_THAT(list.err, IsEmpty());
+  EXPECT_THAT(lines(list.out), Contains(StartsWith(GetParam().member + " ")));
+}
+
+TEST_P(List, SaysTheSameAsJson) {
+  const Finished list = lightproof({"list", GetParam().name, "--json"});
+  EXPECT_EQ(list.exit_code, 0);
+  const auto json = nlohmann::json::parse(list.out);
+  const Words text = lines(lightproof({"list", GetParam().name}).out);
+  ASSERT_EQ(json.size(), text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::string name = json[i].at("name");
+    const std::string description = json[i].at("description");
+    EXPECT_THAT(text[i], StartsWith(name + " "));
+    EXPECT_THAT(text[i], HasSubstr("  " + description));
+    EXPECT_THAT(description, Not(IsEmpty()));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registries, List,
+                         testing::Values(Registry{"samplers", "binary_search"},
+                                         Registry{"maps", "sun-sky"},
+                                         Registry{"presets", "openexr"},
+                                         Registry{"materials", "phong"},
+                                         Registry{"receivers", "sphere-on-plane"},
+                                         Registry{"strategies", "environment B"}),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(ListSamplers, MarksKnownDefects) {
+  EXPECT_THAT(lightproof({"list", "samplers"}).out, HasSubstr("known defects"));
+}
+
+TEST(ListMaps, NamesMapsThatTheGateTakes) {
+  for (const auto& map : nlohmann::json::parse(lightproof({"list", "maps", "--json"}).out)) {
+    const std::string name = map.at("name");
+    EXPECT_EQ(quick_gate({name, "--sampler", "binary_search", "-q"}).exit_code, 0) << name;
+  }
+}
+
+}  // namespace
+}  // namespace lightproof::test

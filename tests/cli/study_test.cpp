@@ -1,0 +1,133 @@
+// lightproof study: what it writes. The studies run side by side, once for all tests.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "lightproof/image/reader.h"
+#include "tests/cli/program.h"
+
+namespace lightproof::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::AnyOf;
+using testing::Contains;
+using testing::Each;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+const Words kStudy = {"study", "constant",        "--size", "32x16", "-n",
+                      "65536", "--no-throughput", "-o",     "report"};
+constexpr auto kLimit = std::chrono::seconds(1000);
+
+/// A disk of 64 kB, on which an earlier report lies; then what is on it.
+const std::string kOnFullDisk =
+    "mount -t tmpfs -o size=64k none report && echo earlier > report/report.html && \"$@\"; "
+    "code=$?; ls -A report; cat report/report.html; exit $code";
+
+class Study : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder();
+    for (const char* name : {"plain", "full", "full/report"}) fs::create_directory(*folder_ / name);
+    has_namespaces_ = has_mount_namespaces();
+    Process plain(lightproof_command(kStudy, *folder_ / "plain"));
+    if (has_namespaces_) {
+      Process full(in_mount_namespace(kOnFullDisk, kStudy, *folder_ / "full"));
+      full_ = new Finished(full.wait(kLimit));
+    }
+    plain_ = new Finished(plain.wait(kLimit));
+  }
+
+  static void TearDownTestSuite() {
+    delete folder_;
+    delete plain_;
+    delete full_;
+  }
+
+  static fs::path path(const std::string& name) { return *folder_ / ("plain/report/" + name); }
+
+  static inline TemporaryFolder* folder_ = nullptr;
+  static inline Finished* plain_ = nullptr;
+  static inline Finished* full_ = nullptr;
+  static inline bool has_namespaces_ = false;
+};
+
+TEST_F(Study, EndsWithThePathOfItsReport) {
+  EXPECT_EQ(plain_->exit_code, 0);
+  EXPECT_EQ(plain_->out, "report/report.html\n");
+  EXPECT_THAT(plain_->err, IsEmpty());
+}
+
+TEST_F(Study, WritesOneSelfContainedPage) {
+  const std::string page = bytes_of(path("report.html"));
+  EXPECT_THAT(page, AllOf(StartsWith("<!"), HasSubstr("</html>"), HasSubstr("constant")));
+  EXPECT_THAT(page, Not(AnyOf(HasSubstr("<script src="), HasSubstr("<link rel=\"stylesheet\""))));
+}
+
+TEST_F(Study, WritesResultsAsJson) {
+  const json results = json_of(path("results.json"));
+  EXPECT_EQ(results.at("gate").at("outcome"), "accept");
+  EXPECT_EQ(results.at("maps").at(0).at("name"), "constant");
+  EXPECT_FALSE(results.at("convergence").empty());
+  EXPECT_TRUE(results.at("throughput").empty());
+  for (const json& render : results.at("renders")) {
+    for (const char* key : {"picture", "error", "reference"}) {
+      EXPECT_TRUE(fs::exists(path(render.at(key)))) << render.dump();
+    }
+  }
+}
+
+TEST_F(Study, WritesTablesWithAHeadAndRows) {
+  for (const char* name :
+       {"gate.csv", "convergence.csv", "variance.csv", "renders.csv", "maps.csv"}) {
+    const std::string table = bytes_of(path(name));
+    EXPECT_GE(std::count(table.begin(), table.end(), '\n'), 2) << name;
+    EXPECT_NE(table.find(','), std::string::npos) << name;
+  }
+}
+
+TEST_F(Study, WritesPicturesThatCanBeRead) {
+  int pictures = 0;
+  for (const std::string& name : names_in(path(""))) {
+    if (!name.ends_with(".exr") || name.ends_with("-error.exr")) continue;
+    const EnvironmentMap picture = read_environment_map(path(name), {.any_aspect = true});
+    EXPECT_EQ(picture.radiance.extent(), (Extent{160, 120})) << name;
+    ++pictures;
+  }
+  EXPECT_EQ(pictures, 5);  // four strategies and their reference
+}
+
+TEST_F(Study, NamesFilesWithoutSpaces) {
+  EXPECT_THAT(names_in(path("")), Each(Not(HasSubstr(" "))));
+}
+
+TEST_F(Study, LeavesNoPartsBehind) { EXPECT_THAT(parts_in(path("")), IsEmpty()); }
+
+TEST_F(Study, FindsTheSameAsTheGate) {
+  const json gate = json_of(path("results.json")).at("gate");
+  const TemporaryFolder folder;
+  lightproof({"gate", "constant", "--size", "32x16", "-n", "65536", "-q", "--json",
+              (folder / "g.json").string()});
+  EXPECT_EQ(gate, json_of(folder / "g.json"));
+}
+
+TEST_F(Study, OnAFullDiskNamesFileAndReason) {
+  if (!has_namespaces_) GTEST_SKIP() << "mount namespaces are not available here";
+  EXPECT_EQ(full_->exit_code, 2);
+  EXPECT_THAT(full_->err, AllOf(StartsWith("lightproof: report/"), HasSubstr(".exr"),
+                                HasSubstr("No space left on device")));
+}
+
+TEST_F(Study, OnAFullDiskKeepsTheEarlierReportAndLeavesNoParts) {
+  if (!has_namespaces_) GTEST_SKIP() << "mount namespaces are not available here";
+  EXPECT_THAT(full_->out, AllOf(HasSubstr("report.html\nearlier\n"), Not(HasSubstr(".part"))));
+}
+
+}  // namespace
+}  // namespace lightproof::test

@@ -1,0 +1,97 @@
+#include "lightproof/report/charts.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "fixture.h"
+
+namespace lightproof {
+namespace {
+
+using nlohmann::json;
+
+TEST(SeriesStyles, DifferInColourAndInShape) {
+  std::vector<std::string> names;
+  for (char c = 'a'; c < 'i'; ++c) names.emplace_back(1, c);
+  names.emplace_back("a");
+  const std::vector<SeriesStyle> styles = series_styles(names);
+  ASSERT_EQ(styles.size(), 8U);
+  std::set<std::string> colours;
+  std::set<std::string> shapes;
+  for (const SeriesStyle& style : styles) {
+    colours.insert(style.colour);
+    shapes.insert(style.shape);
+  }
+  EXPECT_EQ(colours.size(), 8U);
+  EXPECT_EQ(shapes.size(), 8U);
+}
+
+TEST(ConvergenceChart, HasEveryPointAndAListOfMapsAndScenes) {
+  const json chart = json::parse(convergence_chart(testing::made_up_study().convergence));
+  EXPECT_EQ(chart["data"]["values"].size(), 128U * 6U);
+  ASSERT_EQ(chart["params"].size(), 2U);
+  EXPECT_EQ(chart["params"][0]["bind"]["options"].size(), 8U);
+  EXPECT_EQ(chart["params"][1]["bind"]["options"].size(), 4U);
+}
+
+TEST(ConvergenceChart, OffersOnlyWhatWasMeasured) {
+  StudyResult study = testing::made_up_study();
+  study.convergence.resize(21);  // two maps, one of them with two of the four scenes
+  const json chart = json::parse(convergence_chart(study.convergence));
+  ASSERT_EQ(chart["params"].size(), 1U);
+  EXPECT_EQ(chart["params"][0]["bind"]["options"].size(), 6U);
+}
+
+TEST(ConvergenceChart, LeavesOutWhatALogarithmCannotShow) {
+  StudyResult study = testing::made_up_study();
+  study.convergence.resize(4);
+  study.convergence[0].measured_variance = 0.0;  // all but exact
+  study.convergence[0].predicted_variance = 1e-10;
+  study.convergence[1].points[0].rmse = 0.0;
+  study.convergence[1].points[1].predicted = 0.0;
+  study.convergence[1].points[2].rmse_error = 100.0;
+  const json rows = json::parse(convergence_chart(study.convergence))["data"]["values"];
+  EXPECT_EQ(rows.size(), 3U * 6U - 1U);
+  EXPECT_TRUE(rows[0]["predicted"].is_null());
+  for (const json& row : rows) EXPECT_GT(row["low"].get<double>(), 0.0);
+}
+
+TEST(SmallConvergenceCharts, ShareTheirAxis) {
+  const auto records = testing::made_up_study().convergence;
+  const std::string scene = scene_name(records[0]);
+  const json a = json::parse(small_convergence_chart(records, "city", scene));
+  const json b = json::parse(small_convergence_chart(records, "night", scene));
+  const auto domain = [](const json& chart) {
+    return chart["layer"][0]["encoding"]["y"]["scale"]["domain"];
+  };
+  EXPECT_EQ(a["data"]["values"].size(), 4U * 6U);
+  EXPECT_EQ(domain(a), domain(b));
+}
+
+TEST(VarianceChart, HasBarsOfTwoStandardErrors) {
+  auto records = testing::made_up_study().convergence;
+  records.resize(2);
+  records[0].predicted_variance = 2.0;
+  records[0].measured_variance = 2.2;
+  records[0].variance_ratio_error = 0.03;
+  records[1].predicted_variance = 0.0;
+  const json rows = json::parse(variance_chart(records))["data"]["values"];
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_DOUBLE_EQ(rows[0]["ratio"], 1.1);
+  EXPECT_DOUBLE_EQ(rows[0]["low"], 1.04);
+  EXPECT_DOUBLE_EQ(rows[0]["high"], 1.16);
+}
+
+TEST(ThroughputChart, NamesTheFittedExponent) {
+  const StudyResult study = testing::made_up_study();
+  const json rows = json::parse(throughput_chart(study.throughput, study.growth))["data"]["values"];
+  ASSERT_EQ(rows.size(), 15U);
+  EXPECT_EQ(rows[0]["series"], "binary_search \u221d (S+T)^0.16");
+  EXPECT_EQ(rows[0]["size"], 384);
+  EXPECT_EQ(rows[0]["extent"], "256\u00d7128");
+}
+
+}  // namespace
+}  // namespace lightproof

@@ -1,0 +1,201 @@
+#include "lightproof/report/findings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fixture.h"
+
+namespace lightproof {
+namespace {
+
+StudyResult with_tests(std::vector<TestRecord> tests) {
+  StudyResult study;
+  study.gate = {1e-6, 1000, 1, std::move(tests)};
+  return study;
+}
+
+ConvergenceRecord estimator(double slope, double ratio) {
+  ConvergenceRecord r;
+  r.map = "city";
+  r.receiver = "sphere";
+  r.material = "Lambert";
+  r.strategy = "uniform";
+  r.slope = slope;
+  r.slope_error = 0.01;
+  r.predicted_variance = 2.0;
+  r.measured_variance = 2.0 * ratio;
+  r.variance_ratio_error = 0.01;
+  return r;
+}
+
+TEST(Headline, CountsTheTestsOfTheSubjectAlone) {
+  TestRecord other = testing::accepted_test("linear_scan", "city");
+  other.outcome = Outcome::reject;
+  const StudyResult study = with_tests({other, testing::accepted_test("binary_search", "city"),
+                                        testing::accepted_test("binary_search", "night")});
+  EXPECT_EQ(headline(study),
+            "On two maps, binary_search draws the right distribution: 0 of 2 tests rejected at a "
+            "family-wise error of 1e-6");
+}
+
+TEST(Headline, AdmitsRejection) {
+  TestRecord bad = testing::accepted_test("binary_search", "city");
+  bad.outcome = Outcome::reject;
+  EXPECT_EQ(headline(with_tests({bad, testing::accepted_test("binary_search", "city")})),
+            "On one map, binary_search does not draw the right distribution: 1 of 2 tests rejected "
+            "at a family-wise error of 1e-6");
+}
+
+TEST(Headline, LeavesTheInconclusiveOpen) {
+  TestRecord open = testing::accepted_test("binary_search", "city");
+  open.outcome = Outcome::inconclusive;
+  EXPECT_EQ(headline(with_tests({open, testing::accepted_test("binary_search", "city")})),
+            "On one map, the verdict on binary_search is open: 1 of 2 tests inconclusive, none "
+            "rejected");
+  EXPECT_EQ(headline({}), "No test was run");
+}
+
+TEST(SamplerFindings, NameTheWorstTestAndKnownDefects) {
+  TestRecord mild = testing::accepted_test("linear_scan_published", "city");
+  mild.outcome = Outcome::reject;
+  mild.log10_p = -8.0;
+  mild.known_defect = true;
+  TestRecord grave = mild;
+  grave.test = "rows";
+  grave.log10_p = -80.0;
+  grave.detail = "row 0 is never drawn";
+  const auto findings =
+      sampler_findings(with_tests({testing::accepted_test("alias", "city"), mild, grave}).gate);
+  ASSERT_EQ(findings.size(), 2U);
+  EXPECT_EQ(findings[0].outcome, Outcome::accept);
+  EXPECT_EQ(findings[0].sentence, "alias: 0 of 1 test rejected");
+  EXPECT_EQ(findings[1].outcome, Outcome::reject);
+  EXPECT_EQ(findings[1].sentence,
+            "linear_scan_published: 2 of 2 tests rejected (kept as published, with its known "
+            "defects); for example reference rows of linear_scan_published B on city (row 0 is "
+            "never drawn)");
+}
+
+TEST(ConvergenceFinding, GivesTheRangeWhenAllAgree) {
+  EXPECT_EQ(convergence_finding({estimator(-0.51, 1.0), estimator(-0.48, 1.0)}),
+            "All 2 estimators fall with slope \u22120.5 as predicted: fitted slopes from "
+            "\u22120.510 to \u22120.480, each within 3 of its standard errors (0.010 to 0.010)");
+}
+
+TEST(ConvergenceFinding, NamesTheFarthest) {
+  EXPECT_EQ(convergence_finding({estimator(-0.51, 1.0), estimator(-0.4, 1.0)}),
+            "1 of 2 estimators fall with slope \u22120.5 within 3 standard errors (normal errors "
+            "would leave 0.0054 outside); the farthest is uniform on city, sphere, Lambert with "
+            "slope \u22120.400 \u00b1 0.010");
+}
+
+TEST(ConvergenceFinding, SetsEstimatorsWithoutASlopeApart) {
+  EXPECT_EQ(convergence_finding({estimator(-0.5, 1.0), estimator(std::nan(""), 1.0)}),
+            "The one estimator falls with slope \u22120.5 as predicted: fitted slopes from "
+            "\u22120.500 to \u22120.500, each within 3 of its standard errors (0.010 to 0.010); 1 "
+            "other could not be fitted");
+  EXPECT_EQ(convergence_finding({}), "No slope could be fitted");
+}
+
+TEST(PredictionFinding, CountsPointsAndNamesTheFarthest) {
+  ConvergenceRecord r = estimator(-0.5, 1.0);
+  r.points = {{16, 1.0, 0.1, 1.05}, {64, 0.5, 0.05, 0.75}};
+  const std::string text =
+      "1 of 2 measured points lie within 3 standard errors of the predicted error (normal errors "
+      "would leave 0.0054 outside); the farthest is 5 standard errors away (uniform on city, "
+      "sphere, Lambert).";
+  EXPECT_EQ(prediction_finding({r}), text);
+  r.points.push_back({4, 1.0, 2000.0, 300.0});
+  EXPECT_EQ(prediction_finding({r}),
+            text +
+                " Left out of this count: 1 point whose standard error is unknown or more than "
+                "a third of the prediction.");
+}
+
+TEST(Estimators, WithoutAStandardErrorAreNotJudged) {
+  ConvergenceRecord r = estimator(-0.5, 1.00001);
+  EXPECT_TRUE(has_ratio(r));
+  EXPECT_TRUE(has_slope(r));
+  r.variance_ratio_error = 0.0;
+  r.slope_error = std::nan("");
+  EXPECT_FALSE(has_ratio(r));
+  EXPECT_FALSE(has_slope(r));
+  r.variance_ratio_error = 0.01;
+  r.measured_variance = 0.0;
+  r.predicted_variance = 8e-11;  // what quadrature leaves of an exact zero
+  EXPECT_TRUE(is_all_but_exact(r));
+  EXPECT_FALSE(has_ratio(r));
+}
+
+TEST(VarianceFinding, AgreesOrNamesTheFarthest) {
+  EXPECT_EQ(variance_finding({estimator(-0.5, 0.99), estimator(-0.5, 1.02)}),
+            "All 2 ratios of measured to predicted variance within 3 standard errors of 1: from "
+            "0.990 to 1.02");
+  EXPECT_EQ(variance_finding({estimator(-0.5, 0.99), estimator(-0.5, 1.5)}),
+            "1 of 2 ratios of measured to predicted variance within 3 standard errors of 1 (normal "
+            "errors would leave 0.0054 outside); the farthest is uniform on city, sphere, Lambert "
+            "with 1.500 \u00b1 0.010");
+  EXPECT_EQ(variance_finding({}), "No variance was both measured and predicted");
+}
+
+StudyResult speeds(double slow_small, double slow_large) {
+  StudyResult study;
+  study.throughput = {
+      {"linear_scan", "sun", {512, 256}, 5000.0, 1.0, 1.0, 0.0, 0.0},
+      {"binary_search", "sun", {512, 256}, 10.0, 9.0, 11.0, 0.0, 0.0},
+      {"binary_search", "sun", {1024, 512}, 10.0, 9.0, 11.0, 0.0, 0.0},
+      {"linear_scan_published", "sun", {512, 256}, slow_small, 1.0, 1.0, 0.0, 0.0},
+      {"linear_scan_published", "sun", {1024, 512}, slow_large, 1.0, 1.0, 0.0, 0.0}};
+  return study;
+}
+
+TEST(ThroughputFinding, ComparesWithThePublishedScan) {
+  EXPECT_EQ(throughput_finding(speeds(130.0, 400.0)),
+            "binary_search is 13 to 40 times as fast as linear_scan_published, from 512\u00d7256 "
+            "to 1024\u00d7512, and the gap grows with the map");
+}
+
+TEST(ThroughputFinding, DoesNotClaimGrowthOrSpeedThatIsNotThere) {
+  EXPECT_EQ(throughput_finding(speeds(400.0, 130.0)),
+            "binary_search is 13 to 40 times as fast as linear_scan_published, from 512\u00d7256 "
+            "to 1024\u00d7512");
+  EXPECT_EQ(throughput_finding(speeds(5.0, 4.0)),
+            "binary_search is 0.40 to 0.50 times as fast as linear_scan_published, from "
+            "512\u00d7256 to 1024\u00d7512");
+  EXPECT_EQ(throughput_finding({}), "Throughput was not measured");
+}
+
+TEST(RenderFinding, ComparesBestAndWorst) {
+  RenderRecord good;
+  good.strategy = "environment B";
+  good.samples = 64;
+  good.rmse = 0.02;
+  RenderRecord bad = good;
+  bad.strategy = "uniform";
+  bad.rmse = 0.5;
+  EXPECT_EQ(render_finding({&bad, &good}),
+            "At 64 samples per pixel environment B has the smallest error, 0.0200 of the mean; "
+            "that of uniform is 25 times as large");
+  EXPECT_EQ(renders_finding({bad, good}), render_finding({&bad, &good}));
+  RenderRecord elsewhere = bad;
+  elsewhere.map = "night";
+  EXPECT_EQ(renders_finding({bad, good, elsewhere}),
+            "Smallest error over 2 scenes: environment B in 1, uniform in 1");
+}
+
+TEST(MapFinding, ExplainsTheEffectiveFraction) {
+  MapRecord map;
+  map.effective_fraction = 0.02;
+  EXPECT_EQ(map_finding(map),
+            "The light counts as if it came evenly from 2\u00a0% of the sphere (its effective "
+            "fraction), so directions drawn uniformly have a variance of 49 \u00d7 mean\u00b2 per "
+            "sample; sampling the map pays off a lot.");
+  map.effective_fraction = 1.0;
+  EXPECT_EQ(map_finding(map),
+            "The light counts as if it came evenly from 100\u00a0% of the sphere (its effective "
+            "fraction), so directions drawn uniformly do as well as any.");
+}
+
+}  // namespace
+}  // namespace lightproof

@@ -1,0 +1,227 @@
+#include "fixture.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "lightproof/core/random.h"
+
+namespace lightproof::testing {
+namespace {
+
+const std::array<std::string, 8> kMaps = {
+    "city",  "courtyard", "forest",  "interior",
+    "night", "studio",    "sunrise", "<script>alert(\"x\")</script>"};
+const std::array<std::string, 6> kSamplers = {"binary_search",         "linear_scan",
+                                              "linear_scan_published", "alias_table",
+                                              "hierarchical_warp",     "uniform"};
+const std::array<std::string, 4> kStrategies = {"uniform", "brdf", "environment A",
+                                                "environment B"};
+const std::array<std::string, 4> kReceivers = {"point up", "point sideways", "sphere", "plane"};
+
+/// Roughly normal, mean 0, variance 1, the same on every run.
+double noise(const std::string& name, std::uint64_t index) {
+  const RandomStream stream(name, 7);
+  double sum = 0.0;
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    const SquarePoint p = stream.point(6 * index + i);
+    sum += p.s + p.t;
+  }
+  return sum - 6.0;
+}
+
+double sun(SquarePoint at) {
+  const double ds = at.s - 0.3;
+  const double dt = at.t - 0.8;
+  return 400.0 * std::exp(-(ds * ds * 4.0 + dt * dt) / 0.0008);
+}
+
+Rgb sky(SquarePoint at, double mood) {
+  const double up = at.t > 0.5 ? 1.0 : 0.25;
+  const double base = up * (0.3 + 0.7 * at.t + 0.2 * std::sin(12.0 * at.s + mood));
+  const double light = sun(at) / (1.0 + mood);
+  return {base * (0.7 + 0.1 * mood) + light, base * 0.8 + 0.95 * light,
+          base * (1.3 - 0.1 * mood) + 0.8 * light};
+}
+
+MapRecord map_record(std::size_t number) {
+  MapRecord record;
+  record.map.name = kMaps[number];
+  record.map.radiance = Grid<Rgb>(Extent{64, 32});
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      record.map.radiance(x, y) =
+          sky({(x + 0.5) / 64.0, (y + 0.5) / 32.0}, static_cast<double>(number));
+    }
+  }
+  record.source = kMaps[number] + ".exr";
+  record.mean_luminance = 0.7 + 0.1 * static_cast<double>(number);
+  record.peak_ratio = 480.0 / (1.0 + static_cast<double>(number));
+  record.effective_fraction = std::min(0.9, 0.021 * std::exp2(static_cast<double>(number)));
+  if (number == 2) record.map.notes = {"3 negative texels set to 0: the first at column 5, row 9"};
+  const RandomStream stream("drawn", number);
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const SquarePoint p = stream.point(i);
+    const bool lit = i % 3 != 0;
+    record.drawn.push_back(lit ? SquarePoint{0.3 + 0.04 * (p.s - 0.5), 0.8 + 0.08 * (p.t - 0.5)}
+                               : SquarePoint{p.s, 0.5 + 0.5 * p.t});
+  }
+  return record;
+}
+
+TestRecord test_record(const std::string& sampler, const std::string& map,
+                       const std::array<std::string, 2>& kind) {
+  TestRecord t = accepted_test(sampler, map);
+  t.oracle = kind[0];
+  t.test = kind[1];
+  t.log10_p = -std::abs(noise(sampler + map + kind[0] + kind[1], 0));
+  if (kind[0] == "check") {
+    t.log10_p.reset();
+    t.detectable_effect.reset();
+    t.dof = 0.0;
+  }
+  return t;
+}
+
+void spoil(TestRecord& t) {
+  if (t.sampler != "linear_scan_published" || t.map != kMaps[7]) return;
+  if (t.test != "chi_square_grid" && t.test != "in_range") return;
+  t.outcome = Outcome::reject;
+  if (t.log10_p) t.log10_p = -41.7;
+  t.effect = 0.0312;
+  t.statistic = 2417.3;
+  t.detail = t.log10_p ? "the last row of texels is drawn 3.1 % too often"
+                       : "u = (0, 0) gives x = 64, beyond the last column <63>";
+}
+
+GateResult gate() {
+  const std::array<std::array<std::string, 2>, 8> kinds = {{{"self", "chi_square_grid"},
+                                                            {"reference", "chi_square_grid"},
+                                                            {"reference", "kuiper_phi"},
+                                                            {"reference", "anderson_darling_theta"},
+                                                            {"mean", "z"},
+                                                            {"variance", "z"},
+                                                            {"check", "pdf_integral"},
+                                                            {"check", "in_range"}}};
+  GateResult result{1e-6, 4194304, 20240607, {}};
+  for (const std::string& sampler : kSamplers) {
+    for (const char* weighting : {"A", "B"}) {
+      if (sampler == "uniform" && weighting[0] == 'B') continue;
+      for (const std::string& map : kMaps) {
+        for (const auto& kind : kinds) {
+          TestRecord t = test_record(sampler, map, kind);
+          t.weighting = sampler == "uniform" ? "" : weighting;
+          t.known_defect = sampler == "linear_scan_published";
+          spoil(t);
+          result.tests.push_back(t);
+        }
+      }
+    }
+  }
+  return result;
+}
+
+ConvergenceRecord convergence_record(std::size_t map, std::size_t receiver, std::size_t strategy) {
+  const std::array<double, 4> scale = {40.0, 9.0, 1.1, 0.7};
+  ConvergenceRecord r;
+  r.map = kMaps[map];
+  r.receiver = kReceivers[receiver];
+  r.material = receiver < 2 ? "Lambert" : "GGX, roughness 0.3";
+  r.strategy = kStrategies[strategy];
+  r.pixels = 64;
+  r.replicates = 32;
+  const std::string name = r.map + r.receiver + r.strategy;
+  r.predicted_variance = scale[strategy] * std::pow(1.5, static_cast<double>(map)) *
+                         (1.0 + 0.3 * static_cast<double>(receiver)) / 6.0;
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    const std::uint64_t n = std::uint64_t{16} << (2U * i);
+    const double predicted = std::sqrt(r.predicted_variance / static_cast<double>(n));
+    const double error = 0.015 * predicted;
+    r.points.push_back({n, predicted + error * noise(name, i), error, predicted});
+  }
+  r.slope_error = 0.0022;
+  r.slope = -0.5 + r.slope_error * noise(name, 10);
+  r.variance_ratio_error = 0.012;
+  r.measured_variance = r.predicted_variance * (1.0 + r.variance_ratio_error * noise(name, 11));
+  return r;
+}
+
+std::vector<ThroughputRecord> throughput() {
+  const std::array<double, 3> at_256 = {31.0, 420.0, 18.0};
+  const std::array<double, 3> exponents = {0.16, 0.97, 0.05};
+  const std::array<std::string, 3> names = {"binary_search", "linear_scan_published",
+                                            "alias_table"};
+  std::vector<ThroughputRecord> records;
+  for (std::size_t s = 0; s < names.size(); ++s) {
+    for (int size = 256; size <= 4096; size *= 2) {
+      const double ns = at_256[s] * std::pow(size / 256.0, exponents[s]);
+      records.push_back({names[s], "sun-sky", Extent{size, size / 2}, ns, 0.94 * ns, 1.11 * ns,
+                         4.0 * size * size / 2.0, 1e-5 * size * size});
+    }
+  }
+  return records;
+}
+
+double shade(double x, double y) {
+  const double r2 = x * x + y * y;
+  return r2 > 1.0 ? 0.0 : 0.2 + std::max(0.0, 0.6 * std::sqrt(1.0 - r2) + 0.5 * y - 0.4 * x);
+}
+
+RenderRecord render(std::size_t strategy) {
+  const std::array<double, 4> spread = {0.6, 0.25, 0.08, 0.06};
+  const Extent size{96, 96};
+  RenderRecord r{kMaps[0],
+                 "sphere",
+                 "GGX, roughness 0.3",
+                 kStrategies[strategy],
+                 64,
+                 Grid<Rgb>(size),
+                 Grid<Rgb>(size),
+                 Grid<double>(size),
+                 spread[strategy],
+                 0.8 + 0.3 * static_cast<double>(strategy)};
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const double light = shade((x - 47.5) / 44.0, (47.5 - y) / 44.0);
+      const double error =
+          light * spread[strategy] * noise(r.strategy, static_cast<std::uint64_t>(96 * y + x));
+      r.reference(x, y) = Rgb(light, 0.9 * light, 0.75 * light);
+      r.error(x, y) = error;
+      r.picture(x, y) = r.reference(x, y) * static_cast<float>(std::max(0.0, 1.0 + error));
+    }
+  }
+  return r;
+}
+
+}  // namespace
+
+TestRecord accepted_test(const std::string& sampler, const std::string& map) {
+  return {sampler, "B",   map,    "reference", "chi_square_grid", 4194304, 1031.2,
+          1023.0,  -0.37, 0.0157, 0.0186,      Outcome::accept,   "",      false};
+}
+
+StudyResult made_up_study() {
+  StudyResult study;
+  study.version = "0.1.0 (made up for a test)";
+  study.machine = "2 \u00d7 made-up processor, g++ 12.2, -O3";
+  study.seed = 20240607;
+  for (std::size_t i = 0; i < kMaps.size(); ++i) study.maps.push_back(map_record(i));
+  study.gate = gate();
+  for (std::size_t map = 0; map < 8; ++map) {
+    for (std::size_t receiver = 0; receiver < 4; ++receiver) {
+      for (std::size_t strategy = 0; strategy < 4; ++strategy) {
+        study.convergence.push_back(convergence_record(map, receiver, strategy));
+      }
+    }
+  }
+  study.throughput = throughput();
+  study.growth = {{"binary_search", "log2 S + log2 T", 0.161, 0.004},
+                  {"linear_scan_published", "S + T", 0.968, 0.012},
+                  {"alias_table", "constant", 0.052, 0.008}};
+  for (std::size_t strategy = 0; strategy < 4; ++strategy)
+    study.renders.push_back(render(strategy));
+  return study;
+}
+
+}  // namespace lightproof::testing

@@ -1,0 +1,90 @@
+#include "lightproof/report/json.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "fixture.h"
+
+namespace lightproof {
+namespace {
+
+using nlohmann::json;
+
+std::set<std::string> keys_of(const json& object) {
+  std::set<std::string> keys;
+  for (const auto& item : object.items()) keys.insert(item.key());
+  return keys;
+}
+
+GateResult small_gate() {
+  GateResult gate{1e-6, 1000, 42, {testing::accepted_test("binary_search", "city")}};
+  TestRecord check = gate.tests[0];
+  check.oracle = "check";
+  check.log10_p.reset();
+  check.detectable_effect.reset();
+  check.outcome = Outcome::reject;
+  gate.tests.push_back(check);
+  return gate;
+}
+
+TEST(GateJson, HasItsKeys) {
+  const json document = json::parse(gate_json(small_gate(), Outcome::inconclusive));
+  EXPECT_EQ(keys_of(document),
+            (std::set<std::string>{"outcome", "family_alpha", "samples", "seed", "tests"}));
+  EXPECT_EQ(keys_of(document["tests"][0]),
+            (std::set<std::string>{"sampler", "weighting", "map", "oracle", "test", "samples",
+                                   "statistic", "dof", "log10_p", "effect", "detectable_effect",
+                                   "outcome", "known_defect", "detail"}));
+  EXPECT_EQ(document["outcome"], "inconclusive");
+  EXPECT_EQ(document["seed"], 42);
+  EXPECT_EQ(document["tests"][0]["log10_p"], -0.37);
+  EXPECT_EQ(document["tests"][0]["outcome"], "accept");
+}
+
+TEST(GateJson, HasNullWhereThereIsNoProbability) {
+  const json document = json::parse(gate_json(small_gate(), Outcome::reject));
+  EXPECT_TRUE(document["tests"][1]["log10_p"].is_null());
+  EXPECT_TRUE(document["tests"][1]["detectable_effect"].is_null());
+}
+
+TEST(GateJson, WritesWhatIsNotFiniteAsNullOrText) {
+  GateResult gate = small_gate();
+  gate.tests[0].log10_p = -HUGE_VAL;
+  gate.tests[0].statistic = HUGE_VAL;
+  gate.tests[0].effect = std::nan("");
+  const json test = json::parse(gate_json(gate, Outcome::reject))["tests"][0];
+  EXPECT_EQ(test["log10_p"], "-Infinity");
+  EXPECT_EQ(test["statistic"], "Infinity");
+  EXPECT_TRUE(test["effect"].is_null());
+}
+
+TEST(GateJson, SurvivesNamesThatAreNotUtf8) {
+  GateResult gate = small_gate();
+  gate.tests[0].map = "bad\xff name";
+  EXPECT_EQ(json::parse(gate_json(gate, Outcome::accept))["tests"][0]["map"], "bad\ufffd name");
+}
+
+TEST(StudyJson, HoldsEverythingButThePixels) {
+  const json document = json::parse(study_json(testing::made_up_study()));
+  EXPECT_EQ(keys_of(document),
+            (std::set<std::string>{"version", "machine", "seed", "maps", "gate", "convergence",
+                                   "throughput", "growth", "renders"}));
+  EXPECT_EQ(document["maps"].size(), 8U);
+  EXPECT_EQ(document["maps"][0]["size"], (json{64, 32}));
+  EXPECT_EQ(document["maps"][0]["drawn"].size(), 300U);
+  EXPECT_EQ(document["convergence"].size(), 128U);
+  EXPECT_EQ(document["convergence"][0]["points"].size(), 6U);
+  EXPECT_EQ(document["renders"][1]["picture"], "city-sphere-GGX__roughness_0.3-brdf.exr");
+  EXPECT_EQ(document["renders"][1]["reference"], "city-sphere-GGX__roughness_0.3-reference.exr");
+}
+
+TEST(StudyJson, DoesNotCountKnownDefects) {
+  const StudyResult study = testing::made_up_study();
+  EXPECT_EQ(json::parse(study_json(study))["gate"]["outcome"], "accept");
+}
+
+}  // namespace
+}  // namespace lightproof

@@ -1,0 +1,43 @@
+// Writes the report of a made-up study, for looking at and for the browser test:
+//   write_sample_report FOLDER [bare]
+// `bare` leaves out throughput and renders and most of the convergence records.
+#include <cstdio>
+#include <exception>
+#include <string_view>
+
+#include "fixture.h"
+#include "lightproof/report/report.h"
+
+namespace {
+
+void strip(lightproof::StudyResult& study) {
+  study.throughput.clear();
+  study.growth.clear();
+  study.renders.clear();
+  study.maps.resize(1);
+  study.convergence.resize(5);  // leaves a scene with one strategy
+  study.gate.tests.resize(3);
+  study.gate.tests[1].outcome = lightproof::Outcome::inconclusive;
+}
+
+int run(int count, char** arguments) {
+  lightproof::StudyResult study = lightproof::testing::made_up_study();
+  if (count == 3 && std::string_view(arguments[2]) == "bare") strip(study);
+  lightproof::write_report(study, arguments[1]);
+  return 0;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count != 2 && count != 3) {
+    std::fputs("usage: write_sample_report FOLDER [bare]\n", stderr);
+    return 2;
+  }
+  try {
+    return run(count, arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}
