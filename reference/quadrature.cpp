@@ -15,10 +15,9 @@ double band(double t_low, double t_high) {
   return 2.0 * sin_theta(0.5 * (t_low + t_high)) * std::sin(0.5 * kPi * (t_high - t_low));
 }
 
-Extent cells_per_texel(Extent map, int split) {
-  const Extent least = SphereQuadrature::kLeastCells;
-  return {split * ((least.width + map.width - 1) / map.width),
-          split * ((least.height + map.height - 1) / map.height)};
+/// How often a texel is divided so that the sphere has at least so many cells.
+Extent cells_per_texel(Extent map, Extent least) {
+  return {(least.width + map.width - 1) / map.width, (least.height + map.height - 1) / map.height};
 }
 
 }  // namespace
@@ -26,8 +25,8 @@ Extent cells_per_texel(Extent map, int split) {
 SphereQuadrature::SphereQuadrature(Extent extent)
     : extent_(extent),
       radius_(0.5 * std::hypot(2.0 * kPi / extent.width, kPi / extent.height)),
-      coarse_(make_level(cells_per_texel(extent, 1))),
-      fine_(make_level(cells_per_texel(extent, kSplit))) {}
+      coarse_(make_level(cells_per_texel(extent, kLeastCells))),
+      fine_(make_level(cells_per_texel(extent, kLeastEdgeCells))) {}
 
 Direction SphereQuadrature::centre(int x, int y) const {
   return direction_from_square({(x + 0.5) / extent_.width, (y + 0.5) / extent_.height});

@@ -22,11 +22,11 @@ struct Node {
 /// Nodes of the texels of one map size. The weights of a texel sum to its exact solid angle.
 class SphereQuadrature {
  public:
-  /// Texels that straddle are split into kSplit x kSplit.
-  static constexpr int kSplit = 8;
   /// The sphere is never divided into fewer cells than this, however few texels the map has: the
   /// rule's error is then below 1e-9 of an integrand as smooth as a cosine.
   static constexpr Extent kLeastCells = {256, 128};
+  /// And where an edge of the integrand may run, never into fewer than this.
+  static constexpr Extent kLeastEdgeCells = {4096, 2048};
 
   explicit SphereQuadrature(Extent extent);
 

@@ -117,7 +117,7 @@ const std::vector<Defect>& defects() {
        "check/same texel as linear_scan",
        {},
        [](TexelSample& s, Extent e) {
-         if (s.x == 77 && s.y == 3) move_to(s, e, 78, 3);
+         if (s.x == 77 && s.y == 30) move_to(s, e, 78, 30);
        },
        {}},
   };
@@ -163,7 +163,11 @@ class GateOnDefects : public testing::TestWithParam<std::tuple<std::size_t, Weig
 TEST_P(GateOnDefects, IsFoundByItsTest) {
   const auto [index, weighting] = GetParam();
   const Defect& defect = defects()[index];
-  const EnvironmentMap map = make_synthetic_map("gradient", kExtent);
+  // A bright side, so that mirroring shows, and no texel too faint to be drawn.
+  EnvironmentMap map = make_synthetic_map("gradient", kExtent);
+  for (int y = 0; y < kExtent.height; ++y) {
+    for (int x = 0; x < kExtent.width / 4; ++x) map.radiance(x, y) *= 1.5F;
+  }
   const Subject subject = with_defect(defect, weighting);
   const GateResult result = run_gate({&map, 1}, {&subject, 1}, {});
   EXPECT_EQ(overall_outcome(result, true), Outcome::reject);

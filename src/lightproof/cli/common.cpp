@@ -6,6 +6,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -20,7 +21,7 @@
 namespace lightproof::cli {
 namespace {
 
-constexpr int kLargestSide = 32768;
+constexpr std::uint64_t kLargestSide = 32768;
 
 bool is_synthetic(const std::string& name) {
   const auto maps = synthetic_maps();
@@ -37,10 +38,19 @@ ReadOptions read_options(const CommonOptions& options) {
   throw InputError(fmt::format("--preset: there is no '{}'; there are:{}", options.preset, known));
 }
 
-EnvironmentMap load_map(const std::string& input, const CommonOptions& options) {
-  if (is_synthetic(input)) return make_synthetic_map(input, parse_size(options.size));
+/// A whole number in decimal digits only; none if it is anything else or does not fit.
+std::optional<std::uint64_t> parse_number(std::string_view text) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+EnvironmentMap load_map(const std::string& input, Extent size, const ReadOptions& read) {
+  if (input.empty()) throw InputError("a map's name is empty");
+  if (is_synthetic(input)) return make_synthetic_map(input, size);
   try {
-    return read_environment_map(input, read_options(options));
+    return read_environment_map(input, read);
   } catch (const InputError& error) {
     const bool looks_like_a_name = input.find_first_of("./\\") == std::string::npos;
     if (!looks_like_a_name || access(input.c_str(), F_OK) == 0) throw;
@@ -109,8 +119,7 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_flag("--repair", options.repair,
                    "set negative, NaN and infinite texels to 0 and say so, instead of refusing");
   command.add_flag("--any-aspect", options.any_aspect, "accept maps that are not 2:1");
-  command.add_option("--seed", options.seed, "base seed of all random numbers")
-      ->capture_default_str();
+  add_number(command, "--seed", options.seed, 0, "base seed of all random numbers");
   command.add_option("-t,--threads", options.threads, "threads; 0 is one per core")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
@@ -120,13 +129,30 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
 }
 
+CLI::Option* add_number(CLI::App& command, const std::string& name, std::uint64_t& value,
+                        std::uint64_t least, const std::string& description) {
+  const auto read = [&value, least, name](const std::string& text) {
+    const auto number = parse_number(text);
+    if (!number || *number < least) {
+      throw CLI::ValidationError(
+          name, fmt::format("'{}' is not a whole number of at least {}", text, least));
+    }
+    value = *number;
+  };
+  return command.add_option_function<std::string>(name, read, description)
+      ->type_name("N")
+      ->default_str(std::to_string(value));
+}
+
 Extent parse_size(const std::string& text) {
-  Extent extent;
-  char rest = 0;
-  const bool read = std::sscanf(text.c_str(), "%dx%d%c", &extent.width, &extent.height, &rest) == 2;
-  if (read && extent.width >= 1 && extent.height >= 1 && extent.width <= kLargestSide &&
-      extent.height <= kLargestSide) {
-    return extent;
+  const std::size_t cross = text.find('x');
+  if (cross != std::string::npos) {
+    const auto width = parse_number(std::string_view(text).substr(0, cross));
+    const auto height = parse_number(std::string_view(text).substr(cross + 1));
+    const auto fits = [](const auto& side) { return side && *side >= 1 && *side <= kLargestSide; };
+    if (fits(width) && fits(height)) {
+      return {static_cast<int>(*width), static_cast<int>(*height)};
+    }
   }
   throw InputError(
       fmt::format("--size: '{}' is not WIDTHxHEIGHT with sides from 1 to {}", text, kLargestSide));
@@ -137,9 +163,11 @@ std::vector<EnvironmentMap> load_maps(const CommonOptions& options) {
   if (inputs.empty()) {
     for (const SyntheticMap& map : synthetic_maps()) inputs.emplace_back(map.name);
   }
+  const Extent size = parse_size(options.size);
+  const ReadOptions read = read_options(options);
   std::vector<EnvironmentMap> maps;
   for (const std::string& input : inputs) {
-    maps.push_back(load_map(input, options));
+    maps.push_back(load_map(input, size, read));
     if (options.quiet) continue;
     for (const std::string& note : maps.back().notes) {
       fmt::print(stderr, "{}: {}\n", input, note);

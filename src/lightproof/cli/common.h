@@ -37,11 +37,16 @@ struct CommonOptions {
 /// Adds the positional MAP… and the options above.
 void add_common_options(CLI::App& command, CommonOptions& options);
 
+/// Adds an option for a whole number of at least `least`, in decimal digits only.
+CLI::Option* add_number(CLI::App& command, const std::string& name, std::uint64_t& value,
+                        std::uint64_t least, const std::string& description);
+
 /// "WxH", both at least 1. Throws InputError otherwise.
 Extent parse_size(const std::string& text);
 
 /// Reads files and makes built-in maps, in the order of their names on the command line; without
-/// any, every built-in map. Notes of the reader go to stderr unless quiet. Names are made unique.
+/// any, every built-in map. All options are checked, used or not. Notes of the reader go to stderr
+/// unless quiet. Names are made unique.
 std::vector<EnvironmentMap> load_maps(const CommonOptions& options);
 
 /// A bar with the time left on stderr if that is a terminal and not quiet; else an empty function.

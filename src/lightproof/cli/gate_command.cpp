@@ -40,10 +40,12 @@ std::vector<Subject> chosen_subjects(const Options& options) {
 
 int run(const Options& options) {
   const ThreadLimit threads(options.threads);
+  const std::vector<Subject> subjects = chosen_subjects(options);
+  if (!options.json.empty()) check_writable(options.json);
   const std::vector<EnvironmentMap> maps = load_maps(options);
   GateOptions gate = options.gate;
   gate.seed = options.seed;
-  const GateResult result = run_gate(maps, chosen_subjects(options), gate, progress_bar(options));
+  const GateResult result = run_gate(maps, subjects, gate, progress_bar(options));
   // A sampler with known defects fails a run only if it was asked for.
   const Outcome outcome = overall_outcome(result, !options.samplers.empty());
   if (!options.quiet) {
@@ -68,11 +70,11 @@ void add_gate(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("gate", "Test samplers on maps: does each draw the right distribution?");
   add_common_options(*command, *options);
-  command->add_option("-n,--samples", options->gate.samples, "samples per sampler and map")
-      ->check(CLI::Range(std::uint64_t{1024}, std::uint64_t{1} << 40U))
-      ->capture_default_str();
-  command->add_option("--sampler", options->samplers,
-                      "test only these (see `lightproof list samplers`)");
+  add_number(*command, "-n,--samples", options->gate.samples, 1024, "samples per sampler and map");
+  command
+      ->add_option("--sampler", options->samplers,
+                   "test only this one (may be repeated; see `lightproof list samplers`)")
+      ->allow_extra_args(false);
   command->add_option("--weighting", options->weighting, "test only this weighting")
       ->check(CLI::IsMember({"A", "B"}));
   command->add_option("--json", options->json, "write every test to this file");

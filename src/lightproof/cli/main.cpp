@@ -2,9 +2,11 @@
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <system_error>
 
 #include "common.h"
 #include "lightproof/core/error.h"
@@ -38,6 +40,11 @@ int run(int argc, char** argv) {
     return kInterrupted;
   } catch (const lightproof::InputError& error) {
     fmt::print(stderr, "lightproof: {}\n", error.what());
+    return kBadInput;
+  }
+  if (std::fflush(stdout) != 0) {
+    fmt::print(stderr, "lightproof: cannot write to the standard output: {}\n",
+               std::generic_category().message(errno));
     return kBadInput;
   }
   return exit_code;

@@ -25,11 +25,10 @@ struct Options : CommonOptions {
   StudyOptions study;
 };
 
-/// The folder for the report, made and tried before minutes are spent on it.
-fs::path prepare_output(const Options& options) {
+/// The folder for the report. Throws InputError if it may not be written over.
+fs::path output_folder(const Options& options) {
   const fs::path folder = options.output.empty() ? "out" : options.output;
-  std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_directory(folder)) {
+  if (fs::exists(folder) && !fs::is_directory(folder)) {
     throw InputError(fmt::format("{}: is not a folder; name another with -o", folder.string()));
   }
   if (options.output.empty() && fs::exists(folder) && !fs::is_empty(folder)) {
@@ -37,12 +36,17 @@ fs::path prepare_output(const Options& options) {
         "{}: is not empty; say `-o {}` to write over a report in it, or name another folder",
         folder.string(), folder.string()));
   }
+  return folder;
+}
+
+/// Makes the folder and tries it, before minutes are spent on what goes there.
+void prepare(const fs::path& folder) {
+  std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
     throw InputError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
   }
-  const PendingFile probe(folder / "report.html");  // throws if nothing can be written here
-  return folder;
+  check_writable(folder / "report.html");
 }
 
 /// The benchmark program is built beside this one.
@@ -60,18 +64,18 @@ std::optional<fs::path> benchmark_program(const Options& options) {
 
 int run(Options options) {
   const ThreadLimit threads(options.threads);
-  const fs::path folder = prepare_output(options);
+  const fs::path folder = output_folder(options);
   options.study.benchmarks = benchmark_program(options);
   options.study.gate.seed = options.study.convergence.seed = options.study.renders.seed =
       options.seed;
-  StudyResult result;
-  {
-    const Progress progress = progress_bar(options);
-    result = run_study(load_maps(options), options.study, progress);
-  }
-  if (!options.throughput.empty()) {
-    result.throughput = read_throughput(options.throughput);
-    result.growth = growth_of(result.throughput);
+  std::vector<ThroughputRecord> throughput;
+  if (!options.throughput.empty()) throughput = read_throughput(options.throughput);
+  std::vector<EnvironmentMap> maps = load_maps(options);
+  prepare(folder);
+  StudyResult result = run_study(std::move(maps), options.study, progress_bar(options));
+  if (!throughput.empty()) {
+    result.growth = growth_of(throughput);
+    result.throughput = std::move(throughput);
   }
   write_report(result, folder);
   if (!options.quiet) fmt::print("{}\n", (folder / "report.html").string());
@@ -87,9 +91,8 @@ void add_study(CLI::App& app, int& exit_code) {
   add_common_options(*command, *options);
   command->add_option("-o,--output", options->output,
                       "folder of the report (default: out, which must then be empty)");
-  command->add_option("-n,--samples", options->study.gate.samples, "samples of each gate test")
-      ->check(CLI::Range(std::uint64_t{1024}, std::uint64_t{1} << 40U))
-      ->capture_default_str();
+  add_number(*command, "-n,--samples", options->study.gate.samples, 1024,
+             "samples of each gate test");
   auto* file = command->add_option("--throughput", options->throughput,
                                    "take throughput from this output of lightproof_bench");
   command->add_flag("--no-throughput", options->no_throughput, "leave throughput out")

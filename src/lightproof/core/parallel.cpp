@@ -34,6 +34,7 @@ void take(char& token) { __tsan_acquire(&token); }
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
   LIGHTPROOF_HANDOVER(give, handed_out);
+  tbb::task_group_context context;
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, count, 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
@@ -44,8 +45,11 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
         }
         LIGHTPROOF_HANDOVER(give, handed_back);
       },
-      tbb::simple_partitioner());
+      tbb::simple_partitioner(), context);
   LIGHTPROOF_HANDOVER(take, handed_back);
+  // Called from a task whose own loop has failed, this one ends early without an exception; what
+  // it should have written is not there.
+  if (context.is_group_execution_cancelled()) throw Interrupted();
 }
 
 struct ThreadLimit::State {

@@ -9,7 +9,8 @@
 namespace lightproof {
 
 /// Runs body(0) … body(count-1), each once, in any order. Between tasks it throws Interrupted if
-/// request_interrupt() was called. The first exception of a task is passed on.
+/// request_interrupt() was called. The first exception of a task is passed on; loops inside other
+/// tasks are then abandoned with Interrupted, which goes no further.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 /// Limits parallel_for to `threads` threads while it lives; 0 means all cores.

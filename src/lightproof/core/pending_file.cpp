@@ -30,6 +30,28 @@ void flush_to_disk(const fs::path& path) {
   if (result != 0 && error != EINVAL && error != EROFS) fail(path, error);
 }
 
+/// Where links lead to; the path itself if it is none or leads nowhere.
+fs::path resolved(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return path;
+  const fs::path target = fs::weakly_canonical(path, error);
+  return error ? path : target;
+}
+
+/// A pipe, device or socket: nothing that could be replaced by renaming.
+bool is_stream(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+void write_stream(const fs::path& path, std::string_view content) {
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  out.close();
+  if (!out) fail(path, errno != 0 ? errno : EIO);
+}
+
 }  // namespace
 
 PendingFile::PendingFile(fs::path target) : target_(std::move(target)) {
@@ -53,12 +75,17 @@ void PendingFile::commit() {
 }
 
 void write_file(const fs::path& path, std::string_view content) {
-  PendingFile pending(path);
-  std::ofstream out(pending.temporary(), std::ios::binary | std::ios::trunc);
-  out.write(content.data(), static_cast<std::streamsize>(content.size()));
-  out.close();
-  if (!out) fail(path, errno != 0 ? errno : EIO);
+  const fs::path target = resolved(path);
+  if (is_stream(target)) return write_stream(target, content);
+  PendingFile pending(target);
+  write_stream(pending.temporary(), content);
   pending.commit();
+}
+
+void check_writable(const fs::path& path) {
+  const fs::path target = resolved(path);
+  if (fs::is_directory(target)) fail(target, EISDIR);
+  if (!is_stream(target)) const PendingFile probe(target);
 }
 
 }  // namespace lightproof

@@ -27,7 +27,11 @@ class PendingFile {
   bool committed_ = false;
 };
 
-/// Writes `content` to `path` through a PendingFile. Throws InputError (a full disk included).
+/// Writes `content` to `path` through a PendingFile. A link is followed; a pipe or device is
+/// written to as it is. Throws InputError (a full disk included).
 void write_file(const std::filesystem::path& path, std::string_view content);
+
+/// Throws the InputError that write_file would throw at once: before minutes are spent on content.
+void check_writable(const std::filesystem::path& path);
 
 }  // namespace lightproof
