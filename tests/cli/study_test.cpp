@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
+#include <optional>
 
 #include "lightproof/image/reader.h"
 #include "tests/cli/program.h"
@@ -30,38 +32,46 @@ const std::string kOnFullDisk =
     "mount -t tmpfs -o size=64k none report && echo earlier > report/report.html && \"$@\"; "
     "code=$?; ls -A report; cat report/report.html; exit $code";
 
+/// The folder of the studies and how they ended.
+struct Studies {
+  Studies();
+
+  TemporaryFolder folder;
+  Finished plain;
+  std::optional<Finished> full;  ///< none where mount namespaces are not available
+};
+
+Studies::Studies() {
+  for (const char* name : {"plain", "full", "full/report"}) fs::create_directory(folder / name);
+  Process first(lightproof_command(kStudy, folder / "plain"));
+  if (has_mount_namespaces()) {
+    full = Process(in_mount_namespace(kOnFullDisk, kStudy, folder / "full")).wait(kLimit);
+  }
+  plain = first.wait(kLimit);
+}
+
 class Study : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder();
-    for (const char* name : {"plain", "full", "full/report"}) fs::create_directory(*folder_ / name);
-    has_namespaces_ = has_mount_namespaces();
-    Process plain(lightproof_command(kStudy, *folder_ / "plain"));
-    if (has_namespaces_) {
-      Process full(in_mount_namespace(kOnFullDisk, kStudy, *folder_ / "full"));
-      full_ = new Finished(full.wait(kLimit));
-    }
-    plain_ = new Finished(plain.wait(kLimit));
+  static void SetUpTestSuite() { studies() = std::make_unique<Studies>(); }
+  static void TearDownTestSuite() { studies().reset(); }
+
+  static const Finished& plain() { return studies()->plain; }
+  static const std::optional<Finished>& full() { return studies()->full; }
+  static fs::path path(const std::string& name) {
+    return studies()->folder / ("plain/report/" + name);
   }
 
-  static void TearDownTestSuite() {
-    delete folder_;
-    delete plain_;
-    delete full_;
+ private:
+  static std::unique_ptr<Studies>& studies() {
+    static std::unique_ptr<Studies> all;
+    return all;
   }
-
-  static fs::path path(const std::string& name) { return *folder_ / ("plain/report/" + name); }
-
-  static inline TemporaryFolder* folder_ = nullptr;
-  static inline Finished* plain_ = nullptr;
-  static inline Finished* full_ = nullptr;
-  static inline bool has_namespaces_ = false;
 };
 
 TEST_F(Study, EndsWithThePathOfItsReport) {
-  EXPECT_EQ(plain_->exit_code, 0);
-  EXPECT_EQ(plain_->out, "report/report.html\n");
-  EXPECT_THAT(plain_->err, IsEmpty());
+  EXPECT_EQ(plain().exit_code, 0);
+  EXPECT_EQ(plain().out, "report/report.html\n");
+  EXPECT_THAT(plain().err, IsEmpty());
 }
 
 TEST_F(Study, WritesOneSelfContainedPage) {
@@ -118,15 +128,15 @@ TEST_F(Study, FindsTheSameAsTheGate) {
 }
 
 TEST_F(Study, OnAFullDiskNamesFileAndReason) {
-  if (!has_namespaces_) GTEST_SKIP() << "mount namespaces are not available here";
-  EXPECT_EQ(full_->exit_code, 2);
-  EXPECT_THAT(full_->err, AllOf(StartsWith("lightproof: report/"), HasSubstr(".exr"),
-                                HasSubstr("No space left on device")));
+  if (!full()) GTEST_SKIP() << "mount namespaces are not available here";
+  EXPECT_EQ(full()->exit_code, 2);
+  EXPECT_THAT(full()->err, AllOf(StartsWith("lightproof: report/"), HasSubstr(".exr"),
+                                 HasSubstr("No space left on device")));
 }
 
 TEST_F(Study, OnAFullDiskKeepsTheEarlierReportAndLeavesNoParts) {
-  if (!has_namespaces_) GTEST_SKIP() << "mount namespaces are not available here";
-  EXPECT_THAT(full_->out, AllOf(HasSubstr("report.html\nearlier\n"), Not(HasSubstr(".part"))));
+  if (!full()) GTEST_SKIP() << "mount namespaces are not available here";
+  EXPECT_THAT(full()->out, AllOf(HasSubstr("report.html\nearlier\n"), Not(HasSubstr(".part"))));
 }
 
 }  // namespace

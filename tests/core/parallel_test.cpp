@@ -81,6 +81,27 @@ TEST(ParallelFor, PassesAnExceptionOnWhenNested) {
   EXPECT_THROW(nested(), InputError);
 }
 
+/// Inner loops of 8 outer tasks, the last of which fails, that returned with work undone.
+int loops_cut_short() {
+  std::atomic<int> cut_short = 0;
+  const auto outer = [&](std::size_t i) {
+    std::atomic<int> runs = 0;
+    parallel_for(20, [&](std::size_t) {
+      if (i == 7) throw InputError("the last one");
+      std::this_thread::sleep_for(std::chrono::microseconds(20));
+      ++runs;
+    });
+    if (runs != 20) ++cut_short;
+  };
+  EXPECT_THROW(parallel_for(8, outer), InputError);
+  return cut_short;
+}
+
+TEST(ParallelFor, ReturnsOnlyWithAllWorkDone) {
+  // How the threads meet differs from round to round.
+  for (int round = 0; round < 50; ++round) EXPECT_EQ(loops_cut_short(), 0);
+}
+
 TEST(ParallelFor, WorksAfterAnException) {
   EXPECT_THROW(parallel_for(8, [](std::size_t) { throw InputError("all"); }), InputError);
   std::atomic<int> runs = 0;

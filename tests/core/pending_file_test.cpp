@@ -1,10 +1,13 @@
 #include "lightproof/core/pending_file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <iterator>
@@ -30,16 +33,15 @@ void put(const fs::path& path, std::string_view content) {
 /// A folder of its own for every test, gone afterwards.
 class PendingFiles : public testing::Test {
  protected:
-  PendingFiles() {
+  void SetUp() override {
     std::string pattern = testing::TempDir() + "/lightproof-XXXXXX";
-    const char* made = ::mkdtemp(pattern.data());
-    if (made != nullptr) folder_ = made;
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
   }
-  ~PendingFiles() override {
+  void TearDown() override {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
   }
-  void SetUp() override { ASSERT_FALSE(folder_.empty()); }
 
   fs::path in_folder(std::string_view name) const { return folder_ / name; }
   std::ptrdiff_t files() const {
@@ -171,6 +173,55 @@ TEST_F(PendingFiles, WriteThatFailsHalfWayLeavesTheOldFile) {
   EXPECT_THAT(message, HasSubstr(target.string() + ": cannot write: "));
   EXPECT_EQ(content_of(target), "old");
   EXPECT_EQ(files(), 1);
+}
+
+TEST_F(PendingFiles, WriteFileFollowsALink) {
+  put(in_folder("real.txt"), "old");
+  fs::create_symlink("real.txt", in_folder("link.txt"));
+  write_file(in_folder("link.txt"), "new");
+  EXPECT_TRUE(fs::is_symlink(in_folder("link.txt")));
+  EXPECT_EQ(content_of(in_folder("real.txt")), "new");
+  EXPECT_EQ(files(), 2);
+}
+
+TEST_F(PendingFiles, WriteFileReplacesALinkThatLeadsNowhere) {
+  fs::create_symlink("missing.txt", in_folder("link.txt"));
+  write_file(in_folder("link.txt"), "new");
+  EXPECT_EQ(content_of(in_folder("link.txt")), "new");
+}
+
+TEST_F(PendingFiles, WriteFileWritesIntoAPipe) {
+  const fs::path pipe = in_folder("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), S_IRUSR | S_IWUSR), 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(reader, 0);
+  write_file(pipe, "through");
+  std::string received(64, ' ');
+  received.resize(static_cast<std::size_t>(
+      std::max<ssize_t>(0, ::read(reader, received.data(), received.size()))));
+  ::close(reader);
+  EXPECT_EQ(received, "through");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(PendingFiles, CheckWritableLeavesEverythingAsItIs) {
+  put(in_folder("a.txt"), "old");
+  EXPECT_NO_THROW(check_writable(in_folder("a.txt")));
+  EXPECT_NO_THROW(check_writable(in_folder("new.txt")));
+  EXPECT_EQ(content_of(in_folder("a.txt")), "old");
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(PendingFiles, CheckWritableRefusesWhatCannotBeWritten) {
+  const fs::path missing = in_folder("missing") / "a.txt";
+  try {
+    check_writable(missing);
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(missing.string()));
+  }
+  EXPECT_THROW(check_writable(in_folder("")), InputError) << "a folder";
 }
 
 }  // namespace

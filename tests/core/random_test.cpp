@@ -126,7 +126,7 @@ TEST(RandomStream, DiffersWithEveryArgument) {
 /// log10 p of 2^20 points on 64 x 64 equal cells, 256 expected in each.
 double uniformity(const std::function<SquarePoint(std::uint64_t)>& point) {
   constexpr std::uint64_t kPoints = 1U << 20U;
-  std::vector<std::uint64_t> counts(64 * 64);
+  std::vector<std::uint64_t> counts(std::size_t{64} * 64);
   for (std::uint64_t i = 0; i < kPoints; ++i) {
     const SquarePoint at = point(i);
     ++counts.at(static_cast<std::size_t>(at.t * 64.0) * 64 + static_cast<std::size_t>(at.s * 64.0));

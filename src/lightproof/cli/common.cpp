@@ -119,7 +119,7 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_flag("--repair", options.repair,
                    "set negative, NaN and infinite texels to 0 and say so, instead of refusing");
   command.add_flag("--any-aspect", options.any_aspect, "accept maps that are not 2:1");
-  add_number(command, "--seed", options.seed, 0, "base seed of all random numbers");
+  add_number(command, "--seed", options.seed, 0, UINT64_MAX, "base seed of all random numbers");
   command.add_option("-t,--threads", options.threads, "threads; 0 is one per core")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
@@ -130,17 +130,18 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
 }
 
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::uint64_t& value,
-                        std::uint64_t least, const std::string& description) {
-  const auto read = [&value, least, name](const std::string& text) {
+                        std::uint64_t least, std::uint64_t most, const std::string& description) {
+  const auto read = [&value, least, most, name](const std::string& text) {
     const auto number = parse_number(text);
-    if (!number || *number < least) {
+    if (!number || *number < least || *number > most) {
       throw CLI::ValidationError(
-          name, fmt::format("'{}' is not a whole number of at least {}", text, least));
+          name, fmt::format("'{}' is not a whole number from {} to {}", text, least, most));
     }
     value = *number;
   };
   return command.add_option_function<std::string>(name, read, description)
       ->type_name("N")
+      ->take_last()
       ->default_str(std::to_string(value));
 }
 

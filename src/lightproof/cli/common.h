@@ -37,9 +37,12 @@ struct CommonOptions {
 /// Adds the positional MAP… and the options above.
 void add_common_options(CLI::App& command, CommonOptions& options);
 
-/// Adds an option for a whole number of at least `least`, in decimal digits only.
+/// The most samples that are drawn for one test.
+inline constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 40U;
+
+/// Adds an option for a whole number from `least` to `most`, in decimal digits only.
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::uint64_t& value,
-                        std::uint64_t least, const std::string& description);
+                        std::uint64_t least, std::uint64_t most, const std::string& description);
 
 /// "WxH", both at least 1. Throws InputError otherwise.
 Extent parse_size(const std::string& text);

@@ -70,7 +70,8 @@ void add_gate(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("gate", "Test samplers on maps: does each draw the right distribution?");
   add_common_options(*command, *options);
-  add_number(*command, "-n,--samples", options->gate.samples, 1024, "samples per sampler and map");
+  add_number(*command, "-n,--samples", options->gate.samples, 1024, kMostSamples,
+             "samples per sampler and map");
   command
       ->add_option("--sampler", options->samplers,
                    "test only this one (may be repeated; see `lightproof list samplers`)")

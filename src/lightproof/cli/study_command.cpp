@@ -91,7 +91,7 @@ void add_study(CLI::App& app, int& exit_code) {
   add_common_options(*command, *options);
   command->add_option("-o,--output", options->output,
                       "folder of the report (default: out, which must then be empty)");
-  add_number(*command, "-n,--samples", options->study.gate.samples, 1024,
+  add_number(*command, "-n,--samples", options->study.gate.samples, 1024, kMostSamples,
              "samples of each gate test");
   auto* file = command->add_option("--throughput", options->throughput,
                                    "take throughput from this output of lightproof_bench");

@@ -53,14 +53,14 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
 }
 
 struct ThreadLimit::State {
-  tbb::global_control control;
+  explicit State(std::size_t threads)
+      : control(tbb::global_control::max_allowed_parallelism, threads) {}
+  tbb::global_control control;  // must not be copied: each copy ends the limit when it goes
 };
 
 ThreadLimit::ThreadLimit(int threads)
-    : state_(std::make_unique<State>(
-          State{tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                    threads > 0 ? static_cast<std::size_t>(threads)
-                                                : std::thread::hardware_concurrency())})) {}
+    : state_(std::make_unique<State>(threads > 0 ? static_cast<std::size_t>(threads)
+                                                 : std::thread::hardware_concurrency())) {}
 
 ThreadLimit::~ThreadLimit() = default;
 

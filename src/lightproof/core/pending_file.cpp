@@ -45,11 +45,12 @@ bool is_stream(const fs::path& path) {
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
-void write_stream(const fs::path& path, std::string_view content) {
+/// Writes to `path`; errors name `target`.
+void write_bytes(const fs::path& path, const fs::path& target, std::string_view content) {
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
   out.write(content.data(), static_cast<std::streamsize>(content.size()));
   out.close();
-  if (!out) fail(path, errno != 0 ? errno : EIO);
+  if (!out) fail(target, errno != 0 ? errno : EIO);
 }
 
 }  // namespace
@@ -76,9 +77,9 @@ void PendingFile::commit() {
 
 void write_file(const fs::path& path, std::string_view content) {
   const fs::path target = resolved(path);
-  if (is_stream(target)) return write_stream(target, content);
+  if (is_stream(target)) return write_bytes(target, target, content);
   PendingFile pending(target);
-  write_stream(pending.temporary(), content);
+  write_bytes(pending.temporary(), target, content);
   pending.commit();
 }
 

@@ -49,15 +49,19 @@ struct Configuration {
 Draws draw_all(const BoundSampler& sampler, const Expectation& expectation,
                const Configuration& configuration) {
   const RandomStream stream = configuration.stream("draws");
-  const std::uint64_t tasks = (configuration.samples + kTaskSamples - 1) / kTaskSamples;
-  std::vector<Draws> parts(tasks, Draws(Extent{0, 0}));
-  parallel_for(tasks, [&](std::size_t task) {
-    const std::uint64_t first = task * kTaskSamples;
-    parts[task] = draw_samples(sampler, expectation, stream, first,
-                               std::min(kTaskSamples, configuration.samples - first));
-  });
-  Draws all = parts.front();
-  for (std::size_t i = 1; i < parts.size(); ++i) all.merge(parts[i]);
+  Draws all(expectation.masses.extent());
+  // In blocks, so that the memory does not grow with the number of samples.
+  constexpr std::uint64_t kBlock = 16 * kTaskSamples;
+  for (std::uint64_t start = 0; start < configuration.samples; start += kBlock) {
+    const std::uint64_t end = std::min(configuration.samples, start + kBlock);
+    std::vector<Draws> parts((end - start + kTaskSamples - 1) / kTaskSamples, Draws(Extent{0, 0}));
+    parallel_for(parts.size(), [&](std::size_t task) {
+      const std::uint64_t first = start + task * kTaskSamples;
+      parts[task] =
+          draw_samples(sampler, expectation, stream, first, std::min(kTaskSamples, end - first));
+    });
+    for (const Draws& part : parts) all.merge(part);
+  }
   return all;
 }
 
