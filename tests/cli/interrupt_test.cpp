@@ -58,7 +58,7 @@ TEST_P(StudyPhase, StopsSoonAndLeavesNothing) {
   Process study(on_terminal(
       {"study", "constant", "--size", "32x16", "-n", "65536", "--no-throughput", "-o", "report"},
       folder / ""));
-  ASSERT_TRUE(study.wait_for_err(GetParam(), seconds(60)));
+  ASSERT_TRUE(study.wait_for_err(GetParam(), seconds(300)));
   expect_interrupted(interrupt(study));
   EXPECT_THAT(names_in(folder / "report"), IsEmpty());
 }

@@ -103,7 +103,8 @@ TEST(ParallelFor, ReturnsOnlyWithAllWorkDone) {
 }
 
 TEST(ParallelFor, WorksAfterAnException) {
-  EXPECT_THROW(parallel_for(8, [](std::size_t) { throw InputError("all"); }), InputError);
+  const auto failing = [](std::size_t) { throw InputError("all"); };
+  EXPECT_THROW(parallel_for(8, failing), InputError);
   std::atomic<int> runs = 0;
   parallel_for(8, [&](std::size_t) { ++runs; });
   EXPECT_EQ(runs, 8);

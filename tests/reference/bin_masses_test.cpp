@@ -30,33 +30,36 @@ Grid<double> masses_of(const EnvironmentMap& map, Weighting weighting, Extent bi
   return bin_masses(texel_masses(map, {weighting}), weighting, bins);
 }
 
+void expect_areas(const EnvironmentMap& map, Weighting weighting, Extent bins) {
+  const auto masses = masses_of(map, weighting, bins);
+  ASSERT_EQ(masses.extent(), bins);
+  for (int y = 0; y < bins.height; ++y) {
+    for (const double mass : masses.row(y)) {
+      EXPECT_NEAR(mass, exact_area(weighting, bins, y), 1e-12);
+    }
+  }
+}
+
 TEST(BinMasses, OfTheConstantMapAreTheAreasOfTheBins) {
   for (const Extent extent : kExtents) {
     const EnvironmentMap map = make_synthetic_map("constant", extent);
     for (const Extent bins : kBins) {
-      for (const Weighting weighting : kWeightings) {
-        const auto masses = masses_of(map, weighting, bins);
-        ASSERT_EQ(masses.extent(), bins);
-        for (int y = 0; y < bins.height; ++y) {
-          for (const double mass : masses.row(y)) {
-            EXPECT_NEAR(mass, exact_area(weighting, bins, y), 1e-12);
-          }
-        }
-      }
+      for (const Weighting weighting : kWeightings) expect_areas(map, weighting, bins);
+    }
+  }
+}
+
+void expect_total_of_one(const EnvironmentMap& map) {
+  for (const Weighting weighting : kWeightings) {
+    for (const Extent bins : kBins) {
+      EXPECT_NEAR(sum_of(masses_of(map, weighting, bins)), 1.0, 1e-12) << map.name;
     }
   }
 }
 
 TEST(BinMasses, KeepTheTotalOfEveryMap) {
   for (const SyntheticMap& synthetic : synthetic_maps()) {
-    for (const Extent extent : kExtents) {
-      for (const Weighting weighting : kWeightings) {
-        const EnvironmentMap map = synthetic.make(extent);
-        for (const Extent bins : kBins) {
-          EXPECT_NEAR(sum_of(masses_of(map, weighting, bins)), 1.0, 1e-12) << synthetic.name;
-        }
-      }
-    }
+    for (const Extent extent : kExtents) expect_total_of_one(synthetic.make(extent));
   }
 }
 

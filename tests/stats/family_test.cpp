@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "lightproof/core/random.h"
@@ -16,8 +17,8 @@ using testing::Each;
 using testing::ElementsAre;
 
 std::vector<bool> rejections(const std::vector<double>& p, double alpha) {
-  std::vector<double> log10_p;
-  for (const double value : p) log10_p.push_back(std::log10(value));
+  std::vector<double> log10_p(p.size());
+  std::transform(p.begin(), p.end(), log10_p.begin(), [](double x) { return std::log10(x); });
   return holm_rejections(log10_p, alpha);
 }
 
@@ -78,6 +79,12 @@ TEST(Holm, StrictestLevelIsBonferronis) {
   EXPECT_EQ(strictest_level(1e-6, 1), 1e-6);
   EXPECT_EQ(strictest_level(1e-6, 8), 1.25e-7);
   EXPECT_EQ(strictest_level(1e-6, 0), 1e-6);
+}
+
+TEST(Holm, WhatIsNotANumberIsRejectedAndHidesNothing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(holm_rejections(std::vector<double>{nan, -20.0, -0.1}, 1e-6),
+            (std::vector<bool>{true, true, false}));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -97,7 +98,7 @@ class Bar {
   std::string time_left(Clock::time_point now, double fraction) const {
     if (fraction <= 0.01) return "";
     const double spent = std::chrono::duration<double>(now - start_).count();
-    const int seconds = static_cast<int>(spent * (1.0 / fraction - 1.0) + 0.5);
+    const long seconds = std::lround(spent * (1.0 / fraction - 1.0));
     return seconds < 60 ? fmt::format(", {} s left", seconds)
                         : fmt::format(", {} min {} s left", seconds / 60, seconds % 60);
   }

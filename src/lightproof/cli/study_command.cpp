@@ -27,7 +27,7 @@ struct Options : CommonOptions {
 
 /// The folder for the report. Throws InputError if it may not be written over.
 fs::path output_folder(const Options& options) {
-  const fs::path folder = options.output.empty() ? "out" : options.output;
+  fs::path folder = options.output.empty() ? "out" : options.output;
   if (fs::exists(folder) && !fs::is_directory(folder)) {
     throw InputError(fmt::format("{}: is not a folder; name another with -o", folder.string()));
   }

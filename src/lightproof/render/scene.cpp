@@ -37,7 +37,7 @@ void attach_plane(RTCDevice device, RTCScene scene) {
   auto* corners = static_cast<float*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 4));
   const float signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-  for (int i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < 4; ++i) {
     corners[3 * i] = signs[i][0] * kPlaneHalfSide;
     corners[3 * i + 1] = signs[i][1] * kPlaneHalfSide;
     corners[3 * i + 2] = -1.0F;

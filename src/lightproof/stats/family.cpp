@@ -8,14 +8,16 @@
 namespace lightproof {
 
 std::vector<bool> holm_rejections(std::span<const double> log10_p, double alpha) {
+  // What is not a number is no pass: it comes first and is rejected.
+  const auto key = [&](std::size_t i) { return std::isnan(log10_p[i]) ? -INFINITY : log10_p[i]; };
   std::vector<std::size_t> order(log10_p.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return log10_p[a] < log10_p[b]; });
+                   [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   std::vector<bool> rejected(log10_p.size(), false);
   for (std::size_t rank = 0; rank < order.size(); ++rank) {
     const double level = std::log10(alpha / static_cast<double>(order.size() - rank));
-    if (!(log10_p[order[rank]] <= level)) break;
+    if (key(order[rank]) > level) break;
     rejected[order[rank]] = true;
   }
   return rejected;

@@ -101,6 +101,11 @@ void add_moment_records(const Configuration& configuration, std::string_view ora
                         const reference::EstimatorMoments& exact,
                         std::vector<TestRecord>& records) {
   if (exact.mean() <= 0.0) return;  // no light reaches this case
+  if (measured.count() < 2) {
+    records.push_back(configuration.record(oracle, test));
+    records.back().detail = "no sample stayed on the map";
+    return;
+  }
   if (exact.variance() <= 1e-12 * exact.raw[1]) {
     TestRecord record = configuration.record("check", std::string(test) + " is constant");
     record.effect = std::abs(measured.mean() / exact.mean() - 1.0);

@@ -104,7 +104,7 @@ std::vector<ThroughputRecord> measure_throughput(const fs::path& program) {
 std::vector<ThroughputRecord> read_throughput(const fs::path& file) {
   std::ifstream in(file);
   if (!in) throw InputError(fmt::format("{}: cannot be read", file.string()));
-  static const std::regex kName("sample/([^/]+)/([^/]+)/(\\d+)x(\\d+)/random");
+  static const std::regex name_pattern("sample/([^/]+)/([^/]+)/(\\d+)x(\\d+)/random");
   std::vector<std::pair<std::string, std::vector<nlohmann::json>>> groups;
   std::vector<ThroughputRecord> records;
   try {
@@ -117,7 +117,7 @@ std::vector<ThroughputRecord> read_throughput(const fs::path& file) {
     }
     for (const auto& [name, runs] : groups) {
       std::smatch match;
-      if (std::regex_match(name, match, kName)) records.push_back(summarise(match, runs));
+      if (std::regex_match(name, match, name_pattern)) records.push_back(summarise(match, runs));
     }
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: not a result of Google Benchmark (--benchmark_out): {}",
