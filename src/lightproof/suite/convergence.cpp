@@ -35,36 +35,50 @@ std::vector<std::uint64_t> sample_counts(std::uint64_t most) {
   return counts;
 }
 
-/// The mean of `count` grey estimates; every number of samples has its own, so that the points of
-/// a convergence line are independent.
-double grey_mean(LightBatch& batch, const Lighting& lighting, const ShadingPoint& point,
-                 const RandomStream& stream, std::uint64_t first, std::uint64_t count,
-                 Moments& single) {
-  double sum = 0.0;
-  for (std::uint64_t done = 0; done < count; done += LightBatch::kCapacity) {
-    const auto part = std::min<std::uint64_t>(count - done, LightBatch::kCapacity);
-    for (const Rgb estimate : batch.estimate(lighting, point, stream, first + done, part)) {
-      const double grey = luminance(estimate);
-      sum += grey;
-      single.add(grey);
-    }
-  }
-  return sum / static_cast<double>(count);
-}
+/// Draws estimates at one pixel, one after the other; every number of samples has its own, so that
+/// the points of a convergence line are independent.
+class PixelEstimator {
+ public:
+  PixelEstimator(const Lighting& lighting, const ShadingPoint& point, const RandomStream& stream)
+      : lighting_(&lighting), point_(&point), stream_(stream) {}
 
-PixelErrors measure_pixel(const Lighting& lighting, const ShadingPoint& point, double exact,
-                          std::span<const std::uint64_t> counts, int replicates,
-                          const RandomStream& stream) {
+  /// The mean of the next `count` grey estimates.
+  double mean(std::uint64_t count) {
+    double sum = 0.0;
+    for (std::uint64_t done = 0; done < count; done += LightBatch::kCapacity) {
+      const auto part = std::min<std::uint64_t>(count - done, LightBatch::kCapacity);
+      for (const Rgb estimate : batch_.estimate(*lighting_, *point_, stream_, next_, part)) {
+        const double grey = luminance(estimate);
+        sum += grey;
+        single_.add(grey);
+      }
+      next_ += part;
+    }
+    return sum / static_cast<double>(count);
+  }
+
+  /// Of all estimates so far.
+  const Moments& single() const { return single_; }
+
+ private:
+  const Lighting* lighting_;
+  const ShadingPoint* point_;
+  RandomStream stream_;
+  LightBatch batch_;
+  std::uint64_t next_ = 0;
+  Moments single_;
+};
+
+PixelErrors measure_pixel(PixelEstimator& estimator, double exact,
+                          std::span<const std::uint64_t> counts, int replicates) {
   PixelErrors errors{std::vector<double>(counts.size()), {}};
-  LightBatch batch;
-  std::uint64_t next = 0;
   for (int replicate = 0; replicate < replicates; ++replicate) {
     for (std::size_t i = 0; i < counts.size(); ++i) {
-      const double mean = grey_mean(batch, lighting, point, stream, next, counts[i], errors.single);
-      errors.squared[i] += (mean - exact) * (mean - exact);
-      next += counts[i];
+      const double error = estimator.mean(counts[i]) - exact;
+      errors.squared[i] += error * error;
     }
   }
+  errors.single = estimator.single();
   return errors;
 }
 
@@ -228,9 +242,9 @@ std::vector<ConvergenceRecord> measure_lines(std::span<const Line> lines,
                             line.strategy.strategy};
     std::vector<PixelErrors> errors(line.pixels.size());
     parallel_for(errors.size(), [&](std::size_t pixel) {
-      errors[pixel] =
-          measure_pixel(lighting, line.pixels[pixel].point, line.exact[pixel].mean(), counts,
-                        line.replicates, line.stream(options.seed).substream(pixel));
+      PixelEstimator estimator(lighting, line.pixels[pixel].point,
+                               line.stream(options.seed).substream(pixel));
+      errors[pixel] = measure_pixel(estimator, line.exact[pixel].mean(), counts, line.replicates);
     });
     records[i] = record_of(line, errors, counts);
     const std::lock_guard lock(mutex);
