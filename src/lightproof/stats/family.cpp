@@ -3,13 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 
 namespace lightproof {
+namespace {
+
+constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 std::vector<bool> holm_rejections(std::span<const double> log10_p, double alpha) {
   // What is not a number is no pass: it comes first and is rejected.
-  const auto key = [&](std::size_t i) { return std::isnan(log10_p[i]) ? -INFINITY : log10_p[i]; };
+  const auto key = [&](std::size_t i) { return std::isnan(log10_p[i]) ? kImpossible : log10_p[i]; };
   std::vector<std::size_t> order(log10_p.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
