@@ -7,8 +7,15 @@
 namespace lightproof::reference {
 namespace {
 
-/// Places of the two Gauss-Legendre nodes in [0,1].
-constexpr std::array<double, 2> kNodes = {0.21132486540518712, 0.78867513459481288};
+/// Gauss-Legendre nodes in [0,1] and their weights (Abramowitz & Stegun 25.4.29, n = 3). Exact to
+/// degree 5: the fourth moment of an integrand that is linear in a texel needs degree 4.
+struct GaussNode {
+  double place;
+  double weight;
+};
+constexpr std::array<GaussNode, 3> kNodes = {
+    {{0.11270166537925831, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.88729833462074169, 5.0 / 18.0}}};
+constexpr int kNodeCount = static_cast<int>(kNodes.size());
 
 /// Solid angle between two t per unit of azimuth.
 double band(double t_low, double t_high) {
@@ -33,24 +40,25 @@ Direction SphereQuadrature::centre(int x, int y) const {
 }
 
 SphereQuadrature::Level SphereQuadrature::make_level(Extent cells) const {
-  Level level{{2 * cells.width, 2 * cells.height}, {}, {}};
+  Level level{{kNodeCount * cells.width, kNodeCount * cells.height}, {}, {}};
   const int rows = extent_.height * cells.height;
   const int columns = extent_.width * cells.width;
   for (int j = 0; j < rows; ++j) {
-    std::array<double, 2> sines{};
-    for (std::size_t k = 0; k < 2; ++k) sines[k] = sin_theta((j + kNodes[k]) / rows);
     // The rule's own sum is rescaled to the exact solid angle of the cell.
+    double rule = 0.0;
+    for (const GaussNode& node : kNodes) rule += node.weight * sin_theta((j + node.place) / rows);
     const double exact =
         band(static_cast<double>(j) / rows, (j + 1.0) / rows) * 2.0 * kPi / columns;
-    for (std::size_t k = 0; k < 2; ++k) {
-      level.rows.push_back({sines[k], cos_theta((j + kNodes[k]) / rows),
-                            exact * sines[k] / (2.0 * (sines[0] + sines[1]))});
+    for (const GaussNode& node : kNodes) {
+      const double t = (j + node.place) / rows;
+      const double sine = sin_theta(t);
+      level.rows.push_back({sine, cos_theta(t), exact * node.weight * sine / rule});
     }
   }
   for (int i = 0; i < columns; ++i) {
-    for (const double node : kNodes) {
-      const double phi = kPi - 2.0 * kPi * (i + node) / columns;
-      level.columns.push_back({std::cos(phi), std::sin(phi)});
+    for (const GaussNode& node : kNodes) {
+      const double phi = kPi - 2.0 * kPi * (i + node.place) / columns;
+      level.columns.push_back({std::cos(phi), std::sin(phi), node.weight});
     }
   }
   return level;

@@ -1,4 +1,4 @@
-// Integrals over the sphere of functions that are smooth inside a texel: 2 x 2 Gauss-Legendre nodes
+// Integrals over the sphere of functions that are smooth inside a texel: 3 x 3 Gauss-Legendre nodes
 // in (phi, theta) for every texel; texels that straddle an edge of the integrand are split first.
 #pragma once
 
@@ -43,8 +43,9 @@ class SphereQuadrature {
       const Row& row = level.rows[static_cast<std::size_t>(y * level.nodes.height + j)];
       for (int i = 0; i < level.nodes.width; ++i) {
         const Column& column = level.columns[static_cast<std::size_t>(x * level.nodes.width + i)];
-        visit(Node{
-            {row.sine * column.cosine, row.sine * column.sine, row.cosine}, row.sine, row.weight});
+        visit(Node{{row.sine * column.cosine, row.sine * column.sine, row.cosine},
+                   row.sine,
+                   row.weight * column.weight});
       }
     }
   }
@@ -53,11 +54,12 @@ class SphereQuadrature {
   struct Row {
     double sine;
     double cosine;
-    double weight;  ///< solid angle of one node
+    double weight;  ///< solid angle of the cell, shared out by the row's nodes
   };
   struct Column {
     double cosine;
     double sine;
+    double weight;  ///< share of the cell; a cell's sum to 1
   };
   struct Level {
     Extent nodes;  ///< of one texel

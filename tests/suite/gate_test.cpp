@@ -13,6 +13,7 @@
 #include "lightproof/core/parallel.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/report/json.h"
+#include "lightproof/suite/expectation.h"
 
 namespace lightproof {
 namespace {
@@ -197,6 +198,27 @@ TEST(Gate, AcceptsSoundSamplersOnEveryMapAndSize) {
     EXPECT_EQ(overall_outcome(result, true), Outcome::accept)
         << extent.width << "x" << extent.height << ": "
         << testing::PrintToString(rejections(result));
+  }
+}
+
+TEST(Expectation, KurtosisInsideOneLitTexelIsThatOfAUniform) {
+  // Under B cos(theta) is uniform in the texel and the estimator for +z is proportional to it:
+  // the fourth central moment is 9/5 of the squared variance.
+  for (const Extent extent : {Extent{128, 64}, Extent{256, 128}, Extent{512, 256}}) {
+    const EnvironmentMap map = make_synthetic_map("one-texel", extent);
+    const auto& exact = expectation_of(map, {Weighting::B, kRec709}).estimators[0];
+    EXPECT_NEAR(exact.fourth_central() / (exact.variance() * exact.variance()), 1.8, 1e-3);
+  }
+}
+
+TEST(Gate, AcceptsSoundSamplersOnOneLitTexelOfAnySize) {
+  std::vector<Subject> sound = all_subjects();
+  std::erase_if(sound, [](const Subject& subject) { return subject.known_defects; });
+  for (const Extent extent : {Extent{256, 128}, Extent{512, 256}, Extent{1024, 512}}) {
+    const EnvironmentMap map = make_synthetic_map("one-texel", extent);
+    const GateResult result = run_gate({&map, 1}, sound, {.samples = 1U << 20U});
+    EXPECT_EQ(overall_outcome(result, true), Outcome::accept)
+        << extent.width << ": " << testing::PrintToString(rejections(result));
   }
 }
 

@@ -70,7 +70,8 @@ Grid<Rgb> permuted(Preset preset, const Grid<Rgb>& picture) {
 }
 
 Grid<Rgb> nearest(Preset preset, const Grid<Rgb>& picture, Extent extent) {
-  const auto [width, height] = picture.extent();
+  const int width = picture.extent().width;
+  const int height = picture.extent().height;
   Grid<Rgb> map(extent);
   for_each_row(extent, [&](int y) {
     for (int x = 0; x < extent.width; ++x) {
@@ -96,7 +97,8 @@ Between between(double coordinate, int nodes) {
 }
 
 Grid<Rgb> interpolated(Preset preset, const Grid<Rgb>& picture, Extent extent) {
-  const auto [width, height] = picture.extent();
+  const int width = picture.extent().width;
+  const int height = picture.extent().height;
   const ImageLines lines = image_lines(preset, extent);
   Grid<Rgb> map(extent);
   for_each_row(extent, [&](int y) {

@@ -1,6 +1,8 @@
 // Renders at equal numbers of samples, with their signed errors.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <vector>
 
 #include "lightproof/image/writer.h"
@@ -40,7 +42,7 @@ std::string strategy_figure(const RenderRecord& r, double scale, double range) {
 }
 
 std::string hex(Rgb colour) {
-  const auto byte = [](float v) { return static_cast<int>(v * 255.0F + 0.5F); };
+  const auto byte = [](float v) { return static_cast<int>(std::lround(v * 255.0F)); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.r), byte(colour.g), byte(colour.b));
 }
 
