@@ -28,9 +28,9 @@ inline PublishedPoint published_octahedral(Direction d) {
 }
 
 inline PublishedPoint published_mapping(Preset preset, Direction d) {
-  const double X = d.y;  // the axes of the y-up presets
-  const double Y = d.z;
-  const double Z = d.x;
+  const double y_up_x = d.y;  // the axes of the y-up presets
+  const double y_up_y = d.z;
+  const double y_up_z = d.x;
   const double v = std::acos(d.z) / kPi;
   switch (preset) {
     case Preset::z_up:
@@ -39,13 +39,14 @@ inline PublishedPoint published_mapping(Preset preset, Direction d) {
       return {1.0 - fraction(std::atan2(d.y, d.x) / (2.0 * kPi)), v};
     case Preset::openexr:
     case Preset::exr_area:
-      return {(kPi - std::atan2(X, Z)) / (2.0 * kPi), (kPi / 2.0 - std::asin(Y)) / kPi};
+      return {(kPi - std::atan2(y_up_x, y_up_z)) / (2.0 * kPi),
+              (kPi / 2.0 - std::asin(y_up_y)) / kPi};
     case Preset::pbrt_v3:
       return {fraction(std::atan2(d.y, d.x) / (2.0 * kPi)), v};
     case Preset::pbrt_v4:
       return published_octahedral(d);
     case Preset::mitsuba:
-      return {fraction(std::atan2(X, -Z) / (2.0 * kPi)), std::acos(Y) / kPi};
+      return {fraction(std::atan2(y_up_x, -y_up_z) / (2.0 * kPi)), std::acos(y_up_y) / kPi};
   }
   return {};
 }
