@@ -32,8 +32,8 @@ TEST(Page, NeverContainsTheMarkupOfANameAsMarkup) {
 
 TEST(Page, NeedsNothingFromOutside) {
   const std::string page = report_page(testing::made_up_study());
-  static const std::regex kReference(R"((src|href)="(?!data:|#))");
-  EXPECT_FALSE(std::regex_search(page.substr(0, page.find("<script>!function")), kReference));
+  static const std::regex reference_mark(R"((src|href)="(?!data:|#))");
+  EXPECT_FALSE(std::regex_search(page.substr(0, page.find("<script>!function")), reference_mark));
   EXPECT_EQ(page.find("sourceMappingURL"), std::string::npos);
   EXPECT_NE(page.find("Redistribution"), std::string::npos) << "licence texts are missing";
 }
