@@ -5,7 +5,8 @@ target_compile_options(lightproof_settings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
   -Wold-style-cast -Wdouble-promotion -Werror
   -Wno-restrict  # false alarms of GCC 12 in std::string (GCC bug 105651)
-  -ffp-contract=off -fno-math-errno
+  -ffp-contract=off
+  -fno-math-errno -fno-trapping-math  # change no value, but allow vectors
   $<$<BOOL:${LIGHTPROOF_NATIVE}>:-march=native>)
 
 # lightproof_module(NAME SOURCES … [PUBLIC targets …] [PRIVATE targets …])

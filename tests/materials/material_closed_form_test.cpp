@@ -36,7 +36,8 @@ double hemisphere_integral(const std::function<double(Direction)>& f) {
 template <class M>
 double albedo(const M& material, Direction view) {
   const ShadingPoint at = {{}, frame_around(kUp), view};
-  return hemisphere_integral([&](Direction light) { return material.reflected_cosine(at, light); });
+  return hemisphere_integral(
+      [&](Direction light) { return material.evaluate(at, light).reflected_cosine; });
 }
 
 Direction view_at(double angle) { return {std::sin(angle), 0.0, std::cos(angle)}; }
@@ -52,9 +53,9 @@ TEST(Lambert, ReflectsItsAlbedoFromEveryView) {
 
 TEST(Lambert, IsAlbedoOverPiTimesTheCosine) {
   const ShadingPoint at = shading_point(kUp, 0.5);
-  EXPECT_DOUBLE_EQ(Lambert{0.8}.reflected_cosine(at, kUp), 0.8 / kPi);
-  EXPECT_DOUBLE_EQ(Lambert{0.8}.reflected_cosine(at, {0.8, 0.0, 0.6}), 0.8 * 0.6 / kPi);
-  EXPECT_EQ(Lambert{0.8}.reflected_cosine(at, {0.8, 0.0, -0.6}), 0.0);
+  EXPECT_DOUBLE_EQ(Lambert{0.8}.evaluate(at, kUp).reflected_cosine, 0.8 / kPi);
+  EXPECT_DOUBLE_EQ(Lambert{0.8}.evaluate(at, {0.8, 0.0, 0.6}).reflected_cosine, 0.8 * 0.6 / kPi);
+  EXPECT_EQ(Lambert{0.8}.evaluate(at, {0.8, 0.0, -0.6}).reflected_cosine, 0.0);
 }
 
 TEST(ModifiedPhong, ReflectsItsSpecularShareWholeAtNormalView) {
@@ -103,10 +104,10 @@ TEST(ModifiedPhong, PeaksAtTheMirroredView) {
   const Direction mirrored = reflect_about(at.view, kUp);
   const double cosine = std::cos(0.6);
   // (n+2)/2pi at the peak; its power of 50 takes 50 ulp.
-  EXPECT_NEAR((ModifiedPhong{0.0, 1.0, 50.0}.reflected_cosine(at, mirrored)),
+  EXPECT_NEAR((ModifiedPhong{0.0, 1.0, 50.0}.evaluate(at, mirrored).reflected_cosine),
               52.0 / (2.0 * kPi) * cosine, 1e-12);
-  EXPECT_NEAR((ModifiedPhong{0.3, 0.0, 50.0}.reflected_cosine(at, mirrored)), 0.3 / kPi * cosine,
-              1e-15);
+  EXPECT_NEAR((ModifiedPhong{0.3, 0.0, 50.0}.evaluate(at, mirrored).reflected_cosine),
+              0.3 / kPi * cosine, 1e-15);
 }
 
 /// A direction of the upper hemisphere, away from its rim.
@@ -119,7 +120,8 @@ Direction upper_direction(SquarePoint u) {
 /// f_r around the z axis.
 double brdf(const Material& material, Direction view, Direction light) {
   const ShadingPoint at = {{}, frame_around(kUp), view};
-  return std::visit([&](const auto& m) { return m.reflected_cosine(at, light); }, material) /
+  return std::visit([&](const auto& m) { return m.evaluate(at, light).reflected_cosine; },
+                    material) /
          light.z;
 }
 
@@ -141,7 +143,7 @@ TEST(Materials, ReflectNothingFromBelow) {
     const Direction normal = each.at.frame.normal;
     const Direction below = glm::normalize(-0.01 * normal - each.at.frame.tangent);
     const double reflected = std::visit(
-        [&](const auto& m) { return m.reflected_cosine(each.at, below); }, each.material);
+        [&](const auto& m) { return m.evaluate(each.at, below).reflected_cosine; }, each.material);
     EXPECT_EQ(reflected, 0.0) << each.name;
   }
 }

@@ -26,13 +26,14 @@ constexpr std::uint64_t kSamples = 1U << 19U;
 constexpr double kLog10Alpha = -6.0;
 
 PerSteradian pdf(const ShadingCase& at, Direction light) {
-  return std::visit([&](const auto& m) { return m.pdf(at.at, light); }, at.material);
+  return std::visit([&](const auto& m) { return m.evaluate(at.at, light).pdf; }, at.material);
 }
 DirectionSample sample(const ShadingCase& at, SquarePoint u) {
   return std::visit([&](const auto& m) { return m.sample(at.at, u); }, at.material);
 }
 double reflected_cosine(const ShadingCase& at, Direction light) {
-  return std::visit([&](const auto& m) { return m.reflected_cosine(at.at, light); }, at.material);
+  return std::visit([&](const auto& m) { return m.evaluate(at.at, light).reflected_cosine; },
+                    at.material);
 }
 
 /// The mass of every bin, and the moments of the weight f_r (n.l)+ / pdf.
@@ -113,9 +114,11 @@ TEST_P(EveryCase, ReturnedPdfIsThatOfTheDirection) {
   for (std::uint64_t i = 0; i < 10000; ++i) {
     const DirectionSample drawn = sample(GetParam(), random.point(i));
     EXPECT_NEAR(glm::length(drawn.direction), 1.0, 2e-15);
-    EXPECT_GT(drawn.pdf.value, 0.0);
-    EXPECT_NEAR(drawn.pdf.value, pdf(GetParam(), drawn.direction).value,
-                1e-12 * std::max(1.0, drawn.pdf.value));
+    EXPECT_GT(drawn.scattering.pdf.value, 0.0);
+    EXPECT_NEAR(drawn.scattering.pdf.value, pdf(GetParam(), drawn.direction).value,
+                1e-12 * std::max(1.0, drawn.scattering.pdf.value));
+    const double reflected = reflected_cosine(GetParam(), drawn.direction);
+    EXPECT_NEAR(drawn.scattering.reflected_cosine, reflected, 1e-12 * std::max(1.0, reflected));
   }
 }
 
@@ -127,7 +130,7 @@ TEST_P(EveryCase, EstimatorOfTheAlbedoHasItsMeanAndVariance) {
   Moments weights;
   for (std::uint64_t i = 0; i < kSamples; ++i) {
     const DirectionSample drawn = sample(GetParam(), random.point(i));
-    weights.add(reflected_cosine(GetParam(), drawn.direction) / drawn.pdf.value);
+    weights.add(reflected_cosine(GetParam(), drawn.direction) / drawn.scattering.pdf.value);
   }
   if (variance < 1e-6) {
     // A weight that is constant up to rounding.
@@ -147,7 +150,7 @@ TEST_P(EveryCase, EdgesOfTheSquareGiveDirections) {
     for (const double t : {0.0, 0x1p-53, 0.5, kBelowOne}) {
       const DirectionSample drawn = sample(GetParam(), {s, t});
       EXPECT_NEAR(glm::length(drawn.direction), 1.0, 2e-15);
-      EXPECT_TRUE(std::isfinite(drawn.pdf.value) && drawn.pdf.value >= 0.0);
+      EXPECT_TRUE(std::isfinite(drawn.scattering.pdf.value) && drawn.scattering.pdf.value >= 0.0);
     }
   }
 }

@@ -1,6 +1,7 @@
 #include "lightproof/render/scene.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <cmath>
 #include <vector>
@@ -52,6 +53,15 @@ TEST(Scene, ConvexSurfacesNeverShadowThemselves) {
       }
     }
   }
+}
+
+TEST(Scene, LeavesTheNumberOfThreadsAlone) {
+  const auto threads = [] {
+    return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  };
+  const std::size_t before = threads();
+  const Scene scene({true, true});
+  EXPECT_EQ(threads(), before);
 }
 
 TEST(Scene, SphereSeesThePlaneBelowItsHorizon) {

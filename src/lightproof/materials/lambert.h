@@ -11,17 +11,19 @@ namespace lightproof {
 struct Lambert {
   double albedo;
 
-  /// f_r (n·l)+, per steradian.
-  double reflected_cosine(const ShadingPoint& at, Direction light) const {
-    return albedo / kPi * std::max(0.0, glm::dot(at.frame.normal, light));
+  Scattering evaluate(const ShadingPoint& at, Direction light) const {
+    return of_cosine(glm::dot(at.frame.normal, light));
   }
   /// Density cos/pi: with it the estimator's weight is the albedo itself.
   DirectionSample sample(const ShadingPoint& at, SquarePoint u) const {
     const Direction local = cosine_hemisphere_from_square(u);
-    return {at.frame.to_world(local), cosine_hemisphere_pdf(local)};
+    return {at.frame.to_world(local), of_cosine(local.z)};
   }
-  PerSteradian pdf(const ShadingPoint& at, Direction light) const {
-    return {std::max(0.0, glm::dot(at.frame.normal, light)) / kPi};
+
+ private:
+  Scattering of_cosine(double cosine) const {
+    const double density = std::max(0.0, cosine) / kPi;
+    return {albedo * density, {density}};
   }
 };
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "lightproof/materials/shading_point.h"
 #include "lightproof/warp/hemisphere.h"
@@ -15,10 +14,12 @@ struct ModifiedPhong {
   double specular;  ///< diffuse + specular <= 1 conserves energy
   double exponent;
 
-  /// f_r (n·l)+, per steradian.
-  double reflected_cosine(const ShadingPoint& at, Direction light) const {
-    const double cosine = glm::dot(at.frame.normal, light);
-    return cosine <= 0.0 ? 0.0 : cosine * (diffuse / kPi + specular * lobe(at, light));
+  Scattering evaluate(const ShadingPoint& at, Direction light) const {
+    const double share = diffuse / (diffuse + specular);
+    const double cosine = std::max(0.0, glm::dot(at.frame.normal, light));
+    const double glossy = lobe(at, light);
+    return {cosine * (diffuse / kPi + specular * glossy),
+            {share * cosine / kPi + (1.0 - share) * glossy * (exponent + 1.0) / (exponent + 2.0)}};
   }
 
   /// One of the two lobes, chosen in proportion to its reflectance; the lobe around the mirrored
@@ -31,14 +32,7 @@ struct ModifiedPhong {
         draw_diffuse
             ? at.frame.to_world(cosine_hemisphere_from_square({s, u.t}))
             : frame_around(mirrored_view(at)).to_world(phong_lobe_from_square({s, u.t}, exponent));
-    return {light, pdf(at, light)};
-  }
-
-  PerSteradian pdf(const ShadingPoint& at, Direction light) const {
-    const double share = diffuse / (diffuse + specular);
-    const double cosine = std::max(0.0, glm::dot(at.frame.normal, light));
-    const double lobe_pdf = lobe(at, light) * (exponent + 1.0) / (exponent + 2.0);
-    return {share * cosine / kPi + (1.0 - share) * lobe_pdf};
+    return {light, evaluate(at, light)};
   }
 
  private:
@@ -48,8 +42,8 @@ struct ModifiedPhong {
   /// (n+2)/2pi cos^n(alpha).
   double lobe(const ShadingPoint& at, Direction light) const {
     const double cosine = glm::dot(mirrored_view(at), light);
-    if (cosine <= 0.0) return 0.0;
-    return (exponent + 2.0) / (2.0 * kPi) * std::pow(cosine, exponent);
+    const double peak = (exponent + 2.0) / (2.0 * kPi);
+    return cosine > 0.0 ? peak * cosine_power(cosine, exponent) : 0.0;
   }
 };
 

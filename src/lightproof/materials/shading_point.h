@@ -13,9 +13,15 @@ struct ShadingPoint {
   Direction view;
 };
 
+/// What a material does with light from one direction.
+struct Scattering {
+  double reflected_cosine;  ///< f_r (n·l)+, per steradian
+  PerSteradian pdf;         ///< with which the material's own lobes draw the direction
+};
+
 struct DirectionSample {
   Direction direction;
-  PerSteradian pdf;
+  Scattering scattering;  ///< of that direction
 };
 
 }  // namespace lightproof

@@ -8,31 +8,36 @@
 namespace lightproof {
 namespace {
 
-LightSample from_environment(const BinarySearch& sampler, SquarePoint u) {
+/// What drawing one sample yields.
+struct Drawn {
+  Direction direction;
+  double pdf;
+  double reflected_cosine;  ///< if the material drew it
+  std::uint32_t texel;      ///< if the map or the sphere did
+};
+
+std::uint32_t texel_index(int x, int y, Extent map) {
+  return static_cast<std::uint32_t>(y * map.width + x);
+}
+
+Drawn from_environment(const BinarySearch& sampler, SquarePoint u) {
   const TexelSample drawn = sampler.sample(u);
-  return {direction_from_square(drawn.at), to_solid_angle(drawn.pdf, drawn.at).value, drawn.x,
-          drawn.y};
+  return {direction_from_square(drawn.at), to_solid_angle(drawn.pdf, drawn.at).value, 0.0,
+          texel_index(drawn.x, drawn.y, sampler.table().extent())};
 }
 
 /// With density 1/4pi: cos(theta) uniform, so the place on the map needs no inverse of a warp but
 /// one arc cosine.
-LightSample from_sphere(Extent map, SquarePoint u) {
+Drawn from_sphere(Extent map, SquarePoint u) {
   const SquarePoint at = {u.s, std::acos(1.0 - 2.0 * u.t) / kPi};
-  return {direction_from_square(at), 1.0 / kSphere, cell_of(at.s, map.width),
-          cell_of(at.t, map.height)};
+  return {direction_from_square(at), 1.0 / kSphere, 0.0,
+          texel_index(cell_of(at.s, map.width), cell_of(at.t, map.height), map)};
 }
 
 template <class Surface>
-LightSample from_material(const Surface& surface, const ShadingPoint& at, SquarePoint u) {
-  const DirectionSample drawn = surface.sample(at, u);
-  return {drawn.direction, drawn.pdf.value, -1, -1};
-}
-
-/// Directions drawn from the material find their texel when it is known that they count.
-void locate(LightSample& sample, Extent map) {
-  const SquarePoint at = approximate_square_from_direction(sample.direction);
-  sample.x = cell_of(at.s, map.width);
-  sample.y = cell_of(at.t, map.height);
+Drawn from_material(const Surface& surface, const ShadingPoint& at, SquarePoint u) {
+  const auto [direction, scattering] = surface.sample(at, u);
+  return {direction, scattering.pdf.value, scattering.reflected_cosine, 0};
 }
 
 }  // namespace
@@ -42,7 +47,15 @@ void LightBatch::fill(const RandomStream& stream, std::uint64_t first, std::size
                       const Draw& draw) {
   assert(count <= kCapacity);
   count_ = count;
-  for (std::size_t i = 0; i < count; ++i) samples_[i] = draw(stream.point(first + i));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Drawn drawn = draw(stream.point(first + i));
+    x_[i] = drawn.direction.x;
+    y_[i] = drawn.direction.y;
+    z_[i] = drawn.direction.z;
+    pdf_[i] = drawn.pdf;
+    reflected_cosine_[i] = drawn.reflected_cosine;
+    texel_[i] = drawn.texel;
+  }
 }
 
 void LightBatch::draw(const Lighting& lighting, const ShadingPoint& at, const RandomStream& stream,
@@ -70,25 +83,38 @@ void LightBatch::draw(const Lighting& lighting, const ShadingPoint& at, const Ra
   }
 }
 
+void LightBatch::locate(Extent map) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    const SquarePoint at = approximate_square_from_direction({x_[i], y_[i], z_[i]});
+    texel_[i] = texel_index(cell_of(at.s, map.width), cell_of(at.t, map.height), map);
+  }
+}
+
 void LightBatch::shade(const Lighting& lighting, const ShadingPoint& at) {
   const Grid<Rgb>& radiance = lighting.light->map().radiance;
+  if (lighting.strategy == Strategy::material) {
+    locate(radiance.extent());
+  } else {
+    std::visit(
+        // Copies, which no store in the loop can change: what depends on them alone is done once.
+        [this, at](const auto surface) {
+          for (std::size_t i = 0; i < count_; ++i) {
+            reflected_cosine_[i] = surface.evaluate(at, direction(i)).reflected_cosine;
+          }
+        },
+        lighting.material);
+  }
+  // Every sample is written; those that do not matter are overwritten by the next.
   ray_count_ = 0;
-  std::visit(
-      [&](const auto& surface) {
-        for (std::size_t i = 0; i < count_; ++i) {
-          LightSample& sample = samples_[i];
-          const double k = surface.reflected_cosine(at, sample.direction);
-          estimates_[i] = Rgb(0.0F);
-          if (!(k > 0.0 && sample.pdf > 0.0)) continue;
-          if (sample.x < 0) locate(sample, radiance.extent());
-          arrivals_[ray_count_] = {&radiance(sample.x, sample.y),
-                                   static_cast<float>(k / sample.pdf),
-                                   static_cast<std::uint32_t>(i)};
-          __builtin_prefetch(arrivals_[ray_count_].radiance);
-          rays_[ray_count_++] = shadow_ray(at.position, sample.direction);
-        }
-      },
-      lighting.material);
+  for (std::size_t i = 0; i < count_; ++i) {
+    estimates_[i] = Rgb(0.0F);
+    rays_[ray_count_] = shadow_ray(at.position, direction(i));
+    arrivals_[ray_count_] = {radiance.values().data() + texel_[i],
+                             static_cast<float>(reflected_cosine_[i] / pdf_[i]),
+                             static_cast<std::uint32_t>(i)};
+    __builtin_prefetch(arrivals_[ray_count_].radiance);
+    ray_count_ += reflected_cosine_[i] > 0.0 && pdf_[i] > 0.0 ? 1 : 0;
+  }
 }
 
 std::span<const Rgb> LightBatch::resolve() {

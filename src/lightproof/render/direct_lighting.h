@@ -23,14 +23,6 @@ struct Lighting {
   Strategy strategy;
 };
 
-/// A direction towards the map and the texel that it meets. pdf 0: no sample.
-struct LightSample {
-  Direction direction;
-  double pdf;  ///< per steradian
-  std::int32_t x;
-  std::int32_t y;
-};
-
 /// Up to kCapacity samples on their way; one per thread, reused.
 class LightBatch {
  public:
@@ -41,10 +33,10 @@ class LightBatch {
   std::span<const Rgb> estimate(const Lighting& lighting, const ShadingPoint& at,
                                 const RandomStream& stream, std::uint64_t first, std::size_t count);
 
-  /// Fills the samples with directions.
+  /// Draws directions and their densities.
   void draw(const Lighting& lighting, const ShadingPoint& at, const RandomStream& stream,
             std::uint64_t first, std::size_t count);
-  /// Weighs them by k / pdf and makes rays of those that matter.
+  /// Weighs them by k / pdf, finds their texels and makes rays of those that matter.
   void shade(const Lighting& lighting, const ShadingPoint& at);
   /// Asks the scene which rays are blocked.
   void trace(const Scene& scene) { scene.trace({rays_.data(), ray_count_}); }
@@ -54,20 +46,31 @@ class LightBatch {
   std::span<const ShadowRay> rays() const { return {rays_.data(), ray_count_}; }
 
  private:
-  template <class Draw>
-  void fill(const RandomStream& stream, std::uint64_t first, std::size_t count, const Draw& draw);
-
-  /// What a ray brings if nothing blocks it. The texel is prefetched while the rays are traced.
+  /// A sample that may bring light, if nothing blocks its ray.
   struct Arrival {
     const Rgb* radiance;
     float weight;
     std::uint32_t sample;
   };
 
+  template <class Draw>
+  void fill(const RandomStream& stream, std::uint64_t first, std::size_t count, const Draw& draw);
+  Direction direction(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+  /// The texels that the directions meet.
+  void locate(Extent map);
+
+  // Of every sample. Apart, so that loops over them run on vectors.
   std::size_t count_ = 0;
-  std::size_t ray_count_ = 0;
-  std::array<LightSample, kCapacity> samples_;
+  std::array<double, kCapacity> x_;
+  std::array<double, kCapacity> y_;
+  std::array<double, kCapacity> z_;
+  std::array<double, kCapacity> pdf_;  ///< per steradian; 0: no sample
+  std::array<double, kCapacity> reflected_cosine_;
+  std::array<std::uint32_t, kCapacity> texel_;  ///< row by row
   std::array<Rgb, kCapacity> estimates_;
+
+  // Of those that matter.
+  std::size_t ray_count_ = 0;
   std::array<Arrival, kCapacity> arrivals_;
   std::array<ShadowRay, kCapacity> rays_;
 };

@@ -3,7 +3,6 @@
 #include <embree3/rtcore.h>
 
 #include <cstddef>
-#include <limits>
 #include <stdexcept>
 
 namespace lightproof {
@@ -16,7 +15,6 @@ static_assert(offsetof(ShadowRay, direction) == offsetof(RTCRay, dir_x));
 static_assert(offsetof(ShadowRay, far) == offsetof(RTCRay, tfar));
 static_assert(offsetof(ShadowRay, flags) == offsetof(RTCRay, flags));
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Half the side of the plane: to a point one radius above it, its horizon lies 1e-4 rad below
 /// the true one.
 constexpr float kPlaneHalfSide = 1e4F;
@@ -57,22 +55,9 @@ struct Scene::Device {
   RTCScene scene;
 };
 
-ShadowRay shadow_ray(glm::dvec3 origin, Direction direction) {
-  return {
-      {static_cast<float>(origin.x), static_cast<float>(origin.y), static_cast<float>(origin.z)},
-      0.0F,
-      {static_cast<float>(direction.x), static_cast<float>(direction.y),
-       static_cast<float>(direction.z)},
-      0.0F,
-      kInfinity,
-      ~0U,
-      0U,
-      0U};
-}
-
 Scene::Scene(SceneContent content) : content_(content), device_(std::make_unique<Device>()) {
-  // One thread builds so small a scene; how many threads render is the caller's choice.
-  device_->device = rtcNewDevice("threads=1,set_affinity=0");
+  // Without `threads=`: Embree would hold the whole process, not only itself, to that number.
+  device_->device = rtcNewDevice("set_affinity=0");
   if (device_->device == nullptr) throw std::runtime_error("Embree cannot create a device");
   device_->scene = rtcNewScene(device_->device);
   rtcSetSceneFlags(device_->scene, RTC_SCENE_FLAG_ROBUST);
@@ -99,7 +84,7 @@ std::optional<SurfaceHit> Scene::intersect(glm::dvec3 origin, Direction directio
                ray.direction[1],
                ray.direction[2],
                0.0F,
-               kInfinity,
+               ray.far,
                ~0U,
                0U,
                0U};

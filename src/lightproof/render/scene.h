@@ -2,6 +2,7 @@
 // both. The only file, with its source, that knows Embree.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,7 +24,18 @@ struct alignas(16) ShadowRay {
 };
 
 /// A ray from the point that nothing but the scene ends.
-ShadowRay shadow_ray(glm::dvec3 origin, Direction direction);
+inline ShadowRay shadow_ray(glm::dvec3 origin, Direction direction) {
+  return {
+      {static_cast<float>(origin.x), static_cast<float>(origin.y), static_cast<float>(origin.z)},
+      0.0F,
+      {static_cast<float>(direction.x), static_cast<float>(direction.y),
+       static_cast<float>(direction.z)},
+      0.0F,
+      std::numeric_limits<float>::infinity(),
+      ~0U,
+      0U,
+      0U};
+}
 
 /// True after Scene::trace if something blocks the ray.
 inline bool is_blocked(const ShadowRay& ray) { return ray.far < 0.0F; }

@@ -21,10 +21,10 @@ constexpr std::array<const char*, 8> kShapes = {"circle",         "square",     
                                                 "triangle-right", "triangle-left"};
 
 Json axis_style() {
-  return {{"labelFontSize", 12},     {"titleFontSize", 13},     {"titleFontWeight", 500},
-          {"titlePadding", 10},      {"gridColor", "#e6e8eb"},  {"domainColor", "#7b848e"},
-          {"tickColor", "#7b848e"},  {"labelColor", "#333b44"}, {"titleColor", "#1d232a"},
-          {"labelOverlap", "greedy"}};
+  return {{"labelFontSize", 12},      {"titleFontSize", 13},     {"titleFontWeight", 500},
+          {"titlePadding", 10},       {"gridColor", "#e6e8eb"},  {"domainColor", "#7b848e"},
+          {"tickColor", "#7b848e"},   {"labelColor", "#333b44"}, {"titleColor", "#1d232a"},
+          {"labelOverlap", "greedy"}, {"labelSeparation", 6}};
 }
 
 Json scale_of(const std::vector<SeriesStyle>& styles, std::string SeriesStyle::*property) {

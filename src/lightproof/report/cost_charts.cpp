@@ -59,7 +59,7 @@ Json unit_rule() {
 }
 
 Json error_bars(const Json& y, const Json& colour) {
-  return {{"mark", {{"type", "rule"}, {"strokeWidth", 1.5}, {"opacity", 0.6}}},
+  return {{"mark", {{"type", "rule"}, {"strokeWidth", 1.5}, {"opacity", 0.6}, {"clip", true}}},
           {"encoding", {{"y", y}, {"y2", {{"field", "high"}}}, {"color", colour}}}};
 }
 
@@ -124,19 +124,24 @@ Json throughput_tooltip() {
           tooltip("low", "fastest, ns", ".3~g"), tooltip("high", "slowest, ns", ".3~g")};
 }
 
+/// From 0: an error bar that reaches below says no more than that.
+Json ratio_axis(const std::string& field) {
+  Json y = quantity(field, "measured / predicted variance", "linear");
+  y["scale"]["domainMin"] = 0;
+  return y;
+}
+
 }  // namespace
 
 std::string variance_chart(const std::vector<ConvergenceRecord>& records) {
   const std::vector<SeriesStyle> styles = strategy_styles(records);
   const Json legend = {{"title", nullptr}};
   const Json colour = series(styles, &SeriesStyle::colour, legend);
-  const std::string title = "measured / predicted variance";
-  Json dots = points(quantity("ratio", title, "linear"), colour,
-                     series(styles, &SeriesStyle::shape, legend));
+  Json dots = points(ratio_axis("ratio"), colour, series(styles, &SeriesStyle::shape, legend));
   dots["encoding"]["tooltip"] = variance_tooltip();
   Json chart = base_chart(360);
   chart["data"] = {{"values", variance_rows(records)}};
-  chart["layer"] = {unit_rule(), error_bars(quantity("low", title, "linear"), colour), dots};
+  chart["layer"] = {unit_rule(), error_bars(ratio_axis("low"), colour), dots};
   for (std::size_t layer : {1U, 2U})
     chart["layer"][layer]["encoding"]["x"] = variance_axis(records);
   return text_of(chart);

@@ -39,7 +39,8 @@ std::string growth_table(const std::vector<GrowthFit>& growth) {
          paragraph(
              "Exponent of the time per sample against width + height (S + T), by least "
              "squares on logarithms: 1 is a linear scan, near 0 a search that hardly "
-             "notices the size.",
+             "notices the size. A search whose steps grow with the logarithm alone still slows "
+             "down where its table outgrows a cache: each step then waits for memory.",
              "note") +
          table.html();
 }

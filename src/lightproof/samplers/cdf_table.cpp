@@ -49,20 +49,11 @@ CdfTable::CdfTable(const EnvironmentMap& map, TargetDensity target)
   if (rows_.back() == 0) {
     throw InputError(fmt::format("{}: the map is black: there is no light to sample", map.name));
   }
-}
-
-double CdfTable::mass(int x, int y) const {
-  const auto row = static_cast<std::size_t>(y);
-  const auto column = static_cast<std::size_t>(x);
-  const CdfKnots knots = columns(y);
-  return 0x1p-62 * static_cast<double>(rows_[row + 1] - rows_[row]) *
-         static_cast<double>(knots[column + 1] - knots[column]);
-}
-
-PerSquare CdfTable::pdf(int x, int y, SquarePoint at) const {
-  const double p = mass(x, y);
-  if (weighting_ == Weighting::A) return {p * static_cast<double>(extent_.count())};
-  return to_square(PerSteradian{p / texel_solid_angle(extent_, y)}, at);
+  for (int y = 0; y < extent_.height; ++y) {
+    const double texels = weighting_ == Weighting::A ? static_cast<double>(extent_.count())
+                                                     : 1.0 / texel_solid_angle(extent_, y);
+    row_density_.push_back(0x1p-62 * units(rows_, y) * texels);
+  }
 }
 
 }  // namespace lightproof

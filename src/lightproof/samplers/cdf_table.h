@@ -38,16 +38,30 @@ class CdfTable {
     return {columns_.data() + static_cast<std::size_t>(y) * stride, stride};
   }
   /// Probability of texel (x, y) as drawn.
-  double mass(int x, int y) const;
+  double mass(int x, int y) const { return 0x1p-62 * units(rows_, y) * units(columns(y), x); }
   /// Density over the square at `at`, inside texel (x, y).
-  PerSquare pdf(int x, int y, SquarePoint at) const;
-  std::size_t bytes() const { return (rows_.size() + columns_.size()) * sizeof(std::uint32_t); }
+  PerSquare pdf(int x, int y, SquarePoint at) const {
+    const double density = row_density_[static_cast<std::size_t>(y)] * units(columns(y), x);
+    return weighting_ == Weighting::A ? PerSquare{density} : to_square(PerSteradian{density}, at);
+  }
+  std::size_t bytes() const {
+    return (rows_.size() + columns_.size()) * sizeof(std::uint32_t) +
+           row_density_.size() * sizeof(double);
+  }
 
  private:
+  /// Mass of a cell in units of 2^-31.
+  static double units(CdfKnots knots, int cell) {
+    const auto k = static_cast<std::size_t>(cell);
+    return static_cast<double>(knots[k + 1] - knots[k]);
+  }
+
   Extent extent_;
   Weighting weighting_;
   std::vector<std::uint32_t> rows_;
   std::vector<std::uint32_t> columns_;
+  /// Density of one unit in each row: over the square under A, per steradian under B.
+  std::vector<double> row_density_;
 };
 
 }  // namespace lightproof

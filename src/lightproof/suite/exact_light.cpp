@@ -11,9 +11,10 @@ reference::Kernel kernel_at(const ReceiverInfo& receiver, const Scene& scene,
   return {[&scene, material, point](Direction light) {
             return std::visit(
                 [&](const auto& surface) -> reference::KernelValue {
-                  const double k = surface.reflected_cosine(point, light);
-                  if (k <= 0.0 || !scene.is_visible(point.position, light)) return {};
-                  return {k, surface.pdf(point, light).value};
+                  const Scattering at = surface.evaluate(point, light);
+                  if (at.reflected_cosine <= 0.0) return {};
+                  if (!scene.is_visible(point.position, light)) return {};
+                  return {at.reflected_cosine, at.pdf.value};
                 },
                 material);
           },
