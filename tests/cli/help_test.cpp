@@ -54,6 +54,15 @@ INSTANTIATE_TEST_SUITE_P(
       return test.param.subcommand.empty() ? "lightproof" : test.param.subcommand;
     });
 
+TEST(UsageErrors, RefuseEmptyNamesOfFiles) {
+  for (const Words& words : {Words{"gate", "constant", "--json", ""}, Words{"study", "-o", ""},
+                             Words{"study", "--throughput", ""}}) {
+    const Finished finished = lightproof(words);
+    EXPECT_EQ(finished.exit_code, 2);
+    EXPECT_THAT(finished.err, HasSubstr("empty"));
+  }
+}
+
 TEST(Version, IsOneLine) {
   const Finished version = lightproof({"--version"});
   EXPECT_EQ(version.exit_code, 0);
@@ -82,7 +91,7 @@ TEST_P(Usage, ErrorIsExit2WithAReasonOnStderr) {
 INSTANTIATE_TEST_SUITE_P(
     Errors, Usage,
     testing::Values(UsageCase{"NoSubcommand", {}, "subcommand is required"},
-                    UsageCase{"UnknownSubcommand", {"prove"}, "subcommand"},
+                    UsageCase{"UnknownSubcommand", {"prove"}, "no command 'prove'"},
                     UsageCase{"UnknownOption", {"gate", "--frobnicate"}, "--frobnicate"},
                     UsageCase{"UnknownStudyOption", {"study", "--frobnicate"}, "--frobnicate"},
                     UsageCase{"MissingValue", {"gate", "--size"}, "--size"},

@@ -1,6 +1,7 @@
 // Ctrl-C: exit code 130, soon, and nothing half-written.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <chrono>
 #include <csignal>
@@ -44,8 +45,8 @@ Interruption interrupt(Process& process, int signal = SIGINT) {
   return result;
 }
 
-void expect_interrupted(const Interruption& interruption) {
-  EXPECT_EQ(interruption.finished.exit_code, 130) << interruption.finished.err;
+void expect_interrupted(const Interruption& interruption, int signal = SIGINT) {
+  EXPECT_EQ(interruption.finished.exit_code, 128 + signal) << interruption.finished.err;
   EXPECT_THAT(interruption.finished.err, HasSubstr("interrupted"));
   EXPECT_THAT(interruption.finished.out, IsEmpty());
   EXPECT_LT(interruption.seconds, kPatience);
@@ -63,8 +64,13 @@ TEST_P(StudyPhase, StopsSoonAndLeavesNothing) {
   EXPECT_THAT(names_in(folder / "report"), IsEmpty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Interrupted, StudyPhase, testing::Values("gate", "convergence"),
-                         [](const auto& test) { return std::string(test.param); });
+INSTANTIATE_TEST_SUITE_P(Interrupted, StudyPhase,
+                         testing::Values("gate", "exact light", "convergence"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::replace(name.begin(), name.end(), ' ', '_');
+                           return name;
+                         });
 
 const Words kLongGate = {"gate", "--size", "64x32", "-n", "1073741824", "--json", "gate.json"};
 
@@ -89,7 +95,7 @@ TEST(Interrupted, ByTerminationLikeByCtrlC) {
   const TemporaryFolder folder;
   Process gate(lightproof_command(kLongGate, folder / ""));
   work_for(gate, milliseconds(500));
-  expect_interrupted(interrupt(gate, SIGTERM));
+  expect_interrupted(interrupt(gate, SIGTERM), SIGTERM);
 }
 
 // Whatever an interrupt leaves unfinished must not be judged, whenever it comes.

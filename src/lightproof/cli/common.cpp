@@ -146,6 +146,13 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, std::uint64_
       ->default_str(std::to_string(value));
 }
 
+CLI::Option* add_path(CLI::App& command, const std::string& name, std::string& path,
+                      const std::string& description) {
+  return command.add_option(name, path, description)
+      ->type_name("PATH")
+      ->check([](const std::string& text) { return text.empty() ? "the name is empty" : ""; });
+}
+
 Extent parse_size(const std::string& text) {
   const std::size_t cross = text.find('x');
   if (cross != std::string::npos) {

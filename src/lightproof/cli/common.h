@@ -18,7 +18,7 @@ enum ExitCode : int {
   kRejected = 1,
   kBadInput = 2,
   kInconclusive = 3,
-  kInterrupted = 130,
+  kInterrupted = 128,  ///< plus the number of the signal: 130 for Ctrl-C, 143 for SIGTERM
 };
 
 /// How inputs are read and what is shown meanwhile.
@@ -43,6 +43,10 @@ inline constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 40U;
 /// Adds an option for a whole number from `least` to `most`, in decimal digits only.
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::uint64_t& value,
                         std::uint64_t least, std::uint64_t most, const std::string& description);
+
+/// Adds an option for a file or folder, whose name must not be empty.
+CLI::Option* add_path(CLI::App& command, const std::string& name, std::string& path,
+                      const std::string& description);
 
 /// "WxH", both at least 1. Throws InputError otherwise.
 Extent parse_size(const std::string& text);

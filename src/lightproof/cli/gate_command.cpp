@@ -78,13 +78,11 @@ void add_gate(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   command->add_option("--weighting", options->weighting, "test only this weighting")
       ->check(CLI::IsMember({"A", "B"}));
-  command->add_option("--json", options->json, "write every test to this file");
+  add_path(*command, "--json", options->json, "write every test to this file");
   command->footer(
-      "Without MAP every built-in map is tested. Exit codes: 0 all accepted, 1 rejected, 2 usage "
-      "or "
-      "input,\n3 inconclusive. Samplers with known defects are shown, but decide the exit code "
-      "only "
-      "if named by --sampler.");
+      "Without MAP every built-in map is tested. Exit codes: 0 all accepted, 1 rejected,\n"
+      "2 usage or input, 3 inconclusive. Samplers with known defects are shown, but decide\n"
+      "the exit code only if named by --sampler.");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -14,11 +14,19 @@
 
 namespace {
 
+volatile std::sig_atomic_t caught_signal = 0;
+
 /// The first Ctrl-C stops in good order; the second one at once.
-void on_interrupt(int /*signal*/) {
+void on_interrupt(int signal) {
+  caught_signal = signal;
   lightproof::request_interrupt();
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+}
+
+bool is_command(const CLI::App& app, const std::string& name) {
+  return !app.get_subcommands([&](const CLI::App* command) { return command->check_name(name); })
+              .empty();
 }
 
 int run(int argc, char** argv) {
@@ -33,11 +41,17 @@ int run(int argc, char** argv) {
   add_list(app, exit_code);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::RequiredError& error) {
+    if (argc > 1 && argv[1][0] != '-' && !is_command(app, argv[1])) {
+      fmt::print(stderr, "lightproof: there is no command '{}'; --help lists them\n", argv[1]);
+      return kBadInput;
+    }
+    return app.exit(error) == 0 ? kPassed : kBadInput;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kPassed : kBadInput;
   } catch (const lightproof::Interrupted&) {
     fmt::print(stderr, "lightproof: interrupted; nothing half-written was left\n");
-    return kInterrupted;
+    return kInterrupted + caught_signal;
   } catch (const lightproof::InputError& error) {
     fmt::print(stderr, "lightproof: {}\n", error.what());
     return kBadInput;
@@ -50,11 +64,16 @@ int run(int argc, char** argv) {
   return exit_code;
 }
 
+/// Unless whoever started the program wants the signal ignored, as nohup and background jobs do.
+void catch_signal(int signal) {
+  if (std::signal(signal, on_interrupt) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  catch_signal(SIGINT);
+  catch_signal(SIGTERM);
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

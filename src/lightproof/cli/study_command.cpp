@@ -89,15 +89,15 @@ void add_study(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "study", "The main job: gate, convergence, variance, throughput and renders as one report");
   add_common_options(*command, *options);
-  command->add_option("-o,--output", options->output,
-                      "folder of the report (default: out, which must then be empty)");
+  add_path(*command, "-o,--output", options->output,
+           "folder of the report (default: out, which must then be empty)");
   add_number(*command, "-n,--samples", options->study.gate.samples, 1024, kMostSamples,
              "samples of each gate test");
-  auto* file = command->add_option("--throughput", options->throughput,
-                                   "take throughput from this output of lightproof_bench");
+  auto* file = add_path(*command, "--throughput", options->throughput,
+                        "take throughput from this output of lightproof_bench");
   command->add_flag("--no-throughput", options->no_throughput, "leave throughput out")
       ->excludes(file);
-  command->footer("Writes report.html, results.json, CSV and EXR files. Exit codes: 0, 2.");
+  command->footer("Writes report.html, results.json, CSV and EXR files. Exit codes: 0 done, 2 usage or input.");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -264,15 +264,21 @@ std::vector<ConvergenceRecord> study_convergence(std::span<const EnvironmentLigh
   std::vector<Grid<double>> greys;
   for (const EnvironmentLight& light : lights) greys.push_back(luminance(light.map()));
   std::vector<std::unique_ptr<Stage>> stages;
-  std::vector<Line> lines;
   for (const ReceiverInfo& receiver : receivers()) {
     stages.push_back(std::make_unique<Stage>(receiver, options.picture));
+  }
+  const Progress exact = part_of(progress, 0.0, 0.3);
+  const double pairs = static_cast<double>(stages.size() * materials().size());
+  double done = 0.0;
+  std::vector<Line> lines;
+  for (const auto& stage : stages) {
     for (const MaterialInfo& material : materials()) {
-      auto more = lines_of(lights, greys, *stages.back(), material, options.estimates);
+      if (exact) exact("exact light", done++ / pairs);
+      auto more = lines_of(lights, greys, *stage, material, options.estimates);
       std::move(more.begin(), more.end(), std::back_inserter(lines));
     }
   }
-  return measure_lines(lines, options, progress);
+  return measure_lines(lines, options, part_of(progress, 0.3, 1.0));
 }
 
 }  // namespace lightproof

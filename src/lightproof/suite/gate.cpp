@@ -229,6 +229,7 @@ GateResult run_gate(std::span<const EnvironmentMap> maps, std::span<const Subjec
   std::vector<std::vector<TestRecord>> slots(maps.size() * subjects.size());
   std::mutex progress_mutex;
   std::size_t done = 0;
+  if (progress) progress("gate", 0.0);
   parallel_for(slots.size(), [&](std::size_t slot) {
     const EnvironmentMap& map = maps[slot / subjects.size()];
     const Subject& subject = subjects[slot % subjects.size()];
