@@ -97,7 +97,8 @@ void add_study(CLI::App& app, int& exit_code) {
                         "take throughput from this output of lightproof_bench");
   command->add_flag("--no-throughput", options->no_throughput, "leave throughput out")
       ->excludes(file);
-  command->footer("Writes report.html, results.json, CSV and EXR files. Exit codes: 0 done, 2 usage or input.");
+  command->footer(
+      "Writes report.html, results.json, CSV and EXR files. Exit codes: 0 done, 2 usage or input.");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
