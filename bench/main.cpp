@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
+    if (lightproof::bench::any_disagreement()) return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "lightproof_bench: %s\n", error.what());
     return 2;

@@ -50,7 +50,7 @@ TEST(Gate, RejectsThePublishedScanWhereTheFirstRowIsBlack) {
       gate_into(folder / "g.json", {"gate", "black-first-row", "--sampler", "linear_scan_published",
                                     "--size", "64x32", "-n", "65536"});
   EXPECT_EQ(gate.exit_code, 1);
-  EXPECT_THAT(gate.out, AllOf(HasSubstr("reject"), HasSubstr("Rejected tests")));
+  EXPECT_THAT(gate.out, AllOf(HasSubstr("\n\u2717 reject: "), HasSubstr("Rejected tests")));
   const json results = json_of(folder / "g.json");
   EXPECT_EQ(results.at("outcome"), "reject");
   EXPECT_TRUE(has_rejected_check_at_origin(results)) << results.dump(1);

@@ -1,8 +1,8 @@
-// Ctrl-C: exit code 130, soon, and nothing half-written.
+// Ctrl-C and SIGTERM: exit code 128 and the signal, soon, and nothing half-written.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -71,6 +71,25 @@ INSTANTIATE_TEST_SUITE_P(Interrupted, StudyPhase,
                            std::replace(name.begin(), name.end(), ' ', '_');
                            return name;
                          });
+
+// The benchmarks are a program of their own, which must end too.
+TEST(Interrupted, StudyEndsItsBenchmarks) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "tmp");
+    Command command =
+        on_terminal({"study", "constant", "--size", "32x16", "-o", "report"}, folder / "");
+    command.words.insert(command.words.begin(), {"env", "TMPDIR=" + (folder / "tmp").string()});
+    Process study(command);
+    ASSERT_TRUE(study.wait_for_err("throughput", seconds(60)));
+    std::this_thread::sleep_for(milliseconds(300));
+    ASSERT_THAT(names_in(folder / "tmp"), testing::Not(IsEmpty()))
+        << "the benchmarks have not started";
+    expect_interrupted(interrupt(study, signal), signal);
+    EXPECT_THAT(names_in(folder / "tmp"), IsEmpty());
+    EXPECT_THAT(names_in(folder / "report"), IsEmpty());
+  }
+}
 
 const Words kLongGate = {"gate", "--size", "64x32", "-n", "1073741824", "--json", "gate.json"};
 

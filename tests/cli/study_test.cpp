@@ -29,8 +29,9 @@ constexpr auto kLimit = std::chrono::seconds(1000);
 
 /// A disk of 64 kB, on which an earlier report lies; then what is on it.
 const std::string kOnFullDisk =
-    "mount -t tmpfs -o size=64k none report && echo earlier > report/report.html && \"$@\"; "
-    "code=$?; ls -A report; cat report/report.html; exit $code";
+    "mount -t tmpfs -o size=64k none report && echo earlier > report/report.html && "
+    "echo older > report/constant-sphere-on-plane-phong-brdf.exr && \"$@\"; "
+    "code=$?; ls -A report; cat report/*.exr report/report.html; exit $code";
 
 /// The folder of the studies and how they ended.
 struct Studies {
@@ -136,7 +137,8 @@ TEST_F(Study, OnAFullDiskNamesFileAndReason) {
 
 TEST_F(Study, OnAFullDiskKeepsTheEarlierReportAndLeavesNoParts) {
   if (!full()) GTEST_SKIP() << "mount namespaces are not available here";
-  EXPECT_THAT(full()->out, AllOf(HasSubstr("report.html\nearlier\n"), Not(HasSubstr(".part"))));
+  EXPECT_THAT(full()->out,
+              AllOf(HasSubstr("report.html\nolder\nearlier\n"), Not(HasSubstr(".part"))));
 }
 
 }  // namespace

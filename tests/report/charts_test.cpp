@@ -55,7 +55,7 @@ TEST(ConvergenceChart, LeavesOutWhatALogarithmCannotShow) {
   const json rows = json::parse(convergence_chart(study.convergence))["data"]["values"];
   EXPECT_EQ(rows.size(), 3U * 6U - 1U);
   EXPECT_TRUE(rows[0]["predicted"].is_null());
-  for (const json& row : rows) EXPECT_GT(row["low"].get<double>(), 0.0);
+  for (const json& row : rows) EXPECT_GT(row["drawn_low"].get<double>(), 0.0);
 }
 
 TEST(SmallConvergenceCharts, ShareTheirAxis) {
@@ -84,11 +84,11 @@ TEST(VarianceChart, HasBarsOfTwoStandardErrors) {
   EXPECT_DOUBLE_EQ(rows[0]["high"], 1.16);
 }
 
-TEST(ThroughputChart, NamesTheFittedExponent) {
+TEST(ThroughputChart, NamesTheStepsOfASample) {
   const StudyResult study = testing::made_up_study();
   const json rows = json::parse(throughput_chart(study.throughput, study.growth))["data"]["values"];
   ASSERT_EQ(rows.size(), 15U);
-  EXPECT_EQ(rows[0]["series"], "binary_search \u221d (S+T)^0.16");
+  EXPECT_EQ(rows[0]["series"], "binary_search, log2 S + log2 T steps");
   EXPECT_EQ(rows[0]["size"], 384);
   EXPECT_EQ(rows[0]["extent"], "256\u00d7128");
 }

@@ -136,6 +136,12 @@ TEST(VarianceFinding, AgreesOrNamesTheFarthest) {
             "1 of 2 ratios of measured to predicted variance within 3 standard errors of 1 (normal "
             "errors would leave 0.0054 outside); the farthest is uniform on city, sphere, Lambert "
             "with 1.500 \u00b1 0.010");
+  // A ratio that hardly tests anything is not counted.
+  ConvergenceRecord vague = estimator(-0.5, 3.0);
+  vague.variance_ratio_error = 1.0;
+  EXPECT_EQ(variance_finding({estimator(-0.5, 0.99), vague}),
+            "The one ratio of measured to predicted variance within 3 standard errors of 1: from "
+            "0.990 to 0.990; 1 not counted, with a standard error above a third");
   EXPECT_EQ(variance_finding({}), "No variance was both measured and predicted");
 }
 
@@ -154,6 +160,24 @@ TEST(ThroughputFinding, ComparesWithThePublishedScan) {
   EXPECT_EQ(throughput_finding(speeds(130.0, 400.0)),
             "binary_search is 13 to 40 times as fast as linear_scan_published, from 512\u00d7256 "
             "to 1024\u00d7512, and the gap grows with the map");
+}
+
+TEST(GrowthFinding, GivesTheTimeOfAStepWhereItIsFastestAndSlowest) {
+  const GrowthFit fit = {
+      "a", "S + T", 1.0, 0.1, {{{64, 32}, 0.7}, {{128, 64}, 0.5}, {{256, 128}, 2.25}}};
+  EXPECT_EQ(growth_finding({fit}),
+            "a: S + T steps of 0.50 ns (128\u00d764) to 2.2 ns (256\u00d7128)");
+}
+
+TEST(SavingFinding, ComparesTheBestWithTheWorstByPrediction) {
+  ConvergenceRecord good = estimator(-0.5, 1.0);
+  ConvergenceRecord bad = estimator(-0.5, 1.0);
+  good.strategy = "good";
+  bad.strategy = "bad";
+  good.predicted_variance = 0.5;
+  bad.predicted_variance = 20.0;
+  EXPECT_EQ(saving_finding({&bad, &good}), "good needs 40 times fewer samples than bad");
+  EXPECT_EQ(saving_finding({&good}), "no strategy is ahead");
 }
 
 TEST(ThroughputFinding, DoesNotClaimGrowthOrSpeedThatIsNotThere) {

@@ -216,9 +216,11 @@ StudyResult made_up_study() {
     }
   }
   study.throughput = throughput();
-  study.growth = {{"binary_search", "log2 S + log2 T", 0.161, 0.004},
-                  {"linear_scan_published", "S + T", 0.968, 0.012},
-                  {"alias_table", "constant", 0.052, 0.008}};
+  const Extent small = {256, 128};
+  const Extent large = {4096, 2048};
+  study.growth = {{"binary_search", "log2 S + log2 T", 0.161, 0.004, {{small, 1.5}, {large, 1.9}}},
+                  {"linear_scan_published", "S + T", 0.968, 0.012, {{small, 0.71}, {large, 0.68}}},
+                  {"alias_table", "constant", 0.052, 0.008, {{small, 9.0}, {large, 11.0}}}};
   for (std::size_t strategy = 0; strategy < 4; ++strategy)
     study.renders.push_back(render(strategy));
   return study;

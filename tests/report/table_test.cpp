@@ -30,7 +30,7 @@ GateResult mixed_gate() {
 }
 
 TEST(GateTable, HasOneLinePerConfigurationWithItsWorstTest) {
-  const std::vector<std::string> lines = lines_of(gate_table(mixed_gate()));
+  const std::vector<std::string> lines = lines_of(gate_table(mixed_gate(), false));
   ASSERT_GE(lines.size(), 3U);
   EXPECT_NE(lines[1].find("\u2713 accept  binary_search B"), std::string::npos) << lines[1];
   EXPECT_NE(lines[1].find("2/2"), std::string::npos) << lines[1];
@@ -40,7 +40,7 @@ TEST(GateTable, HasOneLinePerConfigurationWithItsWorstTest) {
 }
 
 TEST(GateTable, AlignsColumnsByCharactersNotBytes) {
-  const std::vector<std::string> lines = lines_of(gate_table(mixed_gate()));
+  const std::vector<std::string> lines = lines_of(gate_table(mixed_gate(), false));
   const auto column = [](const std::string& line, const std::string& text) {
     const std::string before = line.substr(0, line.find(text));
     return std::count_if(before.begin(), before.end(),
@@ -51,7 +51,7 @@ TEST(GateTable, AlignsColumnsByCharactersNotBytes) {
 }
 
 TEST(GateTable, TellsEveryRejectedTestInFull) {
-  const std::string text = gate_table(mixed_gate());
+  const std::string text = gate_table(mixed_gate(), false);
   EXPECT_NE(text.find("a_sampler_with_a_long_name B on caf\u00e9: reference/chi_square_grid\n"),
             std::string::npos)
       << text;
@@ -66,22 +66,30 @@ TEST(GateTable, TellsEveryRejectedTestInFull) {
 TEST(GateTable, CountsKnownDefectsApart) {
   GateResult gate = mixed_gate();
   gate.tests[2].known_defect = true;
-  const std::string text = gate_table(gate);
+  const std::string text = gate_table(gate, false);
   EXPECT_NE(text.find("\u2713 accept: 2 tests, 0 rejected"), std::string::npos) << text;
   EXPECT_NE(text.find("* kept as published, with known defects: 1 of 1 test rejected"),
             std::string::npos)
       << text;
 }
 
+TEST(GateTable, CountsKnownDefectsWithTheRestWhereTheyWereAskedFor) {
+  GateResult gate = mixed_gate();
+  gate.tests[2].known_defect = true;
+  const std::string text = gate_table(gate, true);
+  EXPECT_NE(text.find("\u2717 reject: 3 tests, 1 rejected"), std::string::npos) << text;
+  EXPECT_EQ(text.find("kept as published, with known defects:"), std::string::npos) << text;
+}
+
 TEST(GateTable, HasColourOnlyOnRequest) {
-  EXPECT_EQ(gate_table(mixed_gate()).find('\x1b'), std::string::npos);
-  const std::string coloured = gate_table(mixed_gate(), Colour::ansi);
+  EXPECT_EQ(gate_table(mixed_gate(), false).find('\x1b'), std::string::npos);
+  const std::string coloured = gate_table(mixed_gate(), false, Colour::ansi);
   EXPECT_NE(coloured.find("\x1b[31m\u2717 reject"), std::string::npos);
   EXPECT_NE(coloured.find("\x1b[32m\u2713 accept"), std::string::npos);
 }
 
 TEST(GateTable, SaysThatNothingRanIsInconclusive) {
-  EXPECT_NE(gate_table({}).find("? inconclusive: 0 tests"), std::string::npos);
+  EXPECT_NE(gate_table({}, false).find("? inconclusive: 0 tests"), std::string::npos);
 }
 
 }  // namespace

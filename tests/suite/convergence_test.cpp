@@ -19,11 +19,29 @@ std::vector<ConvergenceRecord> small_study(std::string_view name, std::uint64_t 
       lights, {.seed = seed, .most_samples = 1024, .estimates = 64, .picture = {3, 2}});
 }
 
+// Measured squared errors are means of squares: skewed to the right, so a single one is judged at 8
+// standard errors. Their mean squared deviation over all points must be 1: the points number 100
+// and more, each with a variance of z^2 of 2 + excess kurtosis, which is below 30 where the
+// standard error is at most a sixth; 6 standard errors of the mean are then below 3.5.
 TEST(Convergence, MeasuredErrorsAreThePredictedOnes) {
-  // 32 lines of 6 independent points: the sum of squared deviations in standard errors. The
-  // errors of squared errors are skewed, so the bound is Cantelli's, not the normal's: a line that
-  // is off by 6 standard errors has probability below 1/37 for any law, and the slopes of all 32
-  // lines average to -1/2 within 6 standard errors.
+  int points = 0;
+  double squares = 0.0;
+  for (const ConvergenceRecord& record : small_study("gradient", 1)) {
+    for (const ConvergencePoint& point : record.points) {
+      if (!(point.rmse_error > 0.0 && point.rmse_error <= point.predicted / 6.0)) continue;
+      const double z = (point.rmse - point.predicted) / point.rmse_error;
+      EXPECT_LT(std::abs(z), 8.0) << record.receiver << ", " << record.material << ", "
+                                  << record.strategy << ", N = " << point.samples;
+      squares += z * z;
+      ++points;
+    }
+  }
+  EXPECT_GT(points, 100);
+  EXPECT_LT(squares / points, 3.5);
+}
+
+// A variance's ratio is judged at 6 of its standard errors; so is the slope of all lines together.
+TEST(Convergence, VariancesAndSlopesAreThePredictedOnes) {
   double slope = 0.0;
   double weight = 0.0;
   for (const ConvergenceRecord& record : small_study("gradient", 1)) {
@@ -68,8 +86,15 @@ TEST(Convergence, TheSameBitsForAnyNumberOfThreads) {
     ASSERT_EQ(one.size(), many.size());
     for (std::size_t i = 0; i < one.size(); ++i) {
       EXPECT_EQ(one[i].measured_variance, many[i].measured_variance);
-      EXPECT_EQ(one[i].points.back().rmse, many[i].points.back().rmse);
       EXPECT_EQ(one[i].predicted_variance, many[i].predicted_variance);
+      EXPECT_EQ(one[i].variance_ratio_error, many[i].variance_ratio_error);
+      EXPECT_EQ(one[i].slope, many[i].slope);
+      ASSERT_EQ(one[i].points.size(), many[i].points.size());
+      for (std::size_t k = 0; k < one[i].points.size(); ++k) {
+        EXPECT_EQ(one[i].points[k].rmse, many[i].points[k].rmse);
+        EXPECT_EQ(one[i].points[k].rmse_error, many[i].points[k].rmse_error);
+        EXPECT_EQ(one[i].points[k].predicted, many[i].points[k].predicted);
+      }
     }
   }
 }

@@ -1,5 +1,6 @@
 #include "lightproof/suite/throughput.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,14 +45,32 @@ TEST_F(ThroughputFile, MedianAndRangeOfRepetitions) {
 }
 
 TEST_F(ThroughputFile, OtherBenchmarksAndAggregatesAreLeftOut) {
-  write("{\"benchmarks\":[" + run("render/uniform/lambert/64x32/plane", 9) +
+  write("{\"benchmarks\":[" + run("render/uniform/lambert/64x32/plane", 9) + "," +
+        run("sample/a/b/4x2/random", 9) +
         ",{\"run_name\":\"sample/a/b/2x1/random\",\"run_type\":\"aggregate\"}]}");
-  EXPECT_TRUE(read_throughput(file_).empty());
+  const auto records = read_throughput(file_);
+  ASSERT_EQ(records.size(), 1U);
+  EXPECT_EQ(records[0].extent, (Extent{4, 2}));
+}
+
+TEST_F(ThroughputFile, ABenchmarkThatFailedIsNotLeftOutSilently) {
+  write("{\"benchmarks\":[" + run("sample/a/b/4x2/random", 9) +
+        ",{\"run_name\":\"sample/wrong/b/4x2/random\",\"run_type\":\"iteration\","
+        "\"error_occurred\":true,\"error_message\":\"texel (1, 2)\"}]}");
+  try {
+    read_throughput(file_);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("sample/wrong/b/4x2/random"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("texel (1, 2)"));
+  }
 }
 
 TEST_F(ThroughputFile, WhatIsNotGoogleBenchmarksIsRefusedByName) {
   for (const std::string_view text :
-       {"", "not json", "[]", "{\"benchmarks\":[{\"run_type\":3}]}"}) {
+       {"", "not json", "[]", "{\"benchmarks\":[]}", "{\"benchmarks\":[{\"run_type\":3}]}",
+        "{\"benchmarks\":[{\"run_type\":\"iteration\",\"ns_per_sample\":1,\"table_bytes\":1,"
+        "\"build_ms\":1,\"run_name\":\"sample/a/b/99999999999x1/random\"}]}"}) {
     write(text);
     try {
       read_throughput(file_);
@@ -73,14 +92,23 @@ TEST(Growth, ExponentsOfALineAndALogarithm) {
   for (const int width : {512, 1024, 2048, 4096, 8192}) {
     const double size = 1.5 * width;
     records.push_back({"linear_scan", "sun-sky", {width, width / 2}, 0.3 * size, 0, 0, 0, 0});
-    records.push_back(
-        {"binary_search", "sun-sky", {width, width / 2}, 5.0 * std::log2(size), 0, 0, 0, 0});
+    records.push_back({"binary_search",
+                       "sun-sky",
+                       {width, width / 2},
+                       5.0 * (2.0 * std::log2(width) - 1.0),
+                       0,
+                       0,
+                       0,
+                       0});
   }
   const auto fits = growth_of(records);
   ASSERT_EQ(fits.size(), 2U);
   EXPECT_NEAR(fits[0].exponent, 1.0, 1e-12);
+  for (const StepTime& step : fits[0].steps) EXPECT_NEAR(step.ns, 0.3, 1e-12);
   EXPECT_LT(fits[1].exponent, 0.2);
   EXPECT_GT(fits[1].exponent, 0.0);
+  ASSERT_EQ(fits[1].steps.size(), 5U);
+  for (const StepTime& step : fits[1].steps) EXPECT_NEAR(step.ns, 5.0, 1e-12);
 }
 
 }  // namespace

@@ -47,9 +47,11 @@ int run(const Options& options) {
   gate.seed = options.seed;
   const GateResult result = run_gate(maps, subjects, gate, progress_bar(options));
   // A sampler with known defects fails a run only if it was asked for.
-  const Outcome outcome = overall_outcome(result, !options.samplers.empty());
+  const bool count_known_defects = !options.samplers.empty();
+  const Outcome outcome = overall_outcome(result, count_known_defects);
   if (!options.quiet) {
-    fmt::print("{}", gate_table(result, use_color(options) ? Colour::ansi : Colour::off));
+    const Colour colour = use_color(options) ? Colour::ansi : Colour::off;
+    fmt::print("{}", gate_table(result, count_known_defects, colour));
   }
   if (!options.json.empty()) write_file(options.json, gate_json(result, outcome));
   switch (outcome) {

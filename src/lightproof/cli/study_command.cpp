@@ -28,10 +28,11 @@ struct Options : CommonOptions {
 /// The folder for the report. Throws InputError if it may not be written over.
 fs::path output_folder(const Options& options) {
   fs::path folder = options.output.empty() ? "out" : options.output;
-  if (fs::exists(folder) && !fs::is_directory(folder)) {
+  std::error_code error;  // what cannot be looked at is reported when it is written to
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
     throw InputError(fmt::format("{}: is not a folder; name another with -o", folder.string()));
   }
-  if (options.output.empty() && fs::exists(folder) && !fs::is_empty(folder)) {
+  if (options.output.empty() && fs::exists(folder, error) && !fs::is_empty(folder, error)) {
     throw InputError(fmt::format(
         "{}: is not empty; say `-o {}` to write over a report in it, or name another folder",
         folder.string(), folder.string()));
@@ -98,7 +99,8 @@ void add_study(CLI::App& app, int& exit_code) {
   command->add_flag("--no-throughput", options->no_throughput, "leave throughput out")
       ->excludes(file);
   command->footer(
-      "Writes report.html, results.json, CSV and EXR files. Exit codes: 0 done, 2 usage or input.");
+      "Writes report.html, results.json, CSV, EXR and PNG files.\nExit codes: 0 done, 2 usage or "
+      "input.");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

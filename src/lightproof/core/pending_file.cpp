@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <system_error>
+#include <vector>
 
 #include "lightproof/core/error.h"
 
@@ -73,6 +74,33 @@ void PendingFile::commit() {
   fs::rename(temporary_, target_, error);
   if (error) fail(target_, error.value());
   committed_ = true;
+}
+
+PendingFolder::PendingFolder(fs::path target) : target_(std::move(target)) {
+  std::error_code error;
+  fs::create_directories(target_, error);
+  if (error) {
+    throw InputError(
+        fmt::format("{}: cannot create the folder: {}", target_.string(), error.message()));
+  }
+  temporary_ = target_ / fmt::format(".{}.part", ::getpid());
+  fs::create_directory(temporary_, error);
+  if (error) fail(target_, error.value());
+}
+
+PendingFolder::~PendingFolder() {
+  std::error_code ignored;
+  fs::remove_all(temporary_, ignored);
+}
+
+void PendingFolder::commit() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(temporary_)) files.push_back(entry.path());
+  for (const fs::path& file : files) {
+    std::error_code error;
+    fs::rename(file, target_ / file.filename(), error);
+    if (error) fail(target_ / file.filename(), error.value());
+  }
 }
 
 void write_file(const fs::path& path, std::string_view content) {

@@ -27,6 +27,26 @@ class PendingFile {
   bool committed_ = false;
 };
 
+/// A folder of files being written: all of them appear, or none. Write into temporary(), then
+/// commit(); without commit the temporary folder is removed and the target untouched.
+class PendingFolder {
+ public:
+  /// Makes the target if it is not there. Throws InputError if it cannot be made or written.
+  explicit PendingFolder(std::filesystem::path target);
+  ~PendingFolder();
+  PendingFolder(const PendingFolder&) = delete;
+  PendingFolder& operator=(const PendingFolder&) = delete;
+
+  /// Inside the target, so that files move by renaming.
+  const std::filesystem::path& temporary() const { return temporary_; }
+  /// Moves the files to the target, over what stood there under their names.
+  void commit();
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
+};
+
 /// Writes `content` to `path` through a PendingFile. A link is followed; a pipe or device is
 /// written to as it is. Throws InputError (a full disk included).
 void write_file(const std::filesystem::path& path, std::string_view content);

@@ -35,7 +35,7 @@ std::string small_convergence_chart(const std::vector<ConvergenceRecord>& record
 /// Measured / predicted variance against predicted variance. Records without a ratio are left out.
 std::string variance_chart(const std::vector<ConvergenceRecord>& records);
 
-/// ns per sample against the size of the map, log-log, with the fitted exponents in the legend.
+/// ns per sample against the size of the map, log-log, with the number of steps in the legend.
 std::string throughput_chart(const std::vector<ThroughputRecord>& records,
                              const std::vector<GrowthFit>& growth);
 

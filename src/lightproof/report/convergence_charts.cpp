@@ -19,7 +19,8 @@ Json convergence_row(const ConvergenceRecord& r, const ConvergencePoint& p) {
   Json row = {{"series", r.strategy},
               {"n", p.samples},
               {"rmse", rounded(p.rmse)},
-              {"low", rounded(low)},
+              {"drawn_low", rounded(low)},
+              {"low", rounded(p.rmse - kBarHalfLength * p.rmse_error)},
               {"high", rounded(p.rmse + kBarHalfLength * p.rmse_error)}};
   row["predicted"] = drawable(p.predicted) ? rounded(p.predicted) : Json(nullptr);
   return row;
@@ -105,7 +106,7 @@ Json convergence_layers(const std::vector<SeriesStyle>& styles, LogRange range, 
   const Json bars = {
       {"mark", {{"type", "rule"}, {"strokeWidth", 1.5}, {"clip", true}}},
       {"encoding",
-       {{"y", error_axis("low", range)}, {"y2", {{"field", "high"}}}, {"color", colour}}}};
+       {{"y", error_axis("drawn_low", range)}, {"y2", {{"field", "high"}}}, {"color", colour}}}};
   const Json points = {
       {"mark", {{"type", "point"}, {"filled", true}, {"size", legends ? 55 : 28}, {"opacity", 1}}},
       {"encoding",

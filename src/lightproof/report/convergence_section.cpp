@@ -85,8 +85,13 @@ std::string small_multiples(const std::vector<ConvergenceRecord>& records) {
                                  escaped(scene));
   html += legend(records) + "<div class=\"multiples\">\n";
   for (std::size_t i = 0; i < maps.size(); ++i) {
+    std::vector<const ConvergenceRecord*> here;
+    for (const ConvergenceRecord& r : records) {
+      if (scene_name(r) == scene && r.map == maps[i]) here.push_back(&r);
+    }
+    const std::string title = fmt::format("{}: {}", maps[i], saving_finding(here));
     const std::string text = fmt::format("RMSE against samples on {}, {}", maps[i], scene);
-    html += chart_figure({fmt::format("convergence-{}", i + 1), maps[i], text, "",
+    html += chart_figure({fmt::format("convergence-{}", i + 1), title, text, "",
                           small_convergence_chart(records, maps[i], scene)},
                          "", true);
   }
@@ -100,8 +105,8 @@ constexpr std::string_view kConvergenceNote =
 
 constexpr std::string_view kVarianceNote =
     "Every estimator of the convergence study once: its measured variance per sample divided by "
-    "the "
-    "variance that was computed from the map by exact sums. Bars: two standard errors on either "
+    "the variance that was computed from the map by quadrature. Bars: two standard errors on "
+    "either "
     "side, so about one in twenty may miss the line at 1.";
 
 }  // namespace

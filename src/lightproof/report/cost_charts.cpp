@@ -68,12 +68,12 @@ Json points(const Json& y, const Json& colour, const Json& shape) {
           {"encoding", {{"y", y}, {"color", colour}, {"shape", shape}}}};
 }
 
-/// "linear_scan ∝ (S+T)^0.97", or the name alone without a fit.
+/// "linear_scan, S + T steps", or the name alone without a fit.
 std::string label_of(const std::string& sampler, const std::vector<GrowthFit>& growth) {
   const auto fit = std::find_if(growth.begin(), growth.end(),
                                 [&](const GrowthFit& g) { return g.sampler == sampler; });
   if (fit == growth.end()) return sampler;
-  return fmt::format("{} \u221d (S+T)^{:.2f}", sampler, fit->exponent);
+  return fmt::format("{}, {} steps", sampler, fit->model);
 }
 
 int predictor(Extent extent) { return extent.width + extent.height; }

@@ -150,25 +150,46 @@ bool has_ratio(const ConvergenceRecord& record) {
 std::string variance_finding(const std::vector<ConvergenceRecord>& records) {
   Agreement ratios;
   Range range;
+  std::size_t vague = 0;
   for (const ConvergenceRecord& r : records) {
     if (!has_ratio(r)) continue;
+    if (r.variance_ratio_error > kTelling) {
+      ++vague;
+      continue;
+    }
     const double ratio = r.measured_variance / r.predicted_variance;
     ratios.add(deviation(ratio, 1.0, r.variance_ratio_error), r);
     range.add(ratio);
   }
   if (ratios.all == 0) return "No variance was both measured and predicted";
+  const std::string rest =
+      vague == 0 ? "" : fmt::format("; {} not counted, with a standard error above a third", vague);
   if (ratios.within == ratios.all) {
     return capitalised(fmt::format(
-        "{} of measured to predicted variance within 3 standard errors of 1: from {} to {}",
-        all_of(ratios.all, "ratio"), page_number(range.low), page_number(range.high)));
+        "{} of measured to predicted variance within 3 standard errors of 1: from {} to {}{}",
+        all_of(ratios.all, "ratio"), page_number(range.low), page_number(range.high), rest));
   }
   const ConvergenceRecord& worst = *ratios.worst;
   return fmt::format(
       "{} of {} of measured to predicted variance within 3 standard errors of 1 ({}); the "
-      "farthest is {} with {}",
+      "farthest is {} with {}{}",
       with_thousands(ratios.within), counted(ratios.all, "ratio"), by_chance(ratios.all),
       place_of(worst),
-      with_error(worst.measured_variance / worst.predicted_variance, worst.variance_ratio_error));
+      with_error(worst.measured_variance / worst.predicted_variance, worst.variance_ratio_error),
+      rest);
+}
+
+std::string saving_finding(const std::vector<const ConvergenceRecord*>& records) {
+  const auto by_variance = [](const ConvergenceRecord* a, const ConvergenceRecord* b) {
+    return a->predicted_variance < b->predicted_variance;
+  };
+  const ConvergenceRecord& best = **std::min_element(records.begin(), records.end(), by_variance);
+  const ConvergenceRecord& worst = **std::max_element(records.begin(), records.end(), by_variance);
+  if (is_all_but_exact(best)) return fmt::format("{} is exact", best.strategy);
+  const double factor = worst.predicted_variance / best.predicted_variance;
+  if (!(factor > 1.0)) return "no strategy is ahead";
+  return fmt::format("{} needs {} times fewer samples than {}", best.strategy,
+                     page_number(factor, 2), worst.strategy);
 }
 
 std::string render_finding(const std::vector<const RenderRecord*>& scene) {

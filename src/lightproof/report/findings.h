@@ -37,6 +37,20 @@ std::string variance_finding(const std::vector<ConvergenceRecord>& records);
 /// else the slowest sampler), and whether that grows with the map.
 std::string throughput_finding(const StudyResult& study);
 
+/// The sizes at which a sampler's steps are fastest and slowest. The fit has at least one size.
+struct StepRange {
+  StepTime fastest;
+  StepTime slowest;
+};
+StepRange step_range(const GrowthFit& fit);
+
+/// How many steps each sampler takes, and whether they stay as fast as the map grows.
+std::string growth_finding(const std::vector<GrowthFit>& growth);
+
+/// How many times fewer samples the best strategy needs than the worst for the same error, by the
+/// predicted variances. `records` is not empty.
+std::string saving_finding(const std::vector<const ConvergenceRecord*>& records);
+
 /// Which strategy has the smallest error in one scene. `scene` is not empty.
 std::string render_finding(const std::vector<const RenderRecord*>& scene);
 

@@ -1,6 +1,6 @@
 #include "lightproof/report/json.h"
 
-#include <cmath>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "lightproof/report/gate_summary.h"
@@ -11,11 +11,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// NaN is left to the library, which writes null.
-Json number(double value) {
-  if (std::isinf(value)) return value < 0.0 ? "-Infinity" : "Infinity";
-  return value;
-}
+/// NaN is left to the library, which writes null. JSON has no infinity: readers who compare with a
+/// threshold get a number beyond any.
+Json number(double value) { return std::clamp(value, -1e308, 1e308); }
 
 Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
@@ -43,6 +41,7 @@ Json json_of(const ConvergencePoint& p);
 Json json_of(const ConvergenceRecord& r);
 Json json_of(const ThroughputRecord& r);
 Json json_of(const GrowthFit& fit);
+Json json_of(const StepTime& step);
 Json json_of(const MapRecord& r);
 Json json_of(const RenderRecord& r);
 
@@ -98,7 +97,12 @@ Json json_of(const GrowthFit& fit) {
   return {{"sampler", fit.sampler},
           {"model", fit.model},
           {"exponent", number(fit.exponent)},
-          {"exponent_error", number(fit.exponent_error)}};
+          {"exponent_error", number(fit.exponent_error)},
+          {"steps", list_of(fit.steps)}};
+}
+
+Json json_of(const StepTime& step) {
+  return {{"size", json_of(step.extent)}, {"ns", number(step.ns)}};
 }
 
 Json json_of(const MapRecord& r) {

@@ -1,8 +1,8 @@
 // Results for other programs.
 //
-// Numbers that JSON cannot hold, in both documents: NaN is null, the infinities are the strings
-// "Infinity" and "-Infinity". Text that is not UTF-8 (file names may be anything) has its bad bytes
-// replaced by U+FFFD.
+// Numbers that JSON cannot hold, in both documents: NaN is null, the infinities are 1e308 and
+// -1e308 (an impossible sample has log10_p -1e308). Text that is not UTF-8 (file names may be
+// anything) has its bad bytes replaced by U+FFFD.
 #pragma once
 
 #include <string>

@@ -1,9 +1,6 @@
 #include "lightproof/report/report.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <system_error>
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/pending_file.h"
@@ -12,19 +9,11 @@
 #include "lightproof/report/json.h"
 #include "lightproof/report/names.h"
 #include "lightproof/report/page.h"
+#include "lightproof/report/pictures.h"
 
 namespace lightproof {
 namespace fs = std::filesystem;
 namespace {
-
-void create_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw InputError(
-        fmt::format("{}: cannot create the folder: {}", folder.string(), error.message()));
-  }
-}
 
 Grid<Rgb> grey(const Grid<double>& values) {
   Grid<Rgb> picture(values.extent());
@@ -33,14 +22,24 @@ Grid<Rgb> grey(const Grid<double>& values) {
   return picture;
 }
 
-void write_pictures(const std::vector<RenderRecord>& renders, const fs::path& folder) {
-  const std::vector<std::string> stems = render_stems(renders);
-  for (std::size_t i = 0; i < renders.size(); ++i) {
+/// Each scene's pictures at one exposure, as in the report; the values themselves as EXR.
+void write_scene(const RenderScene& scene, const std::vector<std::string>& stems,
+                 const std::vector<RenderRecord>& renders, const fs::path& folder) {
+  const Grid<Rgb>& reference = renders[scene.members.front()].reference;
+  const double exposure = mean_exposure(reference);
+  write_exr(folder / (scene.stem + "-reference.exr"), reference);
+  write_png(folder / (scene.stem + "-reference.png"), tone_mapped(reference, exposure));
+  for (const std::size_t i : scene.members) {
     write_exr(folder / (stems[i] + ".exr"), renders[i].picture);
+    write_png(folder / (stems[i] + ".png"), tone_mapped(renders[i].picture, exposure));
     write_exr(folder / (stems[i] + "-error.exr"), grey(renders[i].error));
   }
+}
+
+void write_pictures(const std::vector<RenderRecord>& renders, const fs::path& folder) {
+  const std::vector<std::string> stems = render_stems(renders);
   for (const RenderScene& scene : render_scenes(renders)) {
-    write_exr(folder / (scene.stem + "-reference.exr"), renders[scene.members.front()].reference);
+    write_scene(scene, stems, renders, folder);
   }
 }
 
@@ -57,10 +56,19 @@ void write_tables(const StudyResult& study, const fs::path& folder) {
 }  // namespace
 
 void write_report(const StudyResult& study, const fs::path& folder) {
-  create_folder(folder);
-  write_pictures(study.renders, folder);
-  write_tables(study, folder);
-  write_file(folder / "report.html", report_page(study));
+  PendingFolder pending(folder);
+  const std::string temporary = pending.temporary().string();
+  try {
+    write_pictures(study.renders, temporary);
+    write_tables(study, temporary);
+    write_file(pending.temporary() / "report.html", report_page(study));
+  } catch (const InputError& error) {
+    // The reader knows the final name.
+    std::string text = error.what();
+    if (text.starts_with(temporary)) text.replace(0, temporary.size(), folder.string());
+    throw InputError(text);
+  }
+  pending.commit();
 }
 
 }  // namespace lightproof

@@ -12,9 +12,9 @@ namespace lightproof {
 ///   results.json   everything but the pixels (report/json.h)
 ///   gate.csv, convergence.csv, variance.csv, throughput.csv, renders.csv, maps.csv
 ///   <map>-<receiver>-<material>-<strategy>.exr, …-error.exr (signed, relative to the reference's
-///   mean, the same in R, G and B), <map>-<receiver>-<material>-reference.exr
-/// Each file appears complete or not at all; report.html comes last. Throws InputError if a file
-/// cannot be written.
+///   mean, the same in R, G and B), <map>-<receiver>-<material>-reference.exr; the pictures and
+///   the reference as .png too, at one exposure a scene
+/// All files appear or none. Throws InputError if one cannot be written.
 void write_report(const StudyResult& study, const std::filesystem::path& folder);
 
 }  // namespace lightproof

@@ -1,4 +1,4 @@
-// The finding on throughput: the subject against the baseline, size by size.
+// The findings on throughput: the subject against the baseline, size by size, and growth.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -99,6 +99,25 @@ std::string range_text(double low, double high) {
 }
 
 }  // namespace
+
+StepRange step_range(const GrowthFit& fit) {
+  const auto [fastest, slowest] =
+      std::minmax_element(fit.steps.begin(), fit.steps.end(),
+                          [](const StepTime& a, const StepTime& b) { return a.ns < b.ns; });
+  return {*fastest, *slowest};
+}
+
+std::string growth_finding(const std::vector<GrowthFit>& growth) {
+  std::string text;
+  for (const GrowthFit& fit : growth) {
+    const StepRange range = step_range(fit);
+    text += fmt::format("{}{}: {} steps of {} ns ({}) to {} ns ({})", text.empty() ? "" : "; ",
+                        fit.sampler, fit.model, page_number(range.fastest.ns, 2),
+                        extent_text(range.fastest.extent), page_number(range.slowest.ns, 2),
+                        extent_text(range.slowest.extent));
+  }
+  return text;
+}
 
 std::string throughput_finding(const StudyResult& study) {
   if (study.throughput.empty()) return "Throughput was not measured";

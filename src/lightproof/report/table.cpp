@@ -99,9 +99,10 @@ std::string rejected_lines(const GateResult& gate, Colour colour) {
 
 }  // namespace
 
-std::string gate_table(const GateResult& gate, Colour colour) {
-  const Tally all = deciding_tally(gate);
-  const Tally known = known_defect_tally(gate);
+std::string gate_table(const GateResult& gate, bool count_known_defects, Colour colour) {
+  const Tally all = count_known_defects ? tally_of(gate, [](const TestRecord&) { return true; })
+                                        : deciding_tally(gate);
+  const Tally known = count_known_defects ? Tally{} : known_defect_tally(gate);
   std::string total = fmt::format(
       "{}: {}, {} rejected, {} inconclusive; family-wise error {}, {} samples per "
       "configuration, seed {}",

@@ -10,7 +10,9 @@ namespace lightproof {
 enum class Colour { off, ansi };
 
 /// Aligned columns: one line per sampler, weighting and map with its worst test, then every
-/// rejected test in full, then the totals. Ends with a newline.
-std::string gate_table(const GateResult& gate, Colour colour = Colour::off);
+/// rejected test in full, then the totals of the tests that count (see overall_outcome). Ends with
+/// a newline.
+std::string gate_table(const GateResult& gate, bool count_known_defects,
+                       Colour colour = Colour::off);
 
 }  // namespace lightproof

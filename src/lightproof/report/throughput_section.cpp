@@ -29,25 +29,29 @@ std::string throughput_table(const std::vector<ThroughputRecord>& records) {
 
 std::string growth_table(const std::vector<GrowthFit>& growth) {
   if (growth.empty()) return "";
-  Table table("Fitted growth", {"Sampler", "Exponent", "Expected to grow as"});
+  Table table("Fitted growth", {"Sampler", "Steps of a sample", "Fastest step, ns",
+                                "Slowest step, ns", "Exponent of S + T"});
   for (const GrowthFit& fit : growth) {
+    const StepRange range = step_range(fit);
     table.add({text_cell(fit.sampler),
-               {with_error(fit.exponent, fit.exponent_error), "number", ""},
-               text_cell(fit.model)});
+               text_cell(fit.model),
+               number_cell(range.fastest.ns),
+               number_cell(range.slowest.ns),
+               {with_error(fit.exponent, fit.exponent_error), "number", ""}});
   }
-  return "<h4>Growth with the map</h4>\n" +
+  return "<h4>" + escaped(growth_finding(growth)) + "</h4>\n" +
          paragraph(
-             "Exponent of the time per sample against width + height (S + T), by least "
-             "squares on logarithms: 1 is a linear scan, near 0 a search that hardly "
-             "notices the size. A search whose steps grow with the logarithm alone still slows "
-             "down where its table outgrows a cache: each step then waits for memory.",
+             "A sampler whose time follows its steps takes the same time for each. What is left "
+             "is the memory: once a table outgrows a cache, a step of the search waits for it, "
+             "while a scan reads ahead. The exponent is that of the whole time against width plus "
+             "height, by least squares on logarithms.",
              "note") +
          table.html();
 }
 
 constexpr std::string_view kNote =
     "Median over the benchmark's repetitions; bars reach from the fastest to the slowest. "
-    "The legend gives the fitted growth with width plus height.";
+    "The legend gives how many steps a sample takes on a map of width S and height T.";
 
 constexpr std::string_view kMissing =
     "Throughput was not measured in this study. Build the benchmark program (LIGHTPROOF_BENCH, on "

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 
 #include "lightproof/core/error.h"
@@ -15,13 +16,16 @@ AnySampler make(const EnvironmentMap& map, Weighting weighting) {
   return Sampler(map, TargetDensity{weighting, kGrey});
 }
 
+double scanned(Extent map) { return map.width + map.height; }
+double halved(Extent map) { return std::log2(map.width) + std::log2(map.height); }
+
 constexpr std::array<SamplerInfo, 3> kSamplers = {{
-    {"linear_scan_published", "lecture \"Image-based Lighting\", GLSL listing", "S + T",
+    {"linear_scan_published", "lecture \"Image-based Lighting\", GLSL listing", "S + T", scanned,
      kPublishedLuminance, true, false, make<LinearScanPublished, kPublishedLuminance>},
-    {"linear_scan", "the lecture's scan, corrected, over stored sums", "S + T", kRec709, false,
-     true, make<LinearScan, kRec709>},
-    {"binary_search", "bisection of the same sums (Knuth, TAOCP 3, 6.2.1)", "log S + log T",
-     kRec709, false, true, make<BinarySearch, kRec709>},
+    {"linear_scan", "the lecture's scan, corrected, over stored sums", "S + T", scanned, kRec709,
+     false, false, make<LinearScan, kRec709>},
+    {"binary_search", "bisection of the same sums (Knuth, TAOCP 3, 6.2.1)", "log2 S + log2 T",
+     halved, kRec709, false, true, make<BinarySearch, kRec709>},
 }};
 
 }  // namespace

@@ -18,10 +18,11 @@ using AnySampler = std::variant<LinearScanPublished, LinearScan, BinarySearch>;
 struct SamplerInfo {
   std::string_view name;
   std::string_view source;  ///< paper or lecture
-  std::string_view growth;  ///< cost of one sample for a map of S x T texels
+  std::string_view growth;  ///< steps of one sample on a map of S x T texels, up to a constant
+  double (*steps)(Extent);  ///< the same as a function
   LuminanceWeights grey;    ///< the grey value that the sampler declares
   bool known_defects;       ///< kept as published, to show what the gate finds
-  bool inverts_shared_cdf;  ///< returns the texel of LinearScan for every point
+  bool inverts_shared_cdf;  ///< must return the texel of LinearScan for every point
   /// The map must outlive the sampler. Throws InputError if it is black.
   AnySampler (*make)(const EnvironmentMap& map, Weighting weighting);
 

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::array<double, 5> kCorners = {0.0, 0x1p-24, 0.5, 1.0 - 0x1p-24, 1.0 - 0x1p-53};
 
-/// The cumulative sums of `masses`, normalised, each with its neighbours on either side.
+/// The cumulative sums of `masses`, normalised, each with its neighbours on either side, in double
+/// and in steps of 2^-31, where samplers of that precision have their own knots.
 std::vector<double> around_knots(std::span<const double> masses) {
   std::vector<double> values;
   const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
@@ -22,8 +23,10 @@ std::vector<double> around_knots(std::span<const double> masses) {
   for (const double mass : masses) {
     sum += mass;
     const double knot = sum / total;
-    for (const double u : {std::nextafter(knot, 0.0), knot, std::nextafter(knot, 1.0)}) {
-      if (u < 1.0) values.push_back(u);
+    const double coarse = std::round(knot * 0x1p31) * 0x1p-31;
+    for (const double u : {std::nextafter(knot, 0.0), knot, std::nextafter(knot, 1.0),
+                           coarse - 0x1p-31, coarse, coarse + 0x1p-31}) {
+      if (u >= 0.0 && u < 1.0) values.push_back(u);
     }
   }
   return values;

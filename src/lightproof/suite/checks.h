@@ -24,8 +24,7 @@ CheckResult check_pdf_integral(const BoundSampler& sampler, Extent extent);
 /// pdf(sample(u).at) equals the pdf that sample(u) returned, to 1e-5.
 CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& stream);
 
-/// The corners of the random numbers' range and every knot of the reference's distribution, one
-/// step to either side: the sample stays on the map, inside its texel, and that texel has light.
+/// At edge_points(): the sample stays on the map, inside its texel, and that texel has light.
 CheckResult check_edges(const BoundSampler& sampler, const Expectation& expectation);
 
 /// The same texel as another sampler for the same point.

@@ -13,20 +13,22 @@ namespace {
 constexpr std::string_view kReceiver = "sphere-on-plane";
 constexpr std::string_view kMaterial = "phong";
 
-/// Signed errors of the grey values over the mean of the reference; and their root mean square.
-void compare(RenderRecord& record) {
-  const auto picture = record.picture.values();
-  const auto reference = record.reference.values();
+/// Signed errors of the grey values at the receiver's pixels over the mean of the reference there;
+/// and their root mean square. Pixels beside the receiver show the map and have no error.
+void compare(RenderRecord& record, std::span<const Pixel> pixels) {
+  const double count = static_cast<double>(pixels.size());
   double mean = 0.0;
-  for (const Rgb rgb : reference) mean += luminance(rgb) / static_cast<double>(reference.size());
+  for (const Pixel& pixel : pixels) mean += luminance(record.reference(pixel.x, pixel.y)) / count;
   record.error = Grid<double>(record.picture.extent());
   double squared = 0.0;
-  for (std::size_t i = 0; i < picture.size(); ++i) {
-    const double error = (luminance(picture[i]) - luminance(reference[i])) / mean;
-    record.error.values()[i] = error;
+  for (const Pixel& pixel : pixels) {
+    const double error = (luminance(record.picture(pixel.x, pixel.y)) -
+                          luminance(record.reference(pixel.x, pixel.y))) /
+                         mean;
+    record.error(pixel.x, pixel.y) = error;
     squared += error * error;
   }
-  record.rmse = std::sqrt(squared / static_cast<double>(picture.size()));
+  record.rmse = std::sqrt(squared / count);
 }
 
 }  // namespace
@@ -36,6 +38,7 @@ std::vector<RenderRecord> study_renders(std::span<const EnvironmentLight> lights
   const ReceiverInfo& receiver = receiver_by_name(kReceiver);
   const MaterialInfo& material = material_by_name(kMaterial);
   const Scene scene(receiver.content);
+  const std::vector<Pixel> pixels = visible_pixels(receiver, scene, options.picture);
   std::vector<RenderRecord> records;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const EnvironmentLight& light = lights[i];
@@ -61,7 +64,7 @@ std::vector<RenderRecord> study_renders(std::span<const EnvironmentLight> lights
       record.samples = options.samples;
       record.reference = reference;
       record.reference_samples = options.reference_samples;
-      compare(record);
+      compare(record, pixels);
       records.push_back(std::move(record));
     }
     if (progress) {

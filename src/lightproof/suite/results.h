@@ -78,28 +78,25 @@ struct ThroughputRecord {
   double build_ms = 0.0;
 };
 
-/// ns per sample = constant * predictor: how a sampler's cost grows with the map.
-struct GrowthFit {
-  std::string sampler;
-  std::string model;      ///< the predictor in words: "S + T" or "log2 S + log2 T"
-  double exponent = 0.0;  ///< of ns per sample against S + T, by least squares on logs
-  double exponent_error = 0.0;
+/// What one step of a search takes on maps of one size.
+struct StepTime {
+  Extent extent;
+  double ns = 0.0;
 };
 
-/// The shares of the render time and the rate of bare Embree occlusion calls.
-struct RenderCost {
-  std::string strategy;
-  double sampling_share = 0.0;
-  double embree_share = 0.0;
-  double rest_share = 0.0;  ///< ray set-up, shading, accumulation
-  double rays_per_second = 0.0;
-  double bare_rays_per_second = 0.0;
+/// How a sampler's cost grows with the map.
+struct GrowthFit {
+  std::string sampler;
+  std::string model;      ///< how many steps one sample takes: "S + T" or "log2 S + log2 T"
+  double exponent = 0.0;  ///< of ns per sample against S + T, by least squares on logs
+  double exponent_error = 0.0;
+  std::vector<StepTime> steps;  ///< ascending sizes; constant if time grows as the model does
 };
 
 /// A map as the report shows it.
 struct MapRecord {
   EnvironmentMap map;
-  std::string source;               ///< file name without folders, or the built-in's name
+  std::string source;               ///< the map's name, unique in the study
   double mean_luminance = 0.0;      ///< over the sphere
   double peak_ratio = 0.0;          ///< brightest texel / mean
   double effective_fraction = 0.0;  ///< G^2/(4 pi Q): share of the sphere that the light fills
@@ -115,8 +112,8 @@ struct RenderRecord {
   std::uint64_t samples = 0;
   Grid<Rgb> picture;    ///< row 0 at the top
   Grid<Rgb> reference;  ///< the same for every strategy
-  Grid<double> error;   ///< signed, relative to the mean of the reference's luminance
-  double rmse = 0.0;    ///< of `error`
+  Grid<double> error;   ///< signed, over the reference's mean luminance at the receiver
+  double rmse = 0.0;    ///< of `error` at the pixels that show the receiver
   double seconds = 0.0;
   std::uint64_t reference_samples = 0;  ///< per pixel of the reference; 0 if it is not sampled
 };
