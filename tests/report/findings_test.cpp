@@ -177,6 +177,8 @@ TEST(SavingFinding, ComparesTheBestWithTheWorstByPrediction) {
   good.predicted_variance = 0.5;
   bad.predicted_variance = 20.0;
   EXPECT_EQ(saving_finding({&bad, &good}), "good needs 40 times fewer samples than bad");
+  bad.predicted_variance = 18157.5;
+  EXPECT_EQ(saving_finding({&bad, &good}), "good needs 36,000 times fewer samples than bad");
   EXPECT_EQ(saving_finding({&good}), "no strategy is ahead");
 }
 
