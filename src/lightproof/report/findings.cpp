@@ -188,10 +188,11 @@ std::string saving_finding(const std::vector<const ConvergenceRecord*>& records)
   if (is_all_but_exact(best)) return fmt::format("{} is exact", best.strategy);
   const double factor = worst.predicted_variance / best.predicted_variance;
   if (!(factor > 1.0)) return "no strategy is ahead";
+  const double digit = std::pow(10.0, std::floor(std::log10(factor)) - 1.0);
   const std::string times =
       factor < 100.0
           ? page_number(factor, 2)
-          : with_thousands(static_cast<std::uint64_t>(std::stod(significant(factor, 2))));
+          : with_thousands(static_cast<std::uint64_t>(std::round(factor / digit) * digit));
   return fmt::format("{} needs {} times fewer samples than {}", best.strategy, times,
                      worst.strategy);
 }
