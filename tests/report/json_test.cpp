@@ -32,12 +32,12 @@ GateResult small_gate() {
 
 TEST(GateJson, HasItsKeys) {
   const json document = json::parse(gate_json(small_gate(), Outcome::inconclusive));
-  EXPECT_EQ(keys_of(document),
-            (std::set<std::string>{"outcome", "family_alpha", "samples", "seed", "tests"}));
+  EXPECT_EQ(keys_of(document), (std::set<std::string>{"outcome", "family_alpha", "samples", "seed",
+                                                      "tests", "rejections"}));
   EXPECT_EQ(keys_of(document["tests"][0]),
             (std::set<std::string>{"sampler", "weighting", "map", "oracle", "test", "samples",
                                    "statistic", "dof", "log10_p", "effect", "detectable_effect",
-                                   "outcome", "known_defect", "detail"}));
+                                   "outcome", "known_defect", "stage", "seed", "detail"}));
   EXPECT_EQ(document["outcome"], "inconclusive");
   EXPECT_EQ(document["seed"], 42);
   EXPECT_EQ(document["tests"][0]["log10_p"], -0.37);

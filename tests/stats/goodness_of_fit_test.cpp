@@ -10,6 +10,8 @@
 #include <numeric>
 #include <vector>
 
+#include "lightproof/stats/tails.h"
+
 namespace lightproof {
 namespace {
 
@@ -126,7 +128,10 @@ TEST(CressieRead, SeesALeakIntoCellsThatPoolingMightDrop) {
   const ThinTail sound(0.00005);
   ASSERT_EQ(std::accumulate(sound.counts.begin(), sound.counts.end(), std::uint64_t{0}),
             ThinTail::kSamples);
-  EXPECT_GT(cressie_read(sound.counts, sound.probability, ThinTail::kSamples).log10_p, -6.0);
+  const auto fit = cressie_read(sound.counts, sound.probability, ThinTail::kSamples);
+  EXPECT_GT(log10_chi_square_tail(fit.statistic, fit.dof), -6.0);
+  EXPECT_TRUE(fit.too_even) << "these counts are no random ones";
+  EXPECT_LT(fit.log10_p, -6.0);
   const ThinTail leaking(0.01);
   EXPECT_LT(cressie_read(leaking.counts, leaking.probability, ThinTail::kSamples).log10_p, -6.0);
 }

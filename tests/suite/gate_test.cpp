@@ -294,14 +294,16 @@ TEST(Gate, PValuesOfASoundSamplerAreUniform) {
       if (test.log10_p) p_values[test.oracle + test.test].push_back(std::pow(10.0, *test.log10_p));
     }
   }
-  EXPECT_EQ(p_values.size(), 8U);
+  EXPECT_EQ(p_values.size(), 16U);
   for (auto& [name, values] : p_values) {
     std::sort(values.begin(), values.end());
     double deviation = 0.0;
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double n = static_cast<double>(values.size());
-      deviation = std::max({deviation, static_cast<double>(i + 1) / n - values[i],
-                            values[i] - static_cast<double>(i) / n});
+      deviation = std::max(deviation, static_cast<double>(i + 1) / n - values[i]);
+      // The worst of many cells has a bound for its p-value: it may be larger, never smaller.
+      if (name.find("worst") != std::string::npos) continue;
+      deviation = std::max(deviation, values[i] - static_cast<double>(i) / n);
     }
     EXPECT_LT(deviation, 0.191) << name;
   }

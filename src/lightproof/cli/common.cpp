@@ -177,6 +177,7 @@ std::vector<EnvironmentMap> load_maps(const CommonOptions& options) {
   std::vector<EnvironmentMap> maps;
   for (const std::string& input : inputs) {
     maps.push_back(load_map(input, size, read));
+    maps.back().source = input;
     if (options.quiet) continue;
     for (const std::string& note : maps.back().notes) {
       fmt::print(stderr, "{}: {}\n", input, note);
@@ -184,6 +185,15 @@ std::vector<EnvironmentMap> load_maps(const CommonOptions& options) {
   }
   make_names_unique(maps);
   return maps;
+}
+
+std::string input_options(const CommonOptions& options) {
+  std::string text;
+  if (!options.preset.empty()) text += " --preset " + options.preset;
+  if (options.size != CommonOptions{}.size) text += " --size " + options.size;
+  if (options.repair) text += " --repair";
+  if (options.any_aspect) text += " --any-aspect";
+  return text;
 }
 
 Progress progress_bar(const CommonOptions& options) {

@@ -56,6 +56,9 @@ Extent parse_size(const std::string& text);
 /// unless quiet. Names are made unique.
 std::vector<EnvironmentMap> load_maps(const CommonOptions& options);
 
+/// The options with which load_maps() would read the same maps again, each after a space.
+std::string input_options(const CommonOptions& options);
+
 /// A bar with the time left on stderr if that is a terminal and not quiet; else an empty function.
 Progress progress_bar(const CommonOptions& options);
 

@@ -9,6 +9,7 @@
 #include "common.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/materials/material.h"
+#include "lightproof/mutants/mutant.h"
 #include "lightproof/render/receiver.h"
 #include "lightproof/render/strategy.h"
 #include "lightproof/samplers/registry.h"
@@ -41,8 +42,17 @@ std::vector<Entry> sampler_entries() {
   return entries;
 }
 
+std::vector<Entry> mutant_entries() {
+  std::vector<Entry> entries;
+  for (const Mutant& mutant : mutants()) {
+    entries.push_back({std::string(mutant.name), std::string(mutant.defect)});
+  }
+  return entries;
+}
+
 std::vector<Entry> entries_of(const std::string& registry) {
   if (registry == "samplers") return sampler_entries();
+  if (registry == "mutants") return mutant_entries();
   if (registry == "maps") return described(synthetic_maps());
   if (registry == "presets") return described(presets());
   if (registry == "materials") return described(materials());
@@ -79,8 +89,8 @@ void add_list(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("list", "Print a registry");
   command->add_option("WHAT", options->registry, "which registry")
       ->required()
-      ->check(
-          CLI::IsMember({"samplers", "maps", "presets", "materials", "receivers", "strategies"}));
+      ->check(CLI::IsMember(
+          {"samplers", "mutants", "maps", "presets", "materials", "receivers", "strategies"}));
   command->add_flag("--json", options->json, "as JSON");
   command->callback([options, &exit_code] { exit_code = run(options->registry, options->json); });
 }

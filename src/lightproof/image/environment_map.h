@@ -14,6 +14,7 @@ struct LuminanceWeights {
   double red;
   double green;
   double blue;
+  friend bool operator==(LuminanceWeights, LuminanceWeights) = default;
 };
 
 /// ITU-R BT.709.
@@ -34,7 +35,9 @@ struct EnvironmentMap {
   std::string name;
   Grid<Rgb> radiance;
   /// What the reader changed or assumed, one sentence each ("3 negative texels set to 0: …").
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = {};
+  /// What the user called it: a path, or the name of a built-in map. Empty: the name.
+  std::string source = {};
 };
 
 /// The grey value of every texel, same shape as the map.

@@ -19,6 +19,7 @@ constexpr const char* to_string(Weighting weighting) {
 struct TargetDensity {
   Weighting weighting;
   LuminanceWeights grey = kRec709;
+  friend bool operator==(TargetDensity, TargetDensity) = default;
 };
 
 }  // namespace lightproof

@@ -145,6 +145,22 @@ std::string gate_title(const GateResult& gate) {
   return deciding.tests == 0 ? published : tally_text(deciding) + "; " + published;
 }
 
+std::string diagnoses(const GateResult& gate) {
+  if (gate.rejections.empty()) return "";
+  Table table("What the rejected samplers look like",
+              {"Sampler", "Map", "Looks like", "Worst bin (column, row)", "Standard deviations"});
+  for (const Rejection& r : gate.rejections) {
+    const std::vector<WorstBin> worst = worst_bins(r, 1);
+    table.add({text_cell(r.weighting.empty() ? r.sampler : r.sampler + " " + r.weighting),
+               text_cell(r.map),
+               {r.diagnosis, "detail", r.looks_like},
+               worst.empty() ? text_cell("\u2013")
+                             : text_cell(fmt::format("{}, {}", worst[0].x, worst[0].y)),
+               worst.empty() ? text_cell("\u2013") : number_cell(worst[0].residual)});
+  }
+  return "<h4>Diagnosis</h4>\n" + table.html();
+}
+
 std::string failed_tests(const GateResult& gate, const Tally& all) {
   std::string html;
   if (all.rejected > 0) {
@@ -179,7 +195,7 @@ std::string gate_section(const GateResult& gate) {
            "</section>\n";
   }
   html += fmt::format("<h3>{}</h3>\n", escaped(gate_title(gate)));
-  html += paragraph(kLegend, "note") + matrix(gate) + failed_tests(gate, all);
+  html += paragraph(kLegend, "note") + matrix(gate) + diagnoses(gate) + failed_tests(gate, all);
   html += collapsible("What each kind of test could have seen", sight_table(gate));
   html += collapsible(fmt::format("All {}", counted(all.tests, "test")),
                       test_table(gate, "All tests", [](const TestRecord&) { return true; }));

@@ -1,6 +1,7 @@
 #include "lightproof/report/gate_summary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace lightproof {
@@ -70,6 +71,20 @@ Tally deciding_tally(const GateResult& gate) {
 
 Tally known_defect_tally(const GateResult& gate) {
   return tally_of(gate, [](const TestRecord& test) { return test.known_defect; });
+}
+
+std::vector<WorstBin> worst_bins(const Rejection& rejection, std::size_t most) {
+  std::vector<WorstBin> bins;
+  for (int y = 0; y < rejection.residual.extent().height; ++y) {
+    for (int x = 0; x < rejection.residual.extent().width; ++x) {
+      bins.push_back({x, y, rejection.residual(x, y)});
+    }
+  }
+  std::stable_sort(bins.begin(), bins.end(), [](const WorstBin& a, const WorstBin& b) {
+    return std::abs(a.residual) > std::abs(b.residual);
+  });
+  bins.resize(std::min(bins.size(), most));
+  return bins;
 }
 
 std::string outcome_text(Outcome outcome) {

@@ -52,6 +52,16 @@ Tally deciding_tally(const GateResult& gate);
 /// The tests of samplers that are kept as published, with their known defects.
 Tally known_defect_tally(const GateResult& gate);
 
+/// A bin of the 16x32 and how far it is off, in standard deviations.
+struct WorstBin {
+  int x;
+  int y;
+  double residual;
+};
+
+/// The bins that are farthest off, the worst first.
+std::vector<WorstBin> worst_bins(const Rejection& rejection, std::size_t most);
+
 /// "✓ accept", "✗ reject", "? inconclusive": a sign and a word, so that colour is never needed.
 std::string outcome_text(Outcome outcome);
 

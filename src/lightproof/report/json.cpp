@@ -33,10 +33,13 @@ Json json_of(const TestRecord& t) {
           {"detectable_effect", number(t.detectable_effect)},
           {"outcome", to_string(t.outcome)},
           {"known_defect", t.known_defect},
+          {"stage", t.stage},
+          {"seed", t.seed},
           {"detail", t.detail}};
 }
 
 // Declared here so that list_of finds them all.
+Json json_of(const Rejection& r);
 Json json_of(const ConvergencePoint& p);
 Json json_of(const ConvergenceRecord& r);
 Json json_of(const ThroughputRecord& r);
@@ -53,11 +56,23 @@ Json list_of(const std::vector<Record>& records) {
 }
 
 Json json_of(const GateResult& gate, Outcome overall) {
-  return {{"outcome", to_string(overall)},
-          {"family_alpha", number(gate.family_alpha)},
-          {"samples", gate.samples},
-          {"seed", gate.seed},
-          {"tests", list_of(gate.tests)}};
+  return {{"outcome", to_string(overall)}, {"family_alpha", number(gate.family_alpha)},
+          {"samples", gate.samples},       {"seed", gate.seed},
+          {"tests", list_of(gate.tests)},  {"rejections", list_of(gate.rejections)}};
+}
+
+Json json_of(const Rejection& r) {
+  Json worst = Json::array();
+  for (const WorstBin& bin : worst_bins(r, 20)) {
+    worst.push_back({{"column", bin.x}, {"row", bin.y}, {"residual", number(bin.residual)}});
+  }
+  return {{"sampler", r.sampler},
+          {"weighting", r.weighting},
+          {"map", r.map},
+          {"looks_like", r.looks_like},
+          {"diagnosis", r.diagnosis},
+          {"worst_bins", worst},
+          {"row_divergence", r.row_divergence}};
 }
 
 Json json_of(const ConvergencePoint& p) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "lightproof/report/ci_outputs.h"
 #include "lightproof/report/gate_summary.h"
 #include "lightproof/report/numbers.h"
 
@@ -88,6 +89,19 @@ std::string full_text(const TestRecord& test) {
   return text + "\n";
 }
 
+std::string diagnosis_lines(const GateResult& gate) {
+  std::string text;
+  for (const Rejection& r : gate.rejections) {
+    text += fmt::format("{} {} on {} looks like: {} ({})\n", r.sampler, r.weighting, r.map,
+                        r.diagnosis, r.looks_like);
+    const auto test = std::find_if(gate.tests.begin(), gate.tests.end(), [&](const auto& t) {
+      return t.sampler == r.sampler && t.weighting == r.weighting && t.map == r.map;
+    });
+    if (test != gate.tests.end()) text += "    again: " + replay_command(gate, *test) + "\n";
+  }
+  return text.empty() ? "" : "\nDiagnosis\n" + text;
+}
+
 std::string rejected_lines(const GateResult& gate, Colour colour) {
   std::string text;
   for (const TestRecord& test : gate.tests) {
@@ -112,7 +126,7 @@ std::string gate_table(const GateResult& gate, bool count_known_defects, Colour 
     total += fmt::format("\n* kept as published, with known defects: {} of {} rejected",
                          known.rejected, counted(known.tests, "test"));
   }
-  return summary_lines(gate, colour) + rejected_lines(gate, colour) + "\n" +
+  return summary_lines(gate, colour) + rejected_lines(gate, colour) + diagnosis_lines(gate) + "\n" +
          painted(total, all.outcome(), colour) + "\n";
 }
 

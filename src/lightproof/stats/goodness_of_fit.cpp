@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "lightproof/stats/tails.h"
 
 namespace lightproof {
 namespace {
+
+/// Few counts agree with their expectation exactly now and then; many together do not.
+constexpr double kLeastDofForLowerTail = 30.0;
 
 struct Pool {
   double observed = 0.0;
@@ -47,6 +51,8 @@ std::vector<Pool> pool_cells(std::span<const std::uint64_t> observed,
 GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
                            std::span<const double> probability, std::uint64_t samples) {
   assert(observed.size() == probability.size());
+  assert(std::abs(std::accumulate(probability.begin(), probability.end(), 0.0) - 1.0) <= 1e-9);
+  assert(std::accumulate(observed.begin(), observed.end(), std::uint64_t{0}) <= samples);
   GoodnessOfFit fit;
   for (std::size_t i = 0; i < observed.size(); ++i) {
     if (probability[i] > 0.0) ++fit.possible_cells;
@@ -62,9 +68,38 @@ GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
     fit.log10_p = -INFINITY;
   } else if (fit.dof > 0.0) {
     fit.log10_p = log10_chi_square_tail(fit.statistic, fit.dof);
+    if (fit.dof >= kLeastDofForLowerTail) {
+      const double lower = log10_chi_square_lower(fit.statistic, fit.dof);
+      fit.too_even = lower < fit.log10_p;
+      fit.log10_p = std::min(0.0, std::min(fit.log10_p, lower) + std::log10(2.0));
+    }
   }
   fit.effect = std::sqrt(std::max(0.0, fit.statistic - fit.dof) / n);
   return fit;
+}
+
+WorstCell worst_cell(std::span<const std::uint64_t> observed, std::span<const double> probability,
+                     std::uint64_t samples) {
+  WorstCell worst;
+  double most = -1.0;
+  std::size_t cells = 0;
+  for (std::size_t i = 0; i < observed.size(); ++i) {
+    if (probability[i] <= 0.0) continue;
+    ++cells;
+    const double o = static_cast<double>(observed[i]);
+    const double e = probability[i] * static_cast<double>(samples);
+    // Half the deviance: the exponent of Chernoff's bound on the tail.
+    const double deviance = (o > 0.0 ? o * std::log(o / e) : 0.0) - (o - e);
+    if (deviance <= most) continue;
+    most = deviance;
+    worst = {i, o, e, 0.0};
+  }
+  if (cells == 0) return worst;
+  const double tail = worst.observed < worst.expected
+                          ? log10_poisson_lower(worst.observed, worst.expected)
+                          : log10_poisson_upper(worst.observed, worst.expected);
+  worst.log10_p = std::min(0.0, tail + std::log10(2.0 * static_cast<double>(cells)));
+  return worst;
 }
 
 }  // namespace lightproof

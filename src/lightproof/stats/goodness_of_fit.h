@@ -4,6 +4,8 @@
 // expectation of at least 25: at strict levels its size is right where Pearson's is several times
 // too large. Nothing is dropped: neighbouring cells are pooled, and a remainder joins the last
 // pool. Cells of zero expectation are not part of the sum; a single hit in one is a rejection.
+// Counts that agree too well are as suspicious as those that do not (stratified points passed off
+// as independent ones), so from 30 degrees of freedom on the p-value is two-sided.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +22,8 @@ inline constexpr double kPooledExpectation = 25.0;
 struct GoodnessOfFit {
   double statistic = 0.0;
   double dof = 0.0;                ///< pools - 1; 0 means that nothing can be said
-  double log10_p = 0.0;            ///< -infinity if an impossible cell was hit
+  double log10_p = 0.0;            ///< two-sided from 30 dof on; -infinity for impossible hits
+  bool too_even = false;           ///< nearer to the expectation than to the bulk of chance
   double effect = 0.0;             ///< Cohen's w = sqrt(sum (q-p)^2/p), less what noise alone gives
   std::size_t possible_cells = 0;  ///< cells of positive expectation
   std::uint64_t impossible_hits = 0;
@@ -28,9 +31,22 @@ struct GoodnessOfFit {
 };
 
 /// Counts against probabilities, in an order in which neighbours in the sequence are neighbours in
-/// space. The probabilities sum to 1; the counts sum to `samples`.
+/// space. The probabilities sum to 1 within 1e-9; samples that are in no cell are the caller's.
 GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
                            std::span<const double> probability, std::uint64_t samples);
+
+/// The cell that is farthest from its expectation.
+struct WorstCell {
+  std::size_t cell = 0;
+  double observed = 0.0;
+  double expected = 0.0;
+  double log10_p = 0.0;  ///< of a cell as far off as this anywhere (Bonferroni)
+};
+
+/// Every cell against the exact tail of its own Poisson law, however small its expectation: what is
+/// never drawn, or one place that is wrong, shows here long before it moves a sum over all cells.
+WorstCell worst_cell(std::span<const std::uint64_t> observed, std::span<const double> probability,
+                     std::uint64_t samples);
 
 /// Row by row, every second row backwards, so that consecutive cells touch.
 template <class T>

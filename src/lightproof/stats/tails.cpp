@@ -46,6 +46,25 @@ double log10_chi_square_tail(double statistic, double dof) {
   return q > kSmallestNormal ? std::log10(q) : log_gamma_q(a, x) / kLn10;
 }
 
+double log10_chi_square_lower(double statistic, double dof) {
+  return std::log10(std::max(boost::math::gamma_p(0.5 * dof, 0.5 * statistic), kSmallestNormal));
+}
+
+double log10_poisson_lower(double count, double mean) {
+  // P(X <= k) = Q(k + 1, mean).
+  return log10_chi_square_tail(2.0 * mean, 2.0 * (count + 1.0));
+}
+
+double log10_poisson_upper(double count, double mean) {
+  if (count <= 0.0) return 0.0;
+  // P(X >= k) = P(k, mean); far out its first term, k log(mean) - mean - log k!, and the ratio of
+  // the next ones.
+  const double p = boost::math::gamma_p(count, mean);
+  if (p > kSmallestNormal) return std::log10(p);
+  const double first = count * std::log(mean) - mean - boost::math::lgamma(count + 1.0);
+  return (first - std::log1p(-mean / (count + 1.0))) / kLn10;
+}
+
 double log10_normal_tails(double z) {
   if (std::isinf(z)) return -INFINITY;
   return log10_chi_square_tail(z * z, 1.0);

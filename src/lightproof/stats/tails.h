@@ -7,6 +7,13 @@ namespace lightproof {
 /// log10 P(chi-square with `dof` degrees of freedom >= statistic). dof > 0; statistic >= 0.
 double log10_chi_square_tail(double statistic, double dof);
 
+/// log10 P(chi-square < statistic): small where counts agree better than chance allows.
+double log10_chi_square_lower(double statistic, double dof);
+
+/// log10 P(Poisson of this mean <= count), and of >= count. mean > 0.
+double log10_poisson_lower(double count, double mean);
+double log10_poisson_upper(double count, double mean);
+
 /// log10 P(|standard normal| >= |z|).
 double log10_normal_tails(double z);
 

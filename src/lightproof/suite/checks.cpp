@@ -32,6 +32,16 @@ std::vector<double> around_knots(std::span<const double> masses) {
   return values;
 }
 
+/// The edges of equal cells and of equal bins over [0,1], each once, ascending.
+std::vector<double> edges(int cells, int bins) {
+  std::vector<double> all;
+  for (int i = 0; i <= cells; ++i) all.push_back(static_cast<double>(i) / cells);
+  for (int i = 1; i < bins; ++i) all.push_back(static_cast<double>(i) / bins);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
 /// The number of random points in a check over points.
 constexpr std::uint64_t kCheckPoints = std::uint64_t{1} << 16U;
 
@@ -50,24 +60,34 @@ std::vector<TexelSample> samples_at(const BoundSampler& sampler,
 
 }  // namespace
 
-CheckResult check_pdf_integral(const BoundSampler& sampler, Extent extent) {
+OwnDensity integrate_pdf(const BoundSampler& sampler, Extent map) {
   constexpr double kNodes[2] = {0.21132486540518712, 0.78867513459481288};
   // Rows higher than 1/256 of the square are split: the rule is then exact to 1e-9 for sin(theta).
-  const int parts = std::max(1, 256 / extent.height);
-  double integral = 0.0;
-  for (int y = 0; y < extent.height * parts; ++y) {
-    double row = 0.0;
-    for (const double node : kNodes) {
-      const double t = (y + node) / (extent.height * parts);
-      for (int x = 0; x < extent.width; ++x) {
-        row += sampler.pdf({(x + 0.5) / extent.width, t}).value;
-      }
+  const std::vector<double> across = edges(map.width, kGateBins.width);
+  const std::vector<double> along =
+      edges(map.height * std::max(1, 256 / map.height), kGateBins.height);
+  OwnDensity own{0.0, Grid<double>(kGateBins)};
+  for (std::size_t j = 0; j + 1 < along.size(); ++j) {
+    const double height = along[j + 1] - along[j];
+    for (std::size_t i = 0; i + 1 < across.size(); ++i) {
+      const double s = 0.5 * (across[i] + across[i + 1]);
+      double density = 0.0;
+      for (const double node : kNodes) density += sampler.pdf({s, along[j] + node * height}).value;
+      const double mass = 0.5 * density * height * (across[i + 1] - across[i]);
+      own.integral += mass;
+      own.bins(cell_of(s, kGateBins.width), cell_of(along[j] + 0.5 * height, kGateBins.height)) +=
+          mass;
     }
-    integral += 0.5 * row / (static_cast<double>(extent.count()) * parts);
   }
-  const double error = std::abs(integral - 1.0);
-  return {"pdf integrates to 1", error <= 1e-6, error,
-          error <= 1e-6 ? "" : fmt::format("the pdf integrates to {:.9g}", integral)};
+  for (double& mass : own.bins.values()) mass /= own.integral;
+  return own;
+}
+
+CheckResult check_pdf_integral(const OwnDensity& own) {
+  const double error = std::abs(own.integral - 1.0);
+  const bool passed = error <= 1e-6;  // false for NaN
+  return {"pdf integrates to 1", passed, error,
+          passed ? "" : fmt::format("the pdf integrates to {:.9g}", own.integral)};
 }
 
 CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& stream) {

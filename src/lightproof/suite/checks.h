@@ -18,8 +18,18 @@ struct CheckResult {
   std::string detail;
 };
 
-/// |∫ pdf ds dt - 1| <= 1e-6, over t by Gauss-Legendre inside every texel row.
-CheckResult check_pdf_integral(const BoundSampler& sampler, Extent extent);
+/// What a sampler's own pdf says that it draws.
+struct OwnDensity {
+  double integral = 0.0;  ///< over the square
+  Grid<double> bins;      ///< masses of kGateBins, over the integral
+};
+
+/// Integrates pdf() by Gauss-Legendre over t inside every row of texels, and by one value across
+/// each texel, split where bins begin. The pdf may be any function that is constant across texels.
+OwnDensity integrate_pdf(const BoundSampler& sampler, Extent map);
+
+/// |∫ pdf ds dt - 1| <= 1e-6.
+CheckResult check_pdf_integral(const OwnDensity& own);
 
 /// pdf(sample(u).at) equals the pdf that sample(u) returned, to 1e-5.
 CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& stream);

@@ -4,27 +4,51 @@
 #include <cmath>
 #include <functional>
 
+#include "lightproof/core/parallel.h"
+#include "lightproof/stats/uniformity.h"
 #include "lightproof/warp/lat_long.h"
 
 namespace lightproof {
 namespace {
 
 constexpr std::uint64_t kBatch = 1024;
+/// Samples of one task; fixed, so that the split does not depend on the threads.
+constexpr std::uint64_t kTaskSamples = std::uint64_t{1} << 18U;
+/// Tasks whose results are held at once.
+constexpr std::uint64_t kTasksAtOnce = 16;
 
 template <class Into, class From>
 void add_counts(Into&& into, const From& from) {
   std::transform(into.begin(), into.end(), from.begin(), into.begin(), std::plus<>());
 }
 
-void count(Draws& draws, const Expectation& expectation, SquarePoint u, const TexelSample& sample) {
-  if (!is_on_map(sample, expectation.masses.extent())) {
-    ++draws.strays;
-    if (!draws.first_stray) draws.first_stray = Stray{u, sample};
-    return;
-  }
+/// What one task found. Its texels are a list: a grid for every task would not fit a large map.
+struct Part {
+  Draws draws{Extent{0, 0}};
+  std::vector<std::uint32_t> texels;
+};
+
+void count_transformed(Draws& draws, const reference::UnitPoint& unit) {
+  constexpr auto kCells = static_cast<int>(kUniformCells);
+  ++draws.along[static_cast<std::size_t>(cell_of(unit.along, kCells))];
+  ++draws.column[static_cast<std::size_t>(cell_of(unit.column, kCells))];
+  const double scaled = unit.along * 0x1p20;
+  if (std::abs(scaled - std::round(scaled)) < 0x1p-8) ++draws.on_lattice;
+  ++draws.pairs(cell_of(unit.across, kPairBins.width), cell_of(unit.along, kPairBins.height));
+}
+
+void count(Part& part, const Expectation& expectation, SquarePoint u, const TexelSample& sample) {
+  const Extent map = expectation.masses.extent();
+  Draws& draws = part.draws;
+  if (!is_on_map(sample, map)) return draws.lost.add(u, sample);
+  if (!(expectation.masses(sample.x, sample.y) > 0.0)) draws.dark.add(u, sample);
+  part.texels.push_back(static_cast<std::uint32_t>(sample.y) *
+                            static_cast<std::uint32_t>(map.width) +
+                        static_cast<std::uint32_t>(sample.x));
   ++draws.bins(cell_of(sample.at.s, kGateBins.width), cell_of(sample.at.t, kGateBins.height));
-  ++draws.rows[static_cast<std::size_t>(sample.y)];
-  ++draws.columns[static_cast<std::size_t>(sample.x)];
+  if (expectation.transform) {
+    count_transformed(draws, expectation.transform(sample.at, sample.x, sample.y));
+  }
   // 2 pi^2 sin(theta) / p(s,t)
   const double inverse_pdf = 1.0 / to_solid_angle(sample.pdf, sample.at).value;
   const Direction direction = direction_from_square(sample.at);
@@ -36,21 +60,39 @@ void count(Draws& draws, const Expectation& expectation, SquarePoint u, const Te
   draws.inverse_pdf.add(expectation.is_bright(sample.x, sample.y) ? inverse_pdf : 0.0);
 }
 
+Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
+               const RandomStream& stream, std::uint64_t first, std::uint64_t count_all) {
+  Part part;
+  part.draws.samples = count_all;
+  part.texels.reserve(count_all);
+  std::vector<SquarePoint> points(kBatch);
+  std::vector<TexelSample> samples(kBatch);
+  for (std::uint64_t done = 0; done < count_all; done += kBatch) {
+    const auto size = static_cast<std::size_t>(std::min(kBatch, count_all - done));
+    for (std::size_t i = 0; i < size; ++i) points[i] = stream.point(first + done + i);
+    sampler.sample(std::span(points).first(size), std::span(samples).first(size));
+    for (std::size_t i = 0; i < size; ++i) count(part, expectation, points[i], samples[i]);
+  }
+  return part;
+}
+
 }  // namespace
 
 Draws::Draws(Extent map)
-    : bins(kGateBins),
-      rows(static_cast<std::size_t>(map.height)),
-      columns(static_cast<std::size_t>(map.width)) {}
+    : bins(kGateBins), texels(map), along(kUniformCells), column(kUniformCells), pairs(kPairBins) {}
 
 void Draws::merge(const Draws& other) {
+  samples += other.samples;
   add_counts(bins.values(), other.bins.values());
-  add_counts(rows, other.rows);
-  add_counts(columns, other.columns);
+  if (texels.extent() == other.texels.extent()) add_counts(texels.values(), other.texels.values());
+  add_counts(along, other.along);
+  add_counts(column, other.column);
+  add_counts(pairs.values(), other.pairs.values());
   for (std::size_t i = 0; i < kMeanCaseCount; ++i) estimators[i].merge(other.estimators[i]);
+  on_lattice += other.on_lattice;
   inverse_pdf.merge(other.inverse_pdf);
-  strays += other.strays;
-  if (!first_stray) first_stray = other.first_stray;
+  lost.merge(other.lost);
+  dark.merge(other.dark);
 }
 
 bool is_on_map(const TexelSample& sample, Extent map) {
@@ -61,17 +103,23 @@ bool is_on_map(const TexelSample& sample, Extent map) {
 }
 
 Draws draw_samples(const BoundSampler& sampler, const Expectation& expectation,
-                   const RandomStream& stream, std::uint64_t first, std::uint64_t count_all) {
-  Draws draws(expectation.masses.extent());
-  std::vector<SquarePoint> points(kBatch);
-  std::vector<TexelSample> samples(kBatch);
-  for (std::uint64_t done = 0; done < count_all; done += kBatch) {
-    const auto size = static_cast<std::size_t>(std::min(kBatch, count_all - done));
-    for (std::size_t i = 0; i < size; ++i) points[i] = stream.point(first + done + i);
-    sampler.sample(std::span(points).first(size), std::span(samples).first(size));
-    for (std::size_t i = 0; i < size; ++i) count(draws, expectation, points[i], samples[i]);
+                   const RandomStream& stream, std::uint64_t count_all) {
+  Draws all(expectation.masses.extent());
+  constexpr std::uint64_t kBlock = kTasksAtOnce * kTaskSamples;
+  for (std::uint64_t start = 0; start < count_all; start += kBlock) {
+    const std::uint64_t end = std::min(count_all, start + kBlock);
+    std::vector<Part> parts((end - start + kTaskSamples - 1) / kTaskSamples);
+    parallel_for(parts.size(), [&](std::size_t task) {
+      const std::uint64_t first = start + task * kTaskSamples;
+      parts[task] =
+          draw_part(sampler, expectation, stream, first, std::min(kTaskSamples, end - first));
+    });
+    for (const Part& part : parts) {
+      all.merge(part.draws);
+      for (const std::uint32_t texel : part.texels) ++all.texels.values()[texel];
+    }
   }
-  return draws;
+  return all;
 }
 
 }  // namespace lightproof

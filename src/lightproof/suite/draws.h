@@ -13,32 +13,53 @@
 
 namespace lightproof {
 
-/// A sample that left the map, and the point that it came from.
+/// A sample that should not be, and the point that it came from.
 struct Stray {
   SquarePoint u;
   TexelSample sample;
+};
+
+/// Samples of one kind that should not be: how many, and the first of them.
+struct Strays {
+  std::uint64_t count = 0;
+  std::optional<Stray> first;
+
+  void add(SquarePoint u, const TexelSample& sample) {
+    if (count++ == 0) first = Stray{u, sample};
+  }
+  void merge(const Strays& other) {
+    if (count == 0) first = other.first;
+    count += other.count;
+  }
 };
 
 /// Counts and moments; `merge` in a fixed order gives the same bits however the work was split.
 struct Draws {
   explicit Draws(Extent map);
 
+  std::uint64_t samples = 0;
   Grid<std::uint64_t> bins;
-  std::vector<std::uint64_t> rows;
-  std::vector<std::uint64_t> columns;
+  Grid<std::uint64_t> texels;
+  std::vector<std::uint64_t> along;   ///< of reference::UnitPoint, over kUniformCells
+  std::vector<std::uint64_t> column;  ///< likewise
+  Grid<std::uint64_t> pairs;          ///< of (across, along) over kPairBins
+  std::uint64_t on_lattice = 0;       ///< `along` is all but a multiple of 2^-20
   std::array<Moments, kMeanCaseCount> estimators;
   Moments inverse_pdf;
-  std::uint64_t strays = 0;
-  std::optional<Stray> first_stray;
+  Strays lost;  ///< beside the map, or without a density
+  Strays dark;  ///< in a texel without light
 
   void merge(const Draws& other);
 };
 
+/// Bins of the pair of transformed coordinates, which are uniform and independent.
+inline constexpr Extent kPairBins = {32, 32};
+
 /// Whether a sample lies on the map and names a texel of it, with a positive, finite density.
 bool is_on_map(const TexelSample& sample, Extent map);
 
-/// Draws the points [first, first + count) of the stream.
+/// Draws the points [0, count) of the stream, in parallel.
 Draws draw_samples(const BoundSampler& sampler, const Expectation& expectation,
-                   const RandomStream& stream, std::uint64_t first, std::uint64_t count);
+                   const RandomStream& stream, std::uint64_t count);
 
 }  // namespace lightproof

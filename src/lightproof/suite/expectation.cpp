@@ -46,11 +46,12 @@ const std::array<MeanCase, kMeanCaseCount> kMeanCases = {{
 
 Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
   Expectation expectation{
-      target, luminance(map, target.grey), reference::texel_masses(map, target), {}, {}, {}, {},
+      target, luminance(map, target.grey), reference::texel_masses(map, target), {}, {}, {}, {}, {},
       {}};
   expectation.bins = reference::bin_masses(expectation.masses, target.weighting, kGateBins);
   expectation.rows = reference::row_marginal(expectation.masses);
   expectation.columns = reference::column_marginal(expectation.masses);
+  expectation.transform = reference::UnitTransform(expectation.masses, target.weighting);
   const auto values = expectation.grey.values();
   expectation.mean_grey =
       std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());

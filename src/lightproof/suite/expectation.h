@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "lightproof/core/grid.h"
 #include "lightproof/image/target_density.h"
 #include "reference/estimator_moments.h"
+#include "reference/unit_transform.h"
 
 namespace lightproof {
 
@@ -31,6 +33,8 @@ struct Expectation {
   Grid<double> bins;            ///< of kGateBins
   std::vector<double> rows;     ///< marginal
   std::vector<double> columns;  ///< marginal
+  /// Of a place in a texel; empty where the law inside one is not known in closed form.
+  std::function<reference::UnitPoint(SquarePoint at, int x, int y)> transform;
   std::array<reference::EstimatorMoments, kMeanCaseCount> estimators;
   /// 1/p(omega) over the texels at least a tenth as bright as the mean.
   reference::EstimatorMoments inverse_pdf;

@@ -15,11 +15,16 @@ namespace lightproof {
 struct GateOptions {
   std::uint64_t samples = std::uint64_t{1} << 22U;  ///< per sampler, weighting and map
   std::uint64_t seed = 1;
-  /// Probability that a run over correct samplers rejects anything (Holm over all its tests).
+  /// Probability that a run over correct samplers rejects anything.
   double family_alpha = 1e-6;
 };
 
-/// The same bits for any number of threads.
+/// Runs in two stages. After the first, a test whose p-value is below 1e-10 (or half of
+/// family_alpha shared out among all tests, if that is less) is rejected at once. One below 1e-3 is
+/// suspicious: it runs again with four times the samples and other random numbers, and Holm's
+/// procedure judges those at the other half. Either way a correct sampler is rejected with at most
+/// family_alpha, and small defects have two chances to show. The same bits for any number of
+/// threads.
 GateResult run_gate(std::span<const EnvironmentMap> maps, std::span<const Subject> subjects,
                     const GateOptions& options, const Progress& progress = {});
 

@@ -30,14 +30,30 @@ struct TestRecord {
   std::optional<double> detectable_effect;  ///< seen with power 0.99 at this run's alpha
   Outcome outcome = Outcome::inconclusive;
   std::string detail;         ///< why, in words; empty if there is nothing to say
+  std::uint64_t seed = 0;     ///< base seed of the samples
+  std::string source = {};    ///< of the map, as it was given; empty: its name
+  int stage = 1;              ///< 2: run again, with more samples, because it looked suspicious
   bool known_defect = false;  ///< of a sampler kept as published, to show what the gate finds
+};
+
+/// A configuration that was rejected, for whoever has to mend it.
+struct Rejection {
+  std::string sampler;
+  std::string weighting;
+  std::string map;
+  std::string looks_like;              ///< the most likely defect, by name
+  std::string diagnosis;               ///< the same in words
+  Grid<double> residual;               ///< (O - E) / sqrt(E) of the 16x32 bins
+  std::vector<double> row_divergence;  ///< cumulative over the rows of texels, from t = 0
 };
 
 struct GateResult {
   double family_alpha = 0.0;  ///< probability that a run over correct samplers rejects anything
-  std::uint64_t samples = 0;  ///< per configuration
+  std::uint64_t samples = 0;  ///< per configuration; suspicious tests are run again with four times
   std::uint64_t seed = 0;
   std::vector<TestRecord> tests;
+  std::vector<Rejection> rejections = {};
+  std::string input_options = {};  ///< of the command line, with which the maps were read
 };
 
 /// The error of an estimator at one number of samples.

@@ -1,0 +1,56 @@
+#include "reference/unit_transform.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+#include "reference/texel_masses.h"
+
+namespace lightproof::reference {
+namespace {
+
+/// 0, then the sums so far over the whole; all 0 if the whole is.
+template <class Knots>
+void write_knots(std::span<const double> masses, Knots&& knots) {
+  const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
+  double sum = 0.0;
+  knots[0] = 0.0;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    sum += masses[i];
+    knots[i + 1] = total > 0.0 ? sum / total : 0.0;
+  }
+}
+
+double between(double low, double high, double share) { return low + (high - low) * share; }
+
+}  // namespace
+
+UnitTransform::UnitTransform(const Grid<double>& masses, Weighting weighting)
+    : extent_(masses.extent()),
+      weighting_(weighting),
+      rows_(static_cast<std::size_t>(extent_.height) + 1),
+      columns_(static_cast<std::size_t>(extent_.width) + 1),
+      within_({extent_.width + 1, extent_.height}) {
+  write_knots(row_marginal(masses), rows_);
+  write_knots(column_marginal(masses), columns_);
+  for (int y = 0; y < extent_.height; ++y) write_knots(masses.row(y), within_.row(y));
+  for (int y = 0; y <= extent_.height; ++y) {
+    heights_.push_back(cos_theta(static_cast<double>(y) / extent_.height));
+  }
+}
+
+UnitPoint UnitTransform::operator()(SquarePoint at, int x, int y) const {
+  const auto column = static_cast<std::size_t>(x);
+  const auto row = static_cast<std::size_t>(y);
+  const double across = std::clamp(at.s * extent_.width - x, 0.0, 1.0);
+  const double low = heights_[row];
+  const double along =
+      weighting_ == Weighting::A
+          ? std::clamp(at.t * extent_.height - y, 0.0, 1.0)
+          : std::clamp((cos_theta(at.t) - low) / (heights_[row + 1] - low), 0.0, 1.0);
+  return {between(rows_[row], rows_[row + 1], along),
+          between(within_(x, y), within_(x + 1, y), across),
+          between(columns_[column], columns_[column + 1], across)};
+}
+
+}  // namespace lightproof::reference

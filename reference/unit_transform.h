@@ -1,0 +1,38 @@
+// The probability integral transform of a target density: what a sound sampler draws becomes
+// uniform and independent (Rosenblatt 1952).
+#pragma once
+
+#include <vector>
+
+#include "lightproof/core/grid.h"
+#include "lightproof/core/measure.h"
+#include "lightproof/image/target_density.h"
+
+namespace lightproof::reference {
+
+/// Each in [0,1], uniform if the density is right.
+struct UnitPoint {
+  double along;   ///< mass of all rows below
+  double across;  ///< mass to the left in its own row, as a share of that row's
+  double column;  ///< mass to the left over all rows
+};
+
+class UnitTransform {
+ public:
+  /// Of texel masses that sum to 1; uniform inside a texel in s, and in t or cos(theta) by the
+  /// weighting.
+  UnitTransform(const Grid<double>& masses, Weighting weighting);
+
+  /// `at` lies in texel (x, y).
+  UnitPoint operator()(SquarePoint at, int x, int y) const;
+
+ private:
+  Extent extent_;
+  Weighting weighting_;
+  std::vector<double> rows_;     ///< knots
+  std::vector<double> columns_;  ///< knots
+  Grid<double> within_;          ///< knots of every row, W + 1
+  std::vector<double> heights_;  ///< cos(theta) at the rows' edges
+};
+
+}  // namespace lightproof::reference

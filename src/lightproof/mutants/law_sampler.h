@@ -1,0 +1,37 @@
+// A sampler of any masses, in double: what the mutants start from.
+#pragma once
+
+#include <vector>
+
+#include "lightproof/core/grid.h"
+#include "lightproof/samplers/sampler.h"
+
+namespace lightproof {
+
+class LawSampler {
+ public:
+  /// Texels of these masses, which sum to 1; inside one the place follows the weighting.
+  LawSampler(Grid<double> masses, Weighting weighting);
+
+  TexelSample sample(SquarePoint u) const;
+  PerSquare pdf(SquarePoint at) const;
+  std::size_t table_bytes() const;
+
+  Extent extent() const { return masses_.extent(); }
+  Weighting weighting() const { return weighting_; }
+  const Grid<double>& masses() const { return masses_; }
+  /// What u = (1/2, 1/2) gives: a texel with light.
+  const TexelSample& median() const { return median_; }
+  /// Mass below every row's upper edge; the last is 1.
+  const std::vector<double>& rows() const { return rows_; }
+
+ private:
+  Grid<double> masses_;
+  Weighting weighting_;
+  SolidAngleRows solid_angle_rows_;
+  std::vector<double> rows_;
+  TexelSample median_;
+  Grid<double> columns_;  ///< inside each row, below the texel's upper edge; the last is 1
+};
+
+}  // namespace lightproof

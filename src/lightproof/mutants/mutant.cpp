@@ -1,0 +1,36 @@
+#include "lightproof/mutants/mutant.h"
+
+#include <memory>
+
+#include "lightproof/suite/alternative_law.h"
+#include "reference/texel_masses.h"
+
+namespace lightproof {
+namespace {
+
+BoundSampler bind(const Mutant& mutant, TargetDensity target, const EnvironmentMap& map) {
+  auto masses = mutant.law.empty() ? reference::texel_masses(map, target)
+                                   : alternative_law(mutant.law).masses(map, target);
+  const auto sound = std::make_shared<const LawSampler>(std::move(masses), target.weighting);
+  return {[sound, &mutant](std::span<const SquarePoint> points, std::span<TexelSample> samples) {
+            for (std::size_t i = 0; i < points.size(); ++i) {
+              const SquarePoint own = points[i - i % mutant.repeats];
+              const SquarePoint u = mutant.point ? mutant.point(own) : own;
+              samples[i] = sound->sample(u);
+              if (mutant.sample) mutant.sample(samples[i], *sound);
+            }
+          },
+          [sound, &mutant](SquarePoint at) {
+            return mutant.pdf ? mutant.pdf(*sound, at) : sound->pdf(at);
+          }};
+}
+
+}  // namespace
+
+Subject subject_of(const Mutant& mutant, Weighting weighting) {
+  const TargetDensity target = {weighting, kRec709};
+  return {std::string(mutant.name), target, false, false,
+          [&mutant, target](const EnvironmentMap& map) { return bind(mutant, target, map); }};
+}
+
+}  // namespace lightproof

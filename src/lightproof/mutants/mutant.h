@@ -1,0 +1,36 @@
+// Samplers with one planted defect each: what the gate must find. `gate --sampler NAME` runs them
+// like any other.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "lightproof/mutants/law_sampler.h"
+#include "lightproof/suite/subject.h"
+
+namespace lightproof {
+
+/// What differs from a sound sampler; null parts are sound.
+struct Mutant {
+  std::string_view name;       ///< "t-flipped-in-sample"
+  std::string_view defect;     ///< what was done, in words
+  std::string_view diagnosis;  ///< what the gate should say that it looks like
+  std::string_view oracle;     ///< the oracle that must reject it
+  /// An alternative law that is drawn, its density returned; empty: the declared one.
+  std::string_view law = {};
+  /// Applied to the random numbers.
+  SquarePoint (*point)(SquarePoint) = nullptr;
+  /// Applied to what was drawn.
+  void (*sample)(TexelSample&, const LawSampler&) = nullptr;
+  /// In place of LawSampler::pdf, for the density asked for; returned densities are not touched.
+  PerSquare (*pdf)(const LawSampler&, SquarePoint) = nullptr;
+  /// How often every random number is used.
+  std::size_t repeats = 1;
+};
+
+std::span<const Mutant> mutants();
+
+/// Under a weighting; declares Rec. 709 grey.
+Subject subject_of(const Mutant& mutant, Weighting weighting);
+
+}  // namespace lightproof

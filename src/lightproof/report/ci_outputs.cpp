@@ -1,0 +1,194 @@
+#include "lightproof/report/ci_outputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include "lightproof/report/gate_summary.h"
+#include "lightproof/report/html.h"
+#include "lightproof/report/numbers.h"
+
+namespace lightproof {
+namespace {
+
+constexpr std::size_t kMarkdownLimit = 60000;
+constexpr std::size_t kAnnotations = 9;
+
+bool counts(const TestRecord& test, bool count_known_defects) {
+  return count_known_defects || !test.known_defect;
+}
+
+std::string name_of(const TestRecord& test) {
+  return fmt::format("{} on {}: {}/{}", configuration_name(test), test.map, test.oracle, test.test);
+}
+
+std::string p_text(const TestRecord& test) {
+  return test.log10_p ? "log10 p " + significant(*test.log10_p) : std::string("exact check");
+}
+
+std::string diagnosis_of(const GateResult& gate, const TestRecord& test) {
+  for (const Rejection& r : gate.rejections) {
+    if (r.sampler == test.sampler && r.weighting == test.weighting && r.map == test.map) {
+      return r.diagnosis;
+    }
+  }
+  return "";
+}
+
+/// Rejections that count, the least likely first; exact checks before all.
+std::vector<const TestRecord*> worst_rejections(const GateResult& gate, bool count_known_defects) {
+  std::vector<const TestRecord*> rejected;
+  for (const TestRecord& test : gate.tests) {
+    if (test.outcome == Outcome::reject && counts(test, count_known_defects)) {
+      rejected.push_back(&test);
+    }
+  }
+  std::stable_sort(rejected.begin(), rejected.end(), [](const auto* a, const auto* b) {
+    return a->log10_p.value_or(-1e308) < b->log10_p.value_or(-1e308);
+  });
+  return rejected;
+}
+
+std::string message_of(const GateResult& gate, const TestRecord& test) {
+  std::string text = fmt::format("{}, effect {}", p_text(test), significant(test.effect));
+  if (!test.detail.empty()) text += "; " + test.detail;
+  const std::string diagnosis = diagnosis_of(gate, test);
+  if (!diagnosis.empty()) text += "; looks like: " + diagnosis;
+  return text;
+}
+
+std::string junit_case(const GateResult& gate, const TestRecord& test, bool count_known_defects) {
+  std::string xml = fmt::format(
+      "    <testcase classname=\"{}\" name=\"{}\">\n      <properties>\n", escaped(test.sampler),
+      escaped(fmt::format("{}/{}/{}/{}", test.weighting, test.map, test.oracle, test.test)));
+  const auto property = [&](std::string_view name, const std::string& value) {
+    xml += fmt::format("        <property name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
+  };
+  property("p", p_text(test));
+  property("effect", significant(test.effect));
+  if (test.detectable_effect) property("detectable", significant(*test.detectable_effect));
+  property("samples", std::to_string(test.samples));
+  property("seed", std::to_string(test.seed));
+  property("replay", replay_command(gate, test));
+  xml += "      </properties>\n";
+  const std::string message = escaped(message_of(gate, test));
+  if (test.outcome == Outcome::reject && counts(test, count_known_defects)) {
+    xml += fmt::format("      <failure message=\"{}\">{}\n{}</failure>\n", message, message,
+                       escaped(replay_command(gate, test)));
+  } else if (test.outcome == Outcome::inconclusive) {
+    xml += fmt::format("      <error message=\"inconclusive: {}\"/>\n", message);
+  } else if (test.outcome == Outcome::reject) {
+    xml += fmt::format("      <skipped message=\"known defect: {}\"/>\n", message);
+  }
+  return xml + "    </testcase>\n";
+}
+
+std::string cell(std::string text) {
+  for (const std::string_view bad : {"\n", "|"}) {
+    for (std::size_t at = text.find(bad); at != std::string::npos; at = text.find(bad, at + 1)) {
+      text.replace(at, 1, bad == "|" ? "/" : " ");
+    }
+  }
+  return text;
+}
+
+std::string markdown_row(const GateResult& gate, const TestRecord& test) {
+  return fmt::format("| {} | {} | {}/{} | {} | {} | {} |\n", cell(configuration_name(test)),
+                     cell(test.map), test.oracle, cell(test.test), p_text(test),
+                     significant(test.effect), cell(diagnosis_of(gate, test)));
+}
+
+/// One word for a POSIX shell, whatever is in it.
+std::string shell_quoted(const std::string& text) {
+  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
+  });
+  if (plain) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// Workflow commands end at a line break and give '%' a meaning.
+std::string command_text(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '%')
+      safe += "%25";
+    else if (c == '\n')
+      safe += "%0A";
+    else if (c == '\r')
+      safe += "%0D";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+}  // namespace
+
+std::string replay_command(const GateResult& gate, const TestRecord& test) {
+  return fmt::format("lightproof gate {} --sampler {}{}{} --samples {} --seed {}",
+                     shell_quoted(test.source.empty() ? test.map : test.source),
+                     shell_quoted(test.sampler),
+                     test.weighting.empty() ? "" : " --weighting " + test.weighting,
+                     gate.input_options, gate.samples, gate.seed);
+}
+
+std::string gate_junit(const GateResult& gate, bool count_known_defects) {
+  std::size_t failures = 0;
+  std::size_t errors = 0;
+  std::size_t skipped = 0;
+  std::string cases;
+  for (const TestRecord& test : gate.tests) {
+    if (test.outcome == Outcome::inconclusive) ++errors;
+    if (test.outcome == Outcome::reject) {
+      ++(counts(test, count_known_defects) ? failures : skipped);
+    }
+    cases += junit_case(gate, test, count_known_defects);
+  }
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
+      "  <testsuite name=\"lightproof gate\" tests=\"{}\" failures=\"{}\" errors=\"{}\" "
+      "skipped=\"{}\">\n{}  </testsuite>\n</testsuites>\n",
+      gate.tests.size(), failures, errors, skipped, cases);
+}
+
+std::string gate_markdown(const GateResult& gate, bool count_known_defects) {
+  const Tally tally =
+      tally_of(gate, [&](const TestRecord& test) { return counts(test, count_known_defects); });
+  std::string text = fmt::format(
+      "### Lightproof gate: {}\n\n{}, {} rejected, {} inconclusive; family-wise error {}, {} "
+      "samples per configuration, seed {}.\n",
+      outcome_text(tally.outcome()), counted(tally.tests, "test"), tally.rejected,
+      tally.inconclusive, significant(gate.family_alpha), with_thousands(gate.samples), gate.seed);
+  const auto rejected = worst_rejections(gate, count_known_defects);
+  if (rejected.empty()) return text;
+  text += "\n| sampler | map | test | p | effect | looks like |\n|---|---|---|---|---|---|\n";
+  std::size_t shown = 0;
+  for (; shown < rejected.size(); ++shown) {
+    const std::string row = markdown_row(gate, *rejected[shown]);
+    if (text.size() + row.size() + 100 > kMarkdownLimit) break;
+    text += row;
+  }
+  if (shown < rejected.size()) text += fmt::format("\nand {} more\n", rejected.size() - shown);
+  return text;
+}
+
+std::string gate_annotations(const GateResult& gate, bool count_known_defects) {
+  const auto rejected = worst_rejections(gate, count_known_defects);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kAnnotations, rejected.size()); ++i) {
+    text += fmt::format("::error title=lightproof::{}: {}\n", command_text(name_of(*rejected[i])),
+                        command_text(message_of(gate, *rejected[i])));
+  }
+  if (rejected.size() > kAnnotations) {
+    text += fmt::format("::error title=lightproof::and {} more rejected tests\n",
+                        rejected.size() - kAnnotations);
+  }
+  return text;
+}
+
+}  // namespace lightproof

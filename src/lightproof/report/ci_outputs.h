@@ -1,0 +1,26 @@
+// The gate's verdicts as continuous integration reads them.
+#pragma once
+
+#include <string>
+
+#include "lightproof/suite/results.h"
+
+namespace lightproof {
+
+/// The command that draws the same samples again, for one configuration, quoted for a shell.
+std::string replay_command(const GateResult& gate, const TestRecord& test);
+
+/// JUnit XML: one test case per sampler, weighting, map and test, with p-value, effect, seed and
+/// replay command in its properties and, where it failed, in its message. Rejections of samplers
+/// with known defects are skipped cases unless they count.
+std::string gate_junit(const GateResult& gate, bool count_known_defects);
+
+/// A summary for a pull request in GitHub's Markdown, always below 60,000 bytes: what is left out
+/// is counted.
+std::string gate_markdown(const GateResult& gate, bool count_known_defects);
+
+/// GitHub workflow commands: the nine worst rejections as annotations (a step shows ten at most),
+/// and the number of the others.
+std::string gate_annotations(const GateResult& gate, bool count_known_defects);
+
+}  // namespace lightproof

@@ -1,0 +1,288 @@
+#include "lightproof/suite/alternative_law.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "lightproof/core/measure.h"
+#include "lightproof/warp/lat_long.h"
+#include "reference/texel_masses.h"
+
+namespace lightproof {
+namespace {
+
+void normalise(Grid<double>& masses) {
+  const auto values = masses.values();
+  const double total = std::accumulate(values.begin(), values.end(), 0.0);
+  for (double& mass : values) mass /= total;
+}
+
+/// Texels of weight value(x, y), times the weight of their row.
+template <class Value, class RowWeight>
+Grid<double> weighted(Extent extent, const Value& value, const RowWeight& row_weight) {
+  Grid<double> masses(extent);
+  for (int y = 0; y < extent.height; ++y) {
+    const double row = row_weight(y);
+    for (int x = 0; x < extent.width; ++x) masses(x, y) = row * value(x, y);
+  }
+  normalise(masses);
+  return masses;
+}
+
+double declared_row_weight(Extent extent, Weighting weighting, int y) {
+  return weighting == Weighting::A ? 1.0 : texel_solid_angle(extent, y);
+}
+
+/// The declared law with another grey value.
+template <class Grey>
+Grid<double> with_grey(const EnvironmentMap& map, TargetDensity target, const Grey& grey) {
+  const Extent extent = map.radiance.extent();
+  return weighted(
+      extent, [&](int x, int y) { return grey(map.radiance(x, y)); },
+      [&](int y) { return declared_row_weight(extent, target.weighting, y); });
+}
+
+/// The declared law with another weight of the rows.
+template <class RowWeight>
+Grid<double> with_rows(const EnvironmentMap& map, TargetDensity target, const RowWeight& weight) {
+  return weighted(
+      map.radiance.extent(),
+      [&](int x, int y) { return luminance(map.radiance(x, y), target.grey); }, weight);
+}
+
+/// The declared masses, moved: texel (x, y) gets those of from(x, y).
+template <class From>
+Grid<double> moved(const EnvironmentMap& map, TargetDensity target, const From& from) {
+  const Grid<double> masses = reference::texel_masses(map, target);
+  Grid<double> result(masses.extent());
+  for (int y = 0; y < masses.extent().height; ++y) {
+    for (int x = 0; x < masses.extent().width; ++x) result(x, y) = from(masses, x, y);
+  }
+  normalise(result);
+  return result;
+}
+
+Grid<double> other_weighting(const EnvironmentMap& map, TargetDensity target) {
+  target.weighting = target.weighting == Weighting::A ? Weighting::B : Weighting::A;
+  return reference::texel_masses(map, target);
+}
+
+Grid<double> sine_at_edge(const EnvironmentMap& map, TargetDensity target) {
+  const double height = map.radiance.extent().height;
+  return with_rows(map, target, [&](int y) { return std::sin(kPi * y / height); });
+}
+
+Grid<double> sine_to_last_row(const EnvironmentMap& map, TargetDensity target) {
+  const double last = std::max(1, map.radiance.extent().height - 1);
+  return with_rows(map, target, [&](int y) { return std::abs(std::sin(kPi * y / last)); });
+}
+
+Grid<double> sine_twice(const EnvironmentMap& map, TargetDensity target) {
+  const Extent extent = map.radiance.extent();
+  return with_rows(map, target, [&](int y) {
+    const double sine = sin_theta((y + 0.5) / extent.height);
+    return target.weighting == Weighting::A ? sine * sine : texel_solid_angle(extent, y) * sine;
+  });
+}
+
+Grid<double> column_late(const EnvironmentMap& map, TargetDensity target) {
+  return moved(map, target, [](const Grid<double>& m, int x, int y) {
+    return m(x == 0 ? m.extent().width - 1 : x - 1, y);
+  });
+}
+
+Grid<double> column_early(const EnvironmentMap& map, TargetDensity target) {
+  return moved(map, target, [](const Grid<double>& m, int x, int y) {
+    return m(x + 1 == m.extent().width ? 0 : x + 1, y);
+  });
+}
+
+Grid<double> row_late(const EnvironmentMap& map, TargetDensity target) {
+  return moved(map, target,
+               [](const Grid<double>& m, int x, int y) { return y == 0 ? 0.0 : m(x, y - 1); });
+}
+
+Grid<double> upside_down(const EnvironmentMap& map, TargetDensity target) {
+  return moved(map, target,
+               [](const Grid<double>& m, int x, int y) { return m(x, m.extent().height - 1 - y); });
+}
+
+Grid<double> mirrored(const EnvironmentMap& map, TargetDensity target) {
+  return moved(map, target,
+               [](const Grid<double>& m, int x, int y) { return m(m.extent().width - 1 - x, y); });
+}
+
+Grid<double> half_turn(const EnvironmentMap& map, TargetDensity target) {
+  return moved(map, target, [](const Grid<double>& m, int x, int y) {
+    return m((x + m.extent().width / 2) % m.extent().width, y);
+  });
+}
+
+Grid<double> without_last_column(const EnvironmentMap& map, TargetDensity target) {
+  return moved(map, target, [](const Grid<double>& m, int x, int y) {
+    return x + 1 == m.extent().width ? 0.0 : m(x, y);
+  });
+}
+
+Grid<double> without_last_row(const EnvironmentMap& map, TargetDensity target) {
+  return moved(map, target, [](const Grid<double>& m, int x, int y) {
+    return y + 1 == m.extent().height ? 0.0 : m(x, y);
+  });
+}
+
+/// The first row that has light.
+Grid<double> without_first_row(const EnvironmentMap& map, TargetDensity target) {
+  const std::vector<double> rows = reference::row_marginal(reference::texel_masses(map, target));
+  const auto lit = std::find_if(rows.begin(), rows.end(), [](double mass) { return mass > 0.0; });
+  const auto first = static_cast<int>(lit - rows.begin());
+  if (rows[static_cast<std::size_t>(first)] == 1.0) return reference::texel_masses(map, target);
+  return moved(map, target,
+               [&](const Grid<double>& m, int x, int y) { return y == first ? 0.0 : m(x, y); });
+}
+
+Grid<double> rows_alike(const EnvironmentMap& map, TargetDensity target) {
+  const Grid<double> masses = reference::texel_masses(map, target);
+  const std::vector<double> rows = reference::row_marginal(masses);
+  return weighted(
+      masses.extent(), [&](int x, int y) { return masses(x, y); },
+      [&](int y) {
+        const double mass = rows[static_cast<std::size_t>(y)];
+        return mass > 0.0 ? 1.0 / mass : 0.0;
+      });
+}
+
+Grid<double> columns_of_next_row(const EnvironmentMap& map, TargetDensity target) {
+  const Grid<double> masses = reference::texel_masses(map, target);
+  const std::vector<double> rows = reference::row_marginal(masses);
+  const auto height = static_cast<std::size_t>(masses.extent().height);
+  return moved(map, target, [&](const Grid<double>& m, int x, int y) {
+    const std::size_t row = static_cast<std::size_t>(y);
+    const std::size_t next = rows[(row + 1) % height] > 0.0 ? (row + 1) % height : row;
+    return rows[next] > 0.0 ? m(x, static_cast<int>(next)) * rows[row] / rows[next] : 0.0;
+  });
+}
+
+Grid<double> lecture_grey(const EnvironmentMap& map, TargetDensity target) {
+  // Where the lecture's grey is declared, the mistake is the standard's.
+  target.grey = target.grey.red == kPublishedLuminance.red ? kRec709 : kPublishedLuminance;
+  return reference::texel_masses(map, target);
+}
+
+Grid<double> average_grey(const EnvironmentMap& map, TargetDensity target) {
+  target.grey = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
+  return reference::texel_masses(map, target);
+}
+
+Grid<double> swapped_channels(const EnvironmentMap& map, TargetDensity target) {
+  std::swap(target.grey.red, target.grey.blue);
+  return reference::texel_masses(map, target);
+}
+
+Grid<double> gamma_left_in(const EnvironmentMap& map, TargetDensity target) {
+  return with_grey(map, target,
+                   [&](Rgb rgb) { return std::pow(luminance(rgb, target.grey), 1.0 / 2.2); });
+}
+
+Grid<double> squared(const EnvironmentMap& map, TargetDensity target) {
+  return with_grey(map, target, [&](Rgb rgb) {
+    const double grey = luminance(rgb, target.grey);
+    return grey * grey;
+  });
+}
+
+/// Clamped where a picture format would clamp: at sixteen times the mean.
+Grid<double> clamped(const EnvironmentMap& map, TargetDensity target) {
+  const Grid<double> grey = luminance(map, target.grey);
+  const auto values = grey.values();
+  const double mean =
+      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  return with_grey(map, target,
+                   [&](Rgb rgb) { return std::min(luminance(rgb, target.grey), 16.0 * mean); });
+}
+
+Grid<double> uniform_mixed_in(const EnvironmentMap& map, TargetDensity target) {
+  constexpr double kShare = 0.01;
+  const Extent extent = map.radiance.extent();
+  return moved(map, target, [&](const Grid<double>& m, int x, int y) {
+    return (1.0 - kShare) * m(x, y) + kShare / static_cast<double>(extent.count());
+  });
+}
+
+Grid<double> uniform(const EnvironmentMap& map, TargetDensity target) {
+  return with_grey(map, target, [](Rgb) { return 1.0; });
+}
+
+Grid<double> quarter_turn(const EnvironmentMap& map, TargetDensity target) {
+  return moved(map, target, [](const Grid<double>& m, int x, int y) {
+    return m((x + m.extent().width / 4) % m.extent().width, y);
+  });
+}
+
+/// Rows whose average lies below 1e-4, whatever the exposure; the declared law if all do.
+Grid<double> without_dim_rows(const EnvironmentMap& map, TargetDensity target) {
+  const Grid<double> grey = luminance(map, target.grey);
+  const Extent extent = grey.extent();
+  std::vector<bool> dim;
+  for (int y = 0; y < extent.height; ++y) {
+    const auto row = grey.row(y);
+    dim.push_back(std::accumulate(row.begin(), row.end(), 0.0) / extent.width < 1e-4);
+  }
+  if (std::all_of(dim.begin(), dim.end(), [](bool d) { return d; })) dim.assign(dim.size(), false);
+  return moved(map, target, [&](const Grid<double>& m, int x, int y) {
+    return dim[static_cast<std::size_t>(y)] ? 0.0 : m(x, y);
+  });
+}
+
+/// Half of every texel's mass goes to the next column.
+Grid<double> half_column(const EnvironmentMap& map, TargetDensity target) {
+  return moved(map, target, [](const Grid<double>& m, int x, int y) {
+    return 0.5 * (m(x, y) + m(x == 0 ? m.extent().width - 1 : x - 1, y));
+  });
+}
+
+constexpr std::array<AlternativeLaw, 26> kLaws = {{
+    {"other-weighting", "a missing sin(theta) (or one too many): the other weighting",
+     other_weighting},
+    {"sine-at-edge", "sin(theta) taken at the row's edge, y/H instead of (y+1/2)/H", sine_at_edge},
+    {"sine-to-last-row", "sin(theta) taken at y/(H-1) instead of (y+1/2)/H", sine_to_last_row},
+    {"sine-twice", "sin(theta) applied twice", sine_twice},
+    {"column-late", "columns off by one: each is drawn for the one before it", column_late},
+    {"column-early", "columns off by one: each is drawn for the one after it", column_early},
+    {"half-texel", "half a texel added in s", half_column},
+    {"row-late", "rows off by one: each is drawn for the one below it", row_late},
+    {"upside-down", "t flipped", upside_down},
+    {"mirrored", "s mirrored", mirrored},
+    {"half-turn", "the seam of phi on the other side: s shifted by one half", half_turn},
+    {"no-last-column", "the last column is never drawn", without_last_column},
+    {"no-last-row", "the last row is never drawn", without_last_row},
+    {"no-first-row", "the first row with light is never drawn", without_first_row},
+    {"rows-alike", "rows not weighted by their sum", rows_alike},
+    {"columns-of-next-row", "columns drawn from the next row's distribution", columns_of_next_row},
+    {"other-grey", "other grey weights than declared (Rec. 709 and the lecture's mixed up)",
+     lecture_grey},
+    {"average-grey", "the average of R, G, B instead of the declared grey", average_grey},
+    {"swapped-channels", "R and B swapped", swapped_channels},
+    {"gamma", "gamma left in: values not linear", gamma_left_in},
+    {"squared", "grey squared", squared},
+    {"clamped", "bright values clamped", clamped},
+    {"uniform-mixed-in", "some samples drawn uniformly", uniform_mixed_in},
+    {"quarter-turn", "the map turned by 90 degrees", quarter_turn},
+    {"dim-rows-skipped", "rows darker than an absolute threshold are never drawn",
+     without_dim_rows},
+    {"uniform", "the map is not looked at: uniform samples", uniform},
+}};
+
+}  // namespace
+
+std::span<const AlternativeLaw> alternative_laws() { return kLaws; }
+
+const AlternativeLaw& alternative_law(std::string_view name) {
+  const auto* found = std::find_if(kLaws.begin(), kLaws.end(),
+                                   [&](const AlternativeLaw& law) { return law.name == name; });
+  assert(found != kLaws.end());
+  return *found;
+}
+
+}  // namespace lightproof

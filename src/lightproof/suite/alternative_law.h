@@ -1,0 +1,26 @@
+// Laws that a sampler draws by mistake: what a rejected sampler is compared with, to name its
+// defect, and what the mutants draw.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "lightproof/core/grid.h"
+#include "lightproof/image/target_density.h"
+
+namespace lightproof {
+
+struct AlternativeLaw {
+  std::string_view name;       ///< "no-sine"
+  std::string_view diagnosis;  ///< "a missing sin(theta)"
+  /// Masses of the texels that are drawn where `target` is declared; they sum to 1. Inside a texel
+  /// the place follows the declared weighting.
+  Grid<double> (*masses)(const EnvironmentMap& map, TargetDensity target);
+};
+
+std::span<const AlternativeLaw> alternative_laws();
+
+/// The row of this name, which must exist.
+const AlternativeLaw& alternative_law(std::string_view name);
+
+}  // namespace lightproof

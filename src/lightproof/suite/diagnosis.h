@@ -1,0 +1,33 @@
+// What a rejected sampler looks like: from which tests failed, and from which other law explains
+// its samples best.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "lightproof/suite/checks.h"
+#include "lightproof/suite/draws.h"
+#include "lightproof/suite/results.h"
+
+namespace lightproof {
+
+/// A kind of defect that is no other law over the texels.
+struct Signature {
+  std::string_view name;
+  std::string_view diagnosis;
+};
+
+std::span<const Signature> signatures();
+
+/// What was seen of a configuration, some of whose judged records are rejected.
+struct Evidence {
+  std::span<const TestRecord> records;
+  const Draws* draws;
+  const OwnDensity* own;
+};
+
+/// `map` and `expectation` are those of the configuration.
+Rejection diagnose(const EnvironmentMap& map, const Expectation& expectation,
+                   const Evidence& evidence);
+
+}  // namespace lightproof

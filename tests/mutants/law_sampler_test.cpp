@@ -1,0 +1,67 @@
+#include "lightproof/mutants/law_sampler.h"
+
+#include <gtest/gtest.h>
+
+#include "lightproof/core/random.h"
+#include "lightproof/image/synthetic.h"
+#include "lightproof/samplers/linear_scan.h"
+#include "lightproof/suite/alternative_law.h"
+#include "reference/texel_masses.h"
+
+namespace lightproof {
+namespace {
+
+// Knots of 31 bits are 2^-31 off at most, and as many random numbers in 64 sums and 65536 points
+// fall in between with a probability of 3 %: up to two points may differ.
+TEST(LawSampler, DrawsTheTexelsOfTheDeclaredLaw) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
+  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+    const TargetDensity target = {weighting, kRec709};
+    const LawSampler law(reference::texel_masses(map, target), weighting);
+    const LinearScan scan(map, target);
+    const RandomStream stream("LawSampler", 1);
+    int different = 0;
+    for (std::uint64_t i = 0; i < 65536; ++i) {
+      const TexelSample a = law.sample(stream.point(i));
+      const TexelSample b = scan.sample(stream.point(i));
+      if (a.x != b.x || a.y != b.y) {
+        ++different;
+        continue;
+      }
+      // The reserved unit of every texel makes the knots' own density a little even.
+      EXPECT_NEAR(a.pdf.value / b.pdf.value, 1.0, 0.02);
+      EXPECT_EQ(law.pdf(a.at).value, a.pdf.value);
+    }
+    EXPECT_LE(different, 2);
+  }
+}
+
+TEST(AlternativeLaws, SumToOneAndDifferFromTheDeclaredLaw) {
+  EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
+  // Colour, and rows around the absolute threshold.
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      if (x < 20) map.radiance(x, y) *= Rgb(2.0F, 0.7F, 0.3F);
+      map.radiance(x, y) = Rgb(1e-5F * static_cast<float>(y)) + 1e-5F * map.radiance(x, y);
+    }
+  }
+  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+    const TargetDensity target = {weighting, kRec709};
+    const Grid<double> declared = reference::texel_masses(map, target);
+    for (const AlternativeLaw& law : alternative_laws()) {
+      const Grid<double> masses = law.masses(map, target);
+      double sum = 0.0;
+      double distance = 0.0;
+      for (std::size_t i = 0; i < masses.values().size(); ++i) {
+        ASSERT_GE(masses.values()[i], 0.0) << law.name;
+        sum += masses.values()[i];
+        distance += std::abs(masses.values()[i] - declared.values()[i]);
+      }
+      EXPECT_NEAR(sum, 1.0, 1e-12) << law.name;
+      EXPECT_GT(distance, 1e-8) << law.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lightproof

@@ -1,0 +1,85 @@
+#include "lightproof/report/ci_outputs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "fixture.h"
+
+namespace lightproof {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// `rejected` rejections after one accepted test, with awkward names.
+GateResult gate_with(std::size_t rejected) {
+  GateResult gate{1e-6, 4194304, 7, {testing::accepted_test("binary_search", "city")}};
+  for (std::size_t i = 0; i < rejected; ++i) {
+    TestRecord test = testing::accepted_test("mine", "a|b<c>&\"d\"");
+    test.outcome = Outcome::reject;
+    test.log10_p = -20.0 - static_cast<double>(i);
+    test.detail = "row 0\nis 100% dark";
+    gate.tests.push_back(test);
+  }
+  gate.rejections.push_back({"mine", "B", "a|b<c>&\"d\"", "upside-down", "t flipped", {}, {}});
+  return gate;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST(Junit, HasOneCaseATestWithEverythingNeededToRepeatIt) {
+  const std::string xml = gate_junit(gate_with(1), true);
+  EXPECT_THAT(xml, HasSubstr("tests=\"2\" failures=\"1\" errors=\"0\" skipped=\"0\""));
+  EXPECT_EQ(count_of(xml, "<testcase "), 2U);
+  EXPECT_EQ(count_of(xml, "name=\"replay\""), 2U);
+  EXPECT_THAT(xml, HasSubstr("looks like: t flipped"));
+  EXPECT_THAT(xml, HasSubstr("a|b&lt;c&gt;&amp;"));
+  EXPECT_THAT(xml, Not(HasSubstr("b<c>")));
+}
+
+TEST(ReplayCommand, IsQuotedAndComplete) {
+  GateResult gate = gate_with(1);
+  gate.input_options = " --repair";
+  gate.tests[1].source = "maps/it's mine.exr";
+  EXPECT_EQ(replay_command(gate, gate.tests[1]),
+            "lightproof gate 'maps/it'\\''s mine.exr' --sampler mine --weighting B --repair "
+            "--samples 4194304 --seed 7");
+}
+
+TEST(Junit, SkipsKnownDefectsUnlessTheyCount) {
+  GateResult gate = gate_with(1);
+  gate.tests[1].known_defect = true;
+  EXPECT_THAT(gate_junit(gate, false), HasSubstr("failures=\"0\" errors=\"0\" skipped=\"1\""));
+  EXPECT_THAT(gate_junit(gate, true), HasSubstr("failures=\"1\" errors=\"0\" skipped=\"0\""));
+}
+
+TEST(Markdown, NamesTheWorstFirstAndStaysBelowItsLimit) {
+  const std::string few = gate_markdown(gate_with(3), true);
+  EXPECT_LT(few.find("log10 p -22"), few.find("log10 p -21"));
+  EXPECT_THAT(few, HasSubstr("a/b<c>"));
+  EXPECT_THAT(few, Not(HasSubstr("more")));
+  const std::string many = gate_markdown(gate_with(2000), true);
+  EXPECT_LT(many.size(), 60000U);
+  EXPECT_THAT(many, HasSubstr(" more\n"));
+  EXPECT_THAT(gate_markdown(gate_with(0), true), HasSubstr("0 rejected"));
+}
+
+TEST(Annotations, AreNineAndTheNumberOfTheOthers) {
+  const std::string text = gate_annotations(gate_with(12), true);
+  EXPECT_EQ(count_of(text, "::error "), 10U);
+  EXPECT_EQ(count_of(text, "\n"), 10U) << "one line each";
+  EXPECT_THAT(text, HasSubstr("row 0%0Ais 100%25 dark"));
+  EXPECT_THAT(text, HasSubstr("and 3 more rejected tests"));
+  EXPECT_EQ(gate_annotations(gate_with(0), true), "");
+}
+
+}  // namespace
+}  // namespace lightproof

@@ -1,0 +1,79 @@
+#include "lightproof/stats/uniformity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "lightproof/core/random.h"
+#include "uniformity.h"
+
+namespace lightproof {
+namespace {
+
+// Percentage points of Kuiper's V* (Stephens 1970, table 1), given to three decimals: the law falls
+// by up to 4 v of itself per unit, so half a unit of the last one is 0.4 % of p.
+TEST(KuiperTail, HasTheTabulatedPercentagePoints) {
+  const std::vector<std::pair<double, double>> points = {
+      {1.620, 0.10}, {1.747, 0.05}, {1.862, 0.025}, {2.001, 0.01}};
+  for (const auto& [v, p] : points) {
+    EXPECT_NEAR(std::pow(10.0, log10_kuiper_tail(v)) / p, 1.0, 0.005) << v;
+  }
+}
+
+TEST(KuiperTail, KeepsItsLogarithmFarOut) {
+  // The first term alone: 2 (4 v^2 - 1) exp(-2 v^2).
+  const double v = 40.0;
+  EXPECT_NEAR(log10_kuiper_tail(v),
+              (std::log(2.0 * (4.0 * v * v - 1.0)) - 2.0 * v * v) / std::log(10.0), 1e-9);
+  EXPECT_EQ(log10_kuiper_tail(0.0), 0.0);
+}
+
+// Percentage points of A^2 (Lewis 1961; Marsaglia & Marsaglia 2004 give 2.4924 and 3.8781 to four
+// decimals; p falls by 1.2 of itself per unit).
+TEST(AndersonDarlingTail, HasTheTabulatedPercentagePoints) {
+  EXPECT_NEAR(std::pow(10.0, log10_anderson_darling_tail(2.4924)), 0.05, 1e-5);
+  EXPECT_NEAR(std::pow(10.0, log10_anderson_darling_tail(3.8781)), 0.01, 1e-6);
+  EXPECT_NEAR(std::pow(10.0, log10_anderson_darling_tail(1.933)), 0.10, 1e-4);
+}
+
+// The series ends where the first of the weighted normals takes over.
+TEST(AndersonDarlingTail, IsContinuousWhereItsFormulaChanges) {
+  const double below = log10_anderson_darling_tail(15.0 - 1e-9);
+  const double above = log10_anderson_darling_tail(15.0 + 1e-9);
+  EXPECT_NEAR(below, above, 0.01);  // 2 % of p
+  EXPECT_LT(log10_anderson_darling_tail(2000.0), -800.0);
+}
+
+std::vector<std::uint64_t> counts_of(const RandomStream& stream, std::uint64_t samples,
+                                     double power) {
+  std::vector<std::uint64_t> counts(kUniformCells);
+  for (std::uint64_t i = 0; i < samples; ++i) {
+    const double u = std::pow(stream.point(i).s, power);
+    ++counts[static_cast<std::size_t>(u * static_cast<double>(kUniformCells))];
+  }
+  return counts;
+}
+
+TEST(UniformityCalibration, PValuesOfUniformNumbersAreUniform) {
+  const RandomStream all("UniformityCalibration", 1);
+  std::vector<double> kuiper;
+  std::vector<double> anderson;
+  for (std::uint64_t replicate = 0; replicate < 2000; ++replicate) {
+    const auto counts = counts_of(all.substream(replicate), 4096, 1.0);
+    kuiper.push_back(kuiper_test(counts).log10_p);
+    anderson.push_back(anderson_darling_test(counts).log10_p);
+  }
+  expect_uniform(kuiper);
+  expect_uniform(anderson);
+}
+
+TEST(Uniformity, RejectsNumbersThatAreNot) {
+  const RandomStream stream("Uniformity", 1);
+  const auto counts = counts_of(stream, 100000, 1.05);  // F = u^(1/1.05): 1.8 % off at most
+  EXPECT_LT(kuiper_test(counts).log10_p, -10.0);
+  EXPECT_LT(anderson_darling_test(counts).log10_p, -10.0);
+}
+
+}  // namespace
+}  // namespace lightproof
