@@ -106,6 +106,9 @@ std::vector<LightMoments> light_moments(const Kernel& kernel,
   parallel_for(height, [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < extent.width; ++x) {
+      const bool dark = std::all_of(radiance.begin(), radiance.end(),
+                                    [&](const auto& grid) { return grid(x, y) == 0.0; });
+      if (dark) continue;
       TexelIntegrals texel;
       const bool split = kernel.straddles(quadrature.centre(x, y), quadrature.radius());
       quadrature.visit(x, y, split, [&](const Node& node) {
@@ -114,6 +117,7 @@ std::vector<LightMoments> light_moments(const Kernel& kernel,
       });
       if (texel.plain[0] == 0.0) continue;
       for (std::size_t map = 0; map < radiance.size(); ++map) {
+        if (radiance[map](x, y) == 0.0) continue;  // whatever the powers of 1/pdf are
         accumulate(rows[row][map], radiance[map](x, y), totals[map], texel);
       }
     }

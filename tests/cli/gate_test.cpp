@@ -113,6 +113,7 @@ TEST(GateJson, HoldsWhatWasChosen) {
   EXPECT_THAT(values_of(scan, "sampler"), ElementsAre("linear_scan"));
   EXPECT_THAT(values_of(scan, "weighting"), ElementsAre("B"));
   EXPECT_EQ(values_of(gate_results({"--sampler", "binary_search"}), "map").size(), 8U);
+  EXPECT_THAT(values_of(gate_results({"--sampler", "phong_45"}), "map"), ElementsAre("directions"));
 }
 
 TEST(GateJson, IsTheSameForAnyNumberOfThreads) {

@@ -42,14 +42,15 @@ Words with_common(Words words) {
 
 INSTANTIATE_TEST_SUITE_P(
     Commands, Help,
-    testing::Values(HelpCase{"", {"study", "gate", "list", "--version", "Usage: lightproof"}},
-                    HelpCase{"gate", with_common({"--sampler", "--weighting", "--json",
-                                                  "Exit codes", "inconclusive"})},
-                    HelpCase{"study", with_common({"-o,--output", "--throughput", "--no-throughput",
-                                                   "Exit codes"})},
-                    HelpCase{"list",
-                             {"samplers", "maps", "presets", "materials", "receivers", "strategies",
-                              "--json"}}),
+    testing::Values(
+        HelpCase{"", {"study", "gate", "list", "--version", "Usage: lightproof"}},
+        HelpCase{"gate", with_common({"--sampler", "--weighting", "--level", "--json", "--junit",
+                                      "--markdown", "--github", "Exit codes", "inconclusive"})},
+        HelpCase{"study",
+                 with_common({"-o,--output", "--throughput", "--no-throughput", "Exit codes"})},
+        HelpCase{
+            "list",
+            {"samplers", "maps", "presets", "materials", "receivers", "strategies", "--json"}}),
     [](const auto& test) {
       return test.param.subcommand.empty() ? "lightproof" : test.param.subcommand;
     });
@@ -90,30 +91,32 @@ TEST_P(Usage, ErrorIsExit2WithAReasonOnStderr) {
 
 INSTANTIATE_TEST_SUITE_P(
     Errors, Usage,
-    testing::Values(UsageCase{"NoSubcommand", {}, "subcommand is required"},
-                    UsageCase{"UnknownSubcommand", {"prove"}, "no command 'prove'"},
-                    UsageCase{"UnknownOption", {"gate", "--frobnicate"}, "--frobnicate"},
-                    UsageCase{"UnknownStudyOption", {"study", "--frobnicate"}, "--frobnicate"},
-                    UsageCase{"MissingValue", {"gate", "--size"}, "--size"},
-                    UsageCase{"TooFewSamples", {"gate", "-n", "1023"}, "--samples"},
-                    UsageCase{"TooManySamples", {"gate", "-n", "1099511627777"}, "--samples"},
-                    UsageCase{"NegativeSamples", {"gate", "-n", "-5"}, "--samples"},
-                    UsageCase{"FractionalSamples", {"gate", "-n", "2048.5"}, "--samples"},
-                    UsageCase{"SamplesInWords", {"study", "-n", "many"}, "--samples"},
-                    UsageCase{"NegativeThreads", {"gate", "-t", "-1"}, "--threads"},
-                    UsageCase{"TooManyThreads", {"gate", "-t", "4097"}, "--threads"},
-                    UsageCase{"SeedInWords", {"gate", "--seed", "x"}, "--seed"},
-                    UsageCase{"SeedBeyond64Bits",
-                              {"gate", "constant", "--size", "8x4", "-n", "1024", "--seed",
-                               "18446744073709551616"},
-                              "--seed"},
-                    UsageCase{"UnknownColor", {"gate", "--color", "red"}, "always"},
-                    UsageCase{"UnknownWeighting", {"gate", "--weighting", "C"}, "--weighting"},
-                    UsageCase{"UnknownRegistry", {"list", "cats"}, "samplers"},
-                    UsageCase{"NoRegistry", {"list"}, "WHAT"},
-                    UsageCase{"BothThroughputs",
-                              {"study", "--throughput", "f", "--no-throughput"},
-                              "--throughput"}),
+    testing::Values(
+        UsageCase{"NoSubcommand", {}, "subcommand is required"},
+        UsageCase{"UnknownSubcommand", {"prove"}, "no command 'prove'"},
+        UsageCase{"UnknownOption", {"gate", "--frobnicate"}, "--frobnicate"},
+        UsageCase{"UnknownStudyOption", {"study", "--frobnicate"}, "--frobnicate"},
+        UsageCase{"MissingValue", {"gate", "--size"}, "--size"},
+        UsageCase{"TooFewSamples", {"gate", "-n", "1023"}, "--samples"},
+        UsageCase{"TooManySamples", {"gate", "-n", "1099511627777"}, "--samples"},
+        UsageCase{"NegativeSamples", {"gate", "-n", "-5"}, "--samples"},
+        UsageCase{"FractionalSamples", {"gate", "-n", "2048.5"}, "--samples"},
+        UsageCase{"LevelAndSamples", {"gate", "--level", "quick", "-n", "4194304"}, "--samples"},
+        UsageCase{"UnknownLevel", {"gate", "--level", "slow"}, "nightly"},
+        UsageCase{"SamplesInWords", {"study", "-n", "many"}, "--samples"},
+        UsageCase{"NegativeThreads", {"gate", "-t", "-1"}, "--threads"},
+        UsageCase{"TooManyThreads", {"gate", "-t", "4097"}, "--threads"},
+        UsageCase{"SeedInWords", {"gate", "--seed", "x"}, "--seed"},
+        UsageCase{
+            "SeedBeyond64Bits",
+            {"gate", "constant", "--size", "8x4", "-n", "1024", "--seed", "18446744073709551616"},
+            "--seed"},
+        UsageCase{"UnknownColor", {"gate", "--color", "red"}, "always"},
+        UsageCase{"UnknownWeighting", {"gate", "--weighting", "C"}, "--weighting"},
+        UsageCase{"UnknownRegistry", {"list", "cats"}, "samplers"},
+        UsageCase{"NoRegistry", {"list"}, "WHAT"},
+        UsageCase{
+            "BothThroughputs", {"study", "--throughput", "f", "--no-throughput"}, "--throughput"}),
     [](const auto& test) { return test.param.name; });
 
 class BadSize : public testing::TestWithParam<std::string> {};

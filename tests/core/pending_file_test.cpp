@@ -224,5 +224,32 @@ TEST_F(PendingFiles, CheckWritableRefusesWhatCannotBeWritten) {
   EXPECT_THROW(check_writable(in_folder("")), InputError) << "a folder";
 }
 
+TEST_F(PendingFiles, AFolderAppearsWithAllItsFilesOrNotAtAll) {
+  const fs::path target = in_folder("report");
+  {
+    const PendingFolder pending(target);
+    put(pending.temporary() / "a.txt", "new");
+  }
+  EXPECT_TRUE(!fs::exists(target) || fs::is_empty(target));
+  put(target / "a.txt", "old");
+  put(target / "kept.txt", "kept");
+  {
+    PendingFolder pending(target);
+    put(pending.temporary() / "a.txt", "new");
+    put(pending.temporary() / "b.txt", "more");
+    EXPECT_EQ(content_of(target / "a.txt"), "old");
+    pending.commit();
+  }
+  EXPECT_EQ(content_of(target / "a.txt"), "new");
+  EXPECT_EQ(content_of(target / "b.txt"), "more");
+  EXPECT_EQ(content_of(target / "kept.txt"), "kept");
+  EXPECT_EQ(std::distance(fs::directory_iterator(target), fs::directory_iterator()), 3);
+}
+
+TEST_F(PendingFiles, AFolderThatIsAFileIsNamed) {
+  put(in_folder("report"), "a file");
+  EXPECT_THROW(PendingFolder{in_folder("report")}, InputError);
+}
+
 }  // namespace
 }  // namespace lightproof

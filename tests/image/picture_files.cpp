@@ -12,11 +12,9 @@
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 #include <OpenImageIO/imageio.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <iterator>
-#include <random>
 #include <stdexcept>
 
 namespace lightproof::test {
@@ -63,17 +61,6 @@ Imf::FrameBuffer buffer_of(const Grid<Rgb>& picture, const std::vector<float>& z
 }
 
 }  // namespace
-
-TemporaryFolder::TemporaryFolder()
-    : path_(fs::temp_directory_path() / ("lightproof-" + std::to_string(::getpid()) + "-" +
-                                         std::to_string(std::random_device{}()))) {
-  fs::create_directory(path_);
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
 
 void write_exr_file(const fs::path& file, const Grid<Rgb>& picture, const ExrOptions& options) {
   const Imf::Header header = header_of(picture.extent(), options);

@@ -10,22 +10,11 @@
 
 #include "lightproof/core/direction.h"
 #include "lightproof/core/grid.h"
+#include "lightproof/core/temporary_folder.h"
 
 namespace lightproof::test {
 
-/// A folder of its own, removed with everything in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
+using lightproof::TemporaryFolder;
 
 enum class Envmap { lat_long, cube };
 

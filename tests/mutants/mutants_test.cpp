@@ -1,16 +1,21 @@
-// Every mutant is rejected, by the oracle that it names, and called by its name; none of it by a
-// map made for it.
+// Every mutant is rejected, by the oracle that it names, and called by its name; and every test of
+// the gate has a mutant that it must reject.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 
+#include "lightproof/mutants/direction_mutant.h"
 #include "lightproof/mutants/mutant.h"
 #include "lightproof/suite/gate.h"
 
 namespace lightproof {
 namespace {
+
+using testing::Contains;
 
 constexpr Extent kExtent = {128, 64};
 
@@ -30,6 +35,67 @@ EnvironmentMap hostile_map() {
   return map;
 }
 
+struct Kill {
+  std::string_view oracle;
+  std::string_view test;
+  std::string_view mutant;
+};
+
+/// For each test of the gate a mutant that it must reject. What samplers must share with
+/// linear_scan is tested beside the gate.
+constexpr Kill kKills[] = {
+    {"reference", "bins 16x32", "t-flipped-in-both"},
+    {"reference", "texels", "column-off-by-one"},
+    {"reference", "rows", "row-off-by-one"},
+    {"reference", "columns", "u-mirrored"},
+    {"reference", "worst texel", "one-texel-moved"},
+    {"reference", "worst row", "no-last-row"},
+    {"reference", "worst column", "no-last-column"},
+    {"reference", "phi (Kuiper)", "rotated-in-both"},
+    {"reference", "theta (Anderson-Darling)", "no-sine"},
+    {"reference", "transformed pair", "texel-centres"},
+    {"self", "bins 16x32 of its own pdf", "uniform-in-sample"},
+    {"self", "mean of 1/pdf", "weights-2-percent-off"},
+    {"mean", "irradiance, normal +z", "weights-2-percent-off"},
+    {"mean", "irradiance, normal +x", "weights-2-percent-off"},
+    {"variance", "irradiance, normal +z", "noisy-weights"},
+    {"variance", "irradiance, normal +x", "noisy-weights"},
+    {"check", "samples stay on the map", "cdf-ends-early"},
+    {"check", "no dark texel is drawn", "uniform-in-sample"},
+    {"check", "random numbers have more than 20 bits", "16-bit-random"},
+    {"check", "pdf integrates to 1", "pi-squared"},
+    {"check", "pdf of the sample", "pdf-of-neighbour"},
+    {"check", "edges of u", "lower-bound"},
+};
+
+std::string key(std::string_view oracle, std::string_view test) {
+  return std::string(oracle) + "/" + std::string(test);
+}
+
+/// The tests that rejected, as "oracle/test", and the oracles alone.
+std::set<std::string> rejections(const GateResult& result) {
+  std::set<std::string> names;
+  for (const TestRecord& test : result.tests) {
+    if (test.outcome != Outcome::reject) continue;
+    names.insert(key(test.oracle, test.test));
+    names.insert(test.oracle);
+  }
+  return names;
+}
+
+void expect_killed(const GateResult& result, std::string_view oracle, std::string_view diagnosis) {
+  EXPECT_THAT(rejections(result), Contains(std::string(oracle)));
+  ASSERT_EQ(result.rejections.size(), 1U);
+  EXPECT_EQ(result.rejections[0].looks_like, diagnosis);
+  EXPECT_FALSE(result.rejections[0].diagnosis.empty());
+}
+
+std::string name_of_test(std::string_view mutant) {
+  std::string name(mutant);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
 class EveryMutant : public testing::TestWithParam<std::tuple<std::size_t, Weighting>> {};
 
 TEST_P(EveryMutant, IsKilledByItsOracleAndNamed) {
@@ -38,33 +104,45 @@ TEST_P(EveryMutant, IsKilledByItsOracleAndNamed) {
   const EnvironmentMap map = hostile_map();
   const Subject subject = subject_of(mutant, weighting);
   const GateResult result = run_gate({&map, 1}, {&subject, 1}, {});
-  std::set<std::string> oracles;
-  for (const TestRecord& test : result.tests) {
-    if (test.outcome == Outcome::reject) oracles.insert(test.oracle);
+  expect_killed(result, mutant.oracle, mutant.diagnosis);
+  for (const Kill& kill : kKills) {
+    if (kill.mutant != mutant.name) continue;
+    EXPECT_THAT(rejections(result), Contains(key(kill.oracle, kill.test)));
   }
-  EXPECT_THAT(oracles, testing::Contains(std::string(mutant.oracle)));
-  ASSERT_EQ(result.rejections.size(), 1U);
-  EXPECT_EQ(result.rejections[0].looks_like, mutant.diagnosis);
 }
 
 INSTANTIATE_TEST_SUITE_P(Mutants, EveryMutant,
                          testing::Combine(testing::Range<std::size_t>(0, mutants().size()),
                                           testing::Values(Weighting::A, Weighting::B)),
                          [](const auto& param_info) {
-                           std::string name(mutants()[std::get<0>(param_info.param)].name);
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name + "_" + to_string(std::get<1>(param_info.param));
+                           const auto index = std::get<0>(param_info.param);
+                           return name_of_test(mutants()[index].name) + "_" +
+                                  to_string(std::get<1>(param_info.param));
+                         });
+
+class EveryDirectionMutant : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(EveryDirectionMutant, IsKilledByItsOracleAndNamed) {
+  const DirectionMutant mutant = direction_mutants()[GetParam()];
+  const GateResult result = run_gate(problems_of({&mutant.sampler, 1}), {});
+  expect_killed(result, mutant.oracle, mutant.diagnosis);
+}
+
+INSTANTIATE_TEST_SUITE_P(Mutants, EveryDirectionMutant,
+                         testing::Range<std::size_t>(0, direction_mutants().size()),
+                         [](const auto& param_info) {
+                           return name_of_test(direction_mutants()[param_info.param].sampler.name);
                          });
 
 TEST(Mutants, HaveNamesOfTheirOwn) {
-  std::set<std::string_view> names;
-  for (const Mutant& mutant : mutants()) names.insert(mutant.name);
-  EXPECT_EQ(names.size(), mutants().size());
-  EXPECT_GE(names.size(), 43U);
+  std::set<std::string> names;
+  for (const Mutant& mutant : mutants()) names.insert(std::string(mutant.name));
+  for (const DirectionMutant& mutant : direction_mutants()) names.insert(mutant.sampler.name);
+  EXPECT_EQ(names.size(), mutants().size() + direction_mutants().size());
 }
 
-// The law sampler that all of them start from.
-TEST(Mutants, TheirSoundParentIsAccepted) {
+// The law sampler that all of them start from. What the gate tests of it is what must have a kill.
+TEST(Mutants, TheirSoundParentIsAcceptedByTestsThatEachHaveAKill) {
   const EnvironmentMap map = hostile_map();
   const Mutant sound = {"sound", "none", "", ""};
   const std::vector<Subject> subjects = {subject_of(sound, Weighting::A),
@@ -72,6 +150,11 @@ TEST(Mutants, TheirSoundParentIsAccepted) {
   const GateResult result = run_gate({&map, 1}, subjects, {});
   EXPECT_EQ(overall_outcome(result, true), Outcome::accept);
   EXPECT_TRUE(result.rejections.empty());
+  std::set<std::string> killing;
+  for (const Kill& kill : kKills) killing.insert(key(kill.oracle, kill.test));
+  for (const TestRecord& test : result.tests) {
+    EXPECT_THAT(killing, Contains(key(test.oracle, test.test)));
+  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "lightproof/stats/tails.h"
@@ -159,6 +160,144 @@ TEST(CressieRead, EffectIsCohensW) {
   // taken off; the cubic terms of the statistic cancel between the cells.
   const auto fit = cressie_read(Counts{510000, 490000}, std::array{0.5, 0.5}, 1000000);
   EXPECT_NEAR(fit.effect, std::sqrt(399.0 / 1e6), 1e-6);
+}
+
+/// P(Poisson <= count) below the mean and P(Poisson >= count) from it on, term by term.
+long double poisson_tail(std::uint64_t count, long double mean) {
+  long double term = std::exp(-mean);
+  long double lower = 0.0L;
+  std::uint64_t k = 0;
+  for (; k < count; ++k) {
+    lower += term;
+    term *= mean / static_cast<long double>(k + 1);
+  }
+  if (static_cast<long double>(count) < mean) return lower + term;
+  long double upper = 0.0L;
+  for (; term > 1e-22L * upper; ++k) {
+    upper += term;
+    term *= mean / static_cast<long double>(k + 1);
+  }
+  return upper;
+}
+
+TEST(WorstCell, HasTheTailOfItsCellTimesTwiceTheirNumber) {
+  const std::vector<double> probability = {0.5, 0.25, 0.125, 0.0625, 0.0625};
+  for (const Counts& counts :
+       {Counts{8, 4, 2, 1, 9}, Counts{1, 12, 4, 4, 3}, Counts{12, 0, 6, 3, 3},
+        Counts{24, 0, 0, 0, 0}, Counts{0, 0, 0, 0, 24}, Counts{6, 6, 12, 0, 0}}) {
+    const WorstCell worst = worst_cell(counts, probability, 24);
+    EXPECT_EQ(worst.observed, static_cast<double>(counts[worst.cell]));
+    EXPECT_EQ(worst.expected, 24.0 * probability[worst.cell]);
+    const long double own = poisson_tail(counts[worst.cell], worst.expected);
+    EXPECT_NEAR(worst.log10_p, static_cast<double>(std::min(0.0L, std::log10(own * 2.0L * 5.0L))),
+                kRounding);
+    // Chernoff's exponent D of another cell is no larger, and by Stirling's formula a tail is at
+    // least its first term, exp(-D - 1 / (12 n)) / sqrt(2 pi n) for a count of n.
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      const auto n = std::max(1.0L, static_cast<long double>(counts[i]));
+      const long double least = own * std::exp(-1.0L / (12.0L * n)) /
+                                std::sqrt(2.0L * std::numbers::pi_v<long double> * n);
+      EXPECT_GE(poisson_tail(counts[i], 24.0L * static_cast<long double>(probability[i])), least);
+    }
+  }
+}
+
+TEST(WorstCell, IsTheOneThatIsOff) {
+  const std::vector<double> probability = {0.5, 0.25, 0.125, 0.0625, 0.0625};
+  EXPECT_EQ(worst_cell(Counts{8, 4, 2, 1, 9}, probability, 24).cell, 4U);
+  EXPECT_EQ(worst_cell(Counts{1, 12, 4, 4, 3}, probability, 24).cell, 0U);
+  EXPECT_EQ(worst_cell(Counts{6, 6, 12, 0, 0}, probability, 24).cell, 2U);
+}
+
+/// Calls visit(counts) for every way to put `samples` into the cells from `first` on.
+template <class Visitor>
+void for_all_counts(Counts& counts, std::size_t first, std::uint64_t samples,
+                    const Visitor& visit) {
+  if (first + 1 == counts.size()) {
+    counts[first] = samples;
+    visit(counts);
+    return;
+  }
+  for (std::uint64_t n = 0; n <= samples; ++n) {
+    counts[first] = n;
+    for_all_counts(counts, first + 1, samples - n, visit);
+  }
+}
+
+TEST(WorstCell, HasAPValueOfTheRightSizeForEveryOutcome) {
+  // P(p <= t) <= t under the multinomial law itself, of which the Poisson law is a bound only, at
+  // every t that occurs: summed over all outcomes.
+  for (const std::vector<double>& probability :
+       {std::vector{0.5, 0.5}, std::vector{0.9, 0.1}, std::vector{0.2, 0.3, 0.5},
+        std::vector{0.98, 0.01, 0.01}, std::vector{0.1, 0.2, 0.3, 0.4}}) {
+    constexpr std::uint64_t kSamples = 16;
+    std::vector<std::pair<double, double>> outcomes;  // log10 p, its probability
+    Counts counts(probability.size());
+    for_all_counts(counts, 0, kSamples, [&](const Counts& outcome) {
+      double chance = std::tgamma(kSamples + 1.0);
+      for (std::size_t i = 0; i < outcome.size(); ++i) {
+        const auto n = static_cast<double>(outcome[i]);
+        chance *= std::pow(probability[i], n) / std::tgamma(n + 1.0);
+      }
+      outcomes.emplace_back(worst_cell(outcome, probability, kSamples).log10_p, chance);
+    });
+    std::sort(outcomes.begin(), outcomes.end());
+    double sum = 0.0;
+    for (const auto& [log10_p, chance] : outcomes) {
+      sum += chance;
+      EXPECT_LE(sum, std::pow(10.0, log10_p) * (1.0 + kRounding));
+    }
+  }
+}
+
+TEST(WorstCell, CountsAllPossibleCellsAndNoOthers) {
+  // Nothing where 100 are expected: exp(-100), among 10 cells and among 1000.
+  for (const std::size_t cells : {10U, 1000U}) {
+    const std::vector<double> probability(cells, 1.0 / static_cast<double>(cells));
+    Counts counts(cells, 100);
+    counts[7] = 0;
+    const WorstCell worst = worst_cell(counts, probability, 100 * cells);
+    EXPECT_EQ(worst.cell, 7U);
+    const double exact = -100.0 / std::numbers::ln10 + std::log10(2.0 * static_cast<double>(cells));
+    EXPECT_NEAR(worst.log10_p, exact, kRounding);
+  }
+}
+
+TEST(WorstCell, LeavesImpossibleCellsOut) {
+  const auto without = worst_cell(Counts{80, 90, 30}, std::array{0.3, 0.5, 0.2}, 200);
+  const auto with = worst_cell(Counts{7, 80, 0, 90, 30}, std::array{0.0, 0.3, 0.0, 0.5, 0.2}, 200);
+  EXPECT_EQ(without.cell, 0U);
+  EXPECT_EQ(with.cell, 1U);
+  EXPECT_EQ(with.log10_p, without.log10_p);
+}
+
+TEST(WorstCell, SaysNothingOfCountsAsExpected) {
+  const auto worst = worst_cell(Counts{60, 100, 40}, std::array{0.3, 0.5, 0.2}, 200);
+  EXPECT_EQ(worst.log10_p, 0.0);
+  EXPECT_EQ(worst_cell(Counts{}, std::vector<double>{}, 0).log10_p, 0.0);
+}
+
+TEST(WorstCell, FindsAnOutlierInAFaintCellThatMovesNoSum) {
+  // Ten samples where a thousandth of one is expected, among 4096 cells that fit: far from chance,
+  // and pooled with a neighbour of 1000 it is nothing.
+  constexpr std::size_t kCells = 4096;
+  constexpr std::uint64_t kSamples = 1000 * kCells;
+  constexpr double kFaint = 0.001 / static_cast<double>(kSamples);
+  std::vector<double> probability(kCells, (1.0 - kFaint) / (kCells - 1.0));
+  probability[1234] = kFaint;
+  // Every other cell one standard deviation off, alternately, as chance would have it.
+  Counts counts(kCells);
+  for (std::size_t i = 0; i < kCells; ++i) counts[i] = i % 2 == 0 ? 968 : 1032;
+  counts[1234] = 10;
+  const WorstCell worst = worst_cell(counts, probability, kSamples);
+  EXPECT_EQ(worst.cell, 1234U);
+  EXPECT_EQ(worst.observed, 10.0);
+  EXPECT_NEAR(worst.expected, 0.001, kRounding);
+  // The first term, m^10 exp(-m) / 10!, and the next, m / 11 of it; the rest is below m^2.
+  const double first = 10.0 * std::log10(0.001) - std::log10(3628800.0);
+  const double next = (0.001 / 11.0 - 0.001) / std::numbers::ln10;
+  EXPECT_NEAR(worst.log10_p, first + next + std::log10(2.0 * kCells), 1e-6);
+  EXPECT_GT(cressie_read(counts, probability, kSamples).log10_p, -3.0);
 }
 
 TEST(Serpentine, TurnsEverySecondRow) {

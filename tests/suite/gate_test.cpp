@@ -1,5 +1,5 @@
-// What the gate accepts, and what it must reject: every test of the gate has a planted defect that
-// it, by name, has to find.
+// What the gate accepts, and how it goes about a rejection; what it must reject is in
+// tests/mutants.
 #include "lightproof/suite/gate.h"
 
 #include <gmock/gmock.h>
@@ -7,147 +7,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/report/json.h"
+#include "lightproof/suite/direction_sampler.h"
 #include "lightproof/suite/expectation.h"
 
 namespace lightproof {
 namespace {
 
 constexpr Extent kExtent = {128, 64};
-
-/// A change that turns a sound sampler into a mutant.
-struct Defect {
-  std::string name;
-  std::string found_by;  ///< "oracle/test" that must reject it
-  /// Changes the point before, or the sample after, sampling.
-  std::function<SquarePoint(SquarePoint)> before;
-  std::function<void(TexelSample&, Extent)> after;
-  std::function<PerSquare(PerSquare)> pdf;
-};
-
-void move_to(TexelSample& sample, Extent extent, int x, int y) {
-  sample.at = {place_in_cell(x, 0.5, extent.width), place_in_cell(y, 0.5, extent.height)};
-  sample.x = x;
-  sample.y = y;
-}
-
-const std::vector<Defect>& defects() {
-  static const std::vector<Defect> all = {
-      {"t flipped in the sample",
-       "reference/bins 16x32",
-       {},
-       [](TexelSample& s, Extent e) {
-         s.at.t = 1.0 - s.at.t;
-         s.y = e.height - 1 - s.y;
-       },
-       {}},
-      {"u mirrored",
-       "reference/columns",
-       {},
-       [](TexelSample& s, Extent e) {
-         s.at.s = 1.0 - s.at.s;
-         s.x = e.width - 1 - s.x;
-       },
-       {}},
-      {"first row never drawn",
-       "reference/rows",
-       {},
-       [](TexelSample& s, Extent e) {
-         if (s.y == 0) move_to(s, e, s.x, 1);
-       },
-       {}},
-      {"last column never drawn",
-       "reference/columns",
-       {},
-       [](TexelSample& s, Extent e) {
-         if (s.x == e.width - 1) move_to(s, e, 0, s.y);
-       },
-       {}},
-      {"the same number for both dimensions",
-       "reference/bins 16x32",
-       [](SquarePoint u) {
-         return SquarePoint{u.t, u.t};
-       },
-       {},
-       {}},
-      {"a returned pdf a hair too large",
-       "check/pdf of the sample",
-       {},
-       [](TexelSample& s, Extent) { s.pdf.value *= 1.0001; },
-       {}},
-      {"pdf twice too large",
-       "check/pdf integrates to 1",
-       {},
-       [](TexelSample& s, Extent) { s.pdf.value *= 2.0; },
-       [](PerSquare p) { return PerSquare{2.0 * p.value}; }},
-      {"weights two percent off",
-       "mean/irradiance, normal +z",
-       {},
-       [](TexelSample& s, Extent) { s.pdf.value *= 1.02; },
-       [](PerSquare p) { return PerSquare{1.02 * p.value}; }},
-      {"weights noisy but right in the mean",
-       "variance/irradiance, normal +x",
-       {},
-       [](TexelSample& s, Extent) { s.pdf.value /= s.x % 2 == 0 ? 1.1 : 0.9; },
-       {}},
-      {"1/pdf off where it is bright",
-       "self/mean of 1/pdf",
-       {},
-       [](TexelSample& s, Extent) { s.pdf.value *= 1.02; },
-       {}},
-      {"a place outside the texel",
-       "check/edges of u",
-       {},
-       [](TexelSample& s, Extent e) { s.at.s = std::fmod(s.at.s + 0.6 / e.width, 1.0); },
-       {}},
-      {"one in some thousand lost",
-       "check/samples stay on the map",
-       {},
-       [](TexelSample& s, Extent e) {
-         if (s.at.s < 1e-4) s.x = e.width;
-       },
-       {}},
-      {"another texel than linear_scan",
-       "check/same texel as linear_scan",
-       {},
-       [](TexelSample& s, Extent e) {
-         if (s.x == 77 && s.y == 30) move_to(s, e, 78, 30);
-       },
-       {}},
-  };
-  return all;
-}
-
-/// binary_search with a defect.
-Subject with_defect(const Defect& defect, Weighting weighting) {
-  Subject subject = subject_of(sampler_by_name("binary_search"), weighting);
-  const auto bind = subject.bind;
-  subject.name = defect.name;
-  subject.bind = [bind, defect](const EnvironmentMap& map) {
-    const BoundSampler sound = bind(map);
-    const Extent extent = map.radiance.extent();
-    BoundSampler mutant;
-    mutant.sample = [sound, defect, extent](std::span<const SquarePoint> points,
-                                            std::span<TexelSample> samples) {
-      std::vector<SquarePoint> changed(points.begin(), points.end());
-      if (defect.before)
-        std::transform(points.begin(), points.end(), changed.begin(), defect.before);
-      sound.sample(changed, samples);
-      if (!defect.after) return;
-      for (TexelSample& sample : samples) defect.after(sample, extent);
-    };
-    mutant.pdf = [sound, defect](SquarePoint at) {
-      return defect.pdf ? defect.pdf(sound.pdf(at)) : sound.pdf(at);
-    };
-    return mutant;
-  };
-  return subject;
-}
 
 std::vector<std::string> rejections(const GateResult& result) {
   std::vector<std::string> names;
@@ -156,35 +27,6 @@ std::vector<std::string> rejections(const GateResult& result) {
   }
   return names;
 }
-
-class GateOnDefects : public testing::TestWithParam<std::tuple<std::size_t, Weighting>> {};
-
-TEST_P(GateOnDefects, IsFoundByItsTest) {
-  const auto [index, weighting] = GetParam();
-  const Defect& defect = defects()[index];
-  // A bright side, so that mirroring shows, and no texel too faint to be drawn.
-  EnvironmentMap map = make_synthetic_map("gradient", kExtent);
-  for (int y = 0; y < kExtent.height; ++y) {
-    for (int x = 0; x < kExtent.width / 4; ++x) map.radiance(x, y) *= 1.5F;
-  }
-  const Subject subject = with_defect(defect, weighting);
-  const GateResult result = run_gate({&map, 1}, {&subject, 1}, {});
-  EXPECT_EQ(overall_outcome(result, true), Outcome::reject);
-  EXPECT_THAT(rejections(result), testing::Contains(defect.found_by)) << defect.name;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, GateOnDefects,
-                         testing::Combine(testing::Range<std::size_t>(0, 13),
-                                          testing::Values(Weighting::A, Weighting::B)),
-                         [](const auto& param_info) {
-                           std::string name = defects()[std::get<0>(param_info.param)].name;
-                           std::replace_if(
-                               name.begin(), name.end(),
-                               [](char c) { return std::isalnum(c) == 0; }, '_');
-                           return name + "_" + to_string(std::get<1>(param_info.param));
-                         });
-
-TEST(Gate, EveryDefectIsTried) { EXPECT_EQ(defects().size(), 13U); }
 
 TEST(Gate, AcceptsSoundSamplersOnEveryMapAndSize) {
   std::vector<Subject> sound = all_subjects();
@@ -273,6 +115,61 @@ TEST(Gate, TheSameJsonForAnyNumberOfThreads) {
   const std::string one = json(1);
   EXPECT_EQ(json(2), one);
   EXPECT_EQ(json(7), one);
+}
+
+TEST(Gate, AcceptsEveryWarpAndMaterial) {
+  const GateResult result = run_gate(problems_of(direction_samplers()), {.samples = 1U << 20U});
+  EXPECT_EQ(overall_outcome(result, true), Outcome::accept)
+      << testing::PrintToString(rejections(result));
+  EXPECT_GE(result.tests.size(), 11U * 18U);
+}
+
+/// binary_search with a change to what it drew.
+template <class Change>
+Subject changed(const Change& change) {
+  Subject subject = subject_of(sampler_by_name("binary_search"), Weighting::B);
+  subject.bind = [change, bind = subject.bind](const EnvironmentMap& map) {
+    const BoundSampler sound = bind(map);
+    return BoundSampler{
+        [sound, change](std::span<const SquarePoint> points, std::span<TexelSample> samples) {
+          sound.sample(points, samples);
+          for (TexelSample& sample : samples) change(sample);
+        },
+        sound.pdf};
+  };
+  return subject;
+}
+
+TEST(Gate, FindsASingleTexelThatDiffersFromLinearScan) {
+  const EnvironmentMap map = make_synthetic_map("constant", kExtent);
+  const Subject subject = changed([](TexelSample& sample) {
+    if (sample.x != 77 || sample.y != 30) return;
+    sample.x = 78;
+    sample.at.s += 1.0 / kExtent.width;
+  });
+  const GateResult result = run_gate({&map, 1}, {&subject, 1}, {.samples = 1U << 16U});
+  EXPECT_THAT(rejections(result), testing::Contains("check/same texel as linear_scan"));
+}
+
+// Densities 0.4 % too small: the mean of the estimator is 0.4 % too large. On the constant map and
+// towards a pole X = 4 pi cos(theta)+ has a relative variance of 5/3: the deviation is 3.2 standard
+// errors at 2^20 samples and 6.3 at 2^22. So the first stage, with 2^20, finds it suspicious (3.3
+// standard errors) in 45 % of all runs, and the second, with 2^22, rejects it (5.2) in 87 % of
+// those: of 40 runs one does, but for a probability of 3e-9.
+TEST(Gate, LooksAgainAtWhatIsSuspiciousWithFourTimesTheSamples) {
+  const EnvironmentMap map = make_synthetic_map("constant", kExtent);
+  const Subject subject = changed([](TexelSample& sample) { sample.pdf.value /= 1.004; });
+  int rejected_again = 0;
+  for (std::uint64_t seed = 1; seed <= 40 && rejected_again == 0; ++seed) {
+    const GateResult result =
+        run_gate({&map, 1}, {&subject, 1}, {.samples = 1U << 20U, .seed = seed});
+    for (const TestRecord& test : result.tests) {
+      if (test.oracle != "mean" || test.test != "irradiance, normal +z") continue;
+      EXPECT_EQ(test.samples, test.stage == 2 ? 1U << 22U : 1U << 20U);
+      rejected_again += test.stage == 2 && test.outcome == Outcome::reject;
+    }
+  }
+  EXPECT_EQ(rejected_again, 1);
 }
 
 TEST(Gate, TooFewSamplesAreInconclusive) {

@@ -55,10 +55,13 @@ TEST(HemisphereWarps, HoldTheMassThatTheirDensityGives) {
       }
       EXPECT_NEAR(mass, t, 1e-7) << "exponent " << n;
     }
+    EXPECT_EQ(uniform_hemisphere_from_square({0.4, t}).z, 1.0 - t);
     // The cosine hemisphere is the lobe with n = 1.
     EXPECT_NEAR(cosine_hemisphere_from_square({0.2, t}).z, phong_lobe_from_square({0.2, t}, 1.0).z,
                 4 * kUlp);
   }
+  EXPECT_DOUBLE_EQ(uniform_hemisphere_pdf({0.6, 0.0, 0.8}).value, phong_lobe_pdf(0.8, 0.0).value);
+  EXPECT_EQ(uniform_hemisphere_pdf({0.6, 0.0, -0.8}).value, 0.0);
   EXPECT_DOUBLE_EQ(cosine_hemisphere_pdf({0.6, 0.0, 0.8}).value, phong_lobe_pdf(0.8, 1.0).value);
 }
 

@@ -10,10 +10,12 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/pending_file.h"
+#include "lightproof/mutants/direction_mutant.h"
 #include "lightproof/mutants/mutant.h"
 #include "lightproof/report/ci_outputs.h"
 #include "lightproof/report/json.h"
 #include "lightproof/report/table.h"
+#include "lightproof/suite/direction_sampler.h"
 #include "lightproof/suite/gate.h"
 
 namespace lightproof::cli {
@@ -26,40 +28,57 @@ struct Options : CommonOptions {
   std::string junit;
   std::string markdown;
   bool github = false;
-  std::string level = "full";
   GateOptions gate;
 };
 
-/// Of the registry or of the mutants. Throws InputError if neither has the name.
-std::vector<Subject> subjects_named(const std::string& name) {
-  std::vector<Subject> subjects;
-  const auto mutant = std::find_if(mutants().begin(), mutants().end(),
-                                   [&](const Mutant& m) { return m.name == name; });
+/// What is tested: samplers of maps, which need some, and samplers of directions, which need none.
+struct Chosen {
+  std::vector<Subject> of_maps;
+  std::vector<DirectionSampler> of_directions;
+};
+
+template <class Range>
+auto find_named(Range& range, const std::string& name) {
+  return std::find_if(range.begin(), range.end(),
+                      [&](const auto& item) { return item.name == name; });
+}
+
+/// Adds the samplers or mutants of this name. Throws InputError if there are none.
+void add_named(Chosen& chosen, const std::string& name) {
+  for (std::vector<DirectionSampler> all : {direction_samplers(), direction_mutant_samplers()}) {
+    const auto found = find_named(all, name);
+    if (found == all.end()) continue;
+    chosen.of_directions.push_back(std::move(*found));
+    return;
+  }
+  const std::span<const Mutant> all_mutants = mutants();
+  const auto mutant = find_named(all_mutants, name);
   for (const Weighting weighting : {Weighting::A, Weighting::B}) {
-    subjects.push_back(mutant != mutants().end() ? subject_of(*mutant, weighting)
-                                                 : subject_of(sampler_by_name(name), weighting));
+    chosen.of_maps.push_back(mutant != all_mutants.end()
+                                 ? subject_of(*mutant, weighting)
+                                 : subject_of(sampler_by_name(name), weighting));
   }
-  return subjects;
 }
 
-std::vector<Subject> chosen_subjects(const Options& options) {
-  std::vector<Subject> subjects;
-  for (const std::string& name : options.samplers) {
-    for (Subject& subject : subjects_named(name)) subjects.push_back(std::move(subject));
+Chosen chosen_samplers(const Options& options) {
+  Chosen chosen;
+  for (const std::string& name : options.samplers) add_named(chosen, name);
+  if (options.samplers.empty()) {
+    chosen.of_maps = all_subjects();
+    if (options.maps.empty()) chosen.of_directions = direction_samplers();
   }
-  if (options.samplers.empty()) subjects = all_subjects();
-  std::erase_if(subjects, [&](const Subject& subject) {
-    return !options.weighting.empty() && options.weighting != to_string(subject.target.weighting);
+  if (options.weighting.empty()) return chosen;
+  chosen.of_directions.clear();
+  std::erase_if(chosen.of_maps, [&](const Subject& subject) {
+    return options.weighting != to_string(subject.target.weighting);
   });
-  return subjects;
+  return chosen;
 }
 
-/// Samples per configuration by level; --samples wins.
-std::uint64_t samples_of(const Options& options) {
-  if (options.gate.samples != GateOptions{}.samples || options.level == "full") {
-    return options.gate.samples;
-  }
-  return options.level == "quick" ? std::uint64_t{1} << 20U : std::uint64_t{1} << 26U;
+/// Samples per sampler and map.
+std::uint64_t samples_of(const std::string& level) {
+  if (level == "quick") return std::uint64_t{1} << 20U;
+  return level == "full" ? GateOptions{}.samples : std::uint64_t{1} << 26U;
 }
 
 void write_outputs(const Options& options, const GateResult& result, Outcome outcome,
@@ -74,15 +93,18 @@ void write_outputs(const Options& options, const GateResult& result, Outcome out
 
 int run(const Options& options) {
   const ThreadLimit threads(options.threads);
-  const std::vector<Subject> subjects = chosen_subjects(options);
+  const Chosen chosen = chosen_samplers(options);
   for (const std::string& file : {options.json, options.junit, options.markdown}) {
     if (!file.empty()) check_writable(file);
   }
   const std::vector<EnvironmentMap> maps = load_maps(options);
   GateOptions gate = options.gate;
   gate.seed = options.seed;
-  gate.samples = samples_of(options);
-  GateResult result = run_gate(maps, subjects, gate, progress_bar(options));
+  std::vector<Problem> problems = problems_of(maps, chosen.of_maps);
+  for (Problem& problem : problems_of(chosen.of_directions)) {
+    problems.push_back(std::move(problem));
+  }
+  GateResult result = run_gate(problems, gate, progress_bar(options));
   result.input_options = input_options(options);
   // A sampler with known defects fails a run only if it was asked for.
   const bool count_known_defects = !options.samplers.empty();
@@ -110,8 +132,8 @@ void add_gate(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("gate", "Test samplers on maps: does each draw the right distribution?");
   add_common_options(*command, *options);
-  add_number(*command, "-n,--samples", options->gate.samples, 1024, kMostSamples,
-             "samples per sampler and map; overrides --level");
+  auto* samples = add_number(*command, "-n,--samples", options->gate.samples, 1024, kMostSamples,
+                             "samples per sampler and map");
   command
       ->add_option(
           "--sampler", options->samplers,
@@ -120,18 +142,21 @@ void add_gate(CLI::App& app, int& exit_code) {
   command->add_option("--weighting", options->weighting, "test only this weighting")
       ->check(CLI::IsMember({"A", "B"}));
   command
-      ->add_option("--level", options->level,
-                   "samples per sampler and map: quick 2^20, full 2^22, nightly 2^26")
+      ->add_option_function<std::string>(
+          "--level",
+          [options](const std::string& level) { options->gate.samples = samples_of(level); },
+          "samples by name: quick 2^20, full 2^22 (as without), nightly 2^26")
       ->check(CLI::IsMember({"quick", "full", "nightly"}))
-      ->default_str("full");
+      ->excludes(samples);
   add_path(*command, "--json", options->json, "write every test to this file");
   add_path(*command, "--junit", options->junit, "the same as JUnit XML, one case a test");
   add_path(*command, "--markdown", options->markdown, "a summary for a pull request");
   command->add_flag("--github", options->github, "print annotations for GitHub Actions");
   command->footer(
-      "Without MAP every built-in map is tested. Exit codes: 0 all accepted, 1 rejected,\n"
-      "2 usage or input, 3 inconclusive. Samplers with known defects are shown, but decide\n"
-      "the exit code only if named by --sampler.");
+      "Without MAP the samplers are tested on every built-in map, and the warps and materials\n"
+      "as well. Exit codes: 0 all accepted, 1 rejected, 2 usage or input, 3 inconclusive.\n"
+      "Samplers with known defects are shown, but decide the exit code only if named by\n"
+      "--sampler.");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

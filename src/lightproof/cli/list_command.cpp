@@ -9,10 +9,12 @@
 #include "common.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/materials/material.h"
+#include "lightproof/mutants/direction_mutant.h"
 #include "lightproof/mutants/mutant.h"
 #include "lightproof/render/receiver.h"
 #include "lightproof/render/strategy.h"
 #include "lightproof/samplers/registry.h"
+#include "lightproof/suite/direction_sampler.h"
 #include "lightproof/warp/preset.h"
 
 namespace lightproof::cli {
@@ -39,6 +41,9 @@ std::vector<Entry> sampler_entries() {
                        fmt::format("{}; O({}) a sample{}", sampler.source, sampler.growth,
                                    sampler.known_defects ? "; with known defects" : "")});
   }
+  for (const DirectionSampler& sampler : direction_samplers()) {
+    entries.push_back({sampler.name, "directions: " + sampler.description});
+  }
   return entries;
 }
 
@@ -46,6 +51,9 @@ std::vector<Entry> mutant_entries() {
   std::vector<Entry> entries;
   for (const Mutant& mutant : mutants()) {
     entries.push_back({std::string(mutant.name), std::string(mutant.defect)});
+  }
+  for (const DirectionMutant& mutant : direction_mutants()) {
+    entries.push_back({mutant.sampler.name, mutant.sampler.description});
   }
   return entries;
 }

@@ -9,13 +9,13 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <system_error>
 #include <thread>
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/core/temporary_folder.h"
 
 extern char** environ;
 
@@ -74,7 +74,7 @@ std::string last_line(const fs::path& file) {
 
 void run_child(const fs::path& program, const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
-  const fs::path errors = folder.path() / "stderr";
+  const fs::path errors = folder / "stderr";
   const int status = wait_for(start(program, arguments, errors));
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
   throw_if_interrupted();  // a Ctrl-C reaches both
@@ -84,22 +84,6 @@ void run_child(const fs::path& program, const std::vector<std::string>& argument
   const std::string said = last_line(errors);
   throw InputError(
       fmt::format("{}: {}{}{}", program.string(), why, said.empty() ? "" : ": ", said));
-}
-
-TemporaryFolder::TemporaryFolder() {
-  std::error_code error;
-  const fs::path parent = fs::temp_directory_path(error);
-  std::string name = (parent / "lightproof-XXXXXX").string();
-  if (error || ::mkdtemp(name.data()) == nullptr) {
-    throw InputError(fmt::format("cannot make a temporary folder (TMPDIR): {}",
-                                 error ? error.message() : std::generic_category().message(errno)));
-  }
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
 }
 
 }  // namespace lightproof

@@ -12,19 +12,4 @@ namespace lightproof {
 /// interrupt is requested meanwhile, the program is ended too, and Interrupted thrown.
 void run_child(const std::filesystem::path& program, const std::vector<std::string>& arguments);
 
-/// A new folder among the system's temporary ones, which goes away with what is in it.
-class TemporaryFolder {
- public:
-  /// Throws InputError if none can be made.
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 }  // namespace lightproof

@@ -12,7 +12,7 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The user pressed Ctrl-C (exit code 130).
+/// The user pressed Ctrl-C, or the system asks the program to end (exit code 128 and the signal).
 class Interrupted : public std::runtime_error {
  public:
   Interrupted() : std::runtime_error("interrupted") {}

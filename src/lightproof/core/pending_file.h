@@ -27,8 +27,9 @@ class PendingFile {
   bool committed_ = false;
 };
 
-/// A folder of files being written: all of them appear, or none. Write into temporary(), then
-/// commit(); without commit the temporary folder is removed and the target untouched.
+/// A folder of files being written. Write into temporary(), then commit(): nothing appears in the
+/// target before everything is on the disk, and then it only takes renaming. Without commit the
+/// temporary folder is removed and the target untouched.
 class PendingFolder {
  public:
   /// Makes the target if it is not there. Throws InputError if it cannot be made or written.

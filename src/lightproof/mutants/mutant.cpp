@@ -9,14 +9,12 @@ namespace lightproof {
 namespace {
 
 BoundSampler bind(const Mutant& mutant, TargetDensity target, const EnvironmentMap& map) {
-  auto masses = mutant.law.empty() ? reference::texel_masses(map, target)
-                                   : alternative_law(mutant.law).masses(map, target);
+  Grid<double> masses = reference::texel_masses(map, target);
+  if (!mutant.law.empty()) masses = alternative_law(mutant.law).masses({&masses, &map, target});
   const auto sound = std::make_shared<const LawSampler>(std::move(masses), target.weighting);
   return {[sound, &mutant](std::span<const SquarePoint> points, std::span<TexelSample> samples) {
             for (std::size_t i = 0; i < points.size(); ++i) {
-              const SquarePoint own = points[i - i % mutant.repeats];
-              const SquarePoint u = mutant.point ? mutant.point(own) : own;
-              samples[i] = sound->sample(u);
+              samples[i] = sound->sample(mutant.numbers ? mutant.numbers(points, i) : points[i]);
               if (mutant.sample) mutant.sample(samples[i], *sound);
             }
           },

@@ -18,14 +18,12 @@ struct Mutant {
   std::string_view oracle;     ///< the oracle that must reject it
   /// An alternative law that is drawn, its density returned; empty: the declared one.
   std::string_view law = {};
-  /// Applied to the random numbers.
-  SquarePoint (*point)(SquarePoint) = nullptr;
+  /// The random numbers that are used in place of the i-th of a batch.
+  SquarePoint (*numbers)(std::span<const SquarePoint> batch, std::size_t i) = nullptr;
   /// Applied to what was drawn.
   void (*sample)(TexelSample&, const LawSampler&) = nullptr;
   /// In place of LawSampler::pdf, for the density asked for; returned densities are not touched.
   PerSquare (*pdf)(const LawSampler&, SquarePoint) = nullptr;
-  /// How often every random number is used.
-  std::size_t repeats = 1;
 };
 
 std::span<const Mutant> mutants();

@@ -70,8 +70,8 @@ constexpr std::array kMutants = {
            "same-number",
            "reference",
            {},
-           [](SquarePoint u) {
-             return SquarePoint{u.t, u.t};
+           [](std::span<const SquarePoint> batch, std::size_t i) {
+             return SquarePoint{batch[i].t, batch[i].t};
            }},
     Mutant{"uniform-in-sample",
            "1 % uniform samples that pdf() does not know",
@@ -96,8 +96,8 @@ constexpr std::array kMutants = {
            "coarse-numbers",
            "check",
            {},
-           [](SquarePoint u) {
-             return SquarePoint{coarse(u.s), coarse(u.t)};
+           [](std::span<const SquarePoint> batch, std::size_t i) {
+             return SquarePoint{coarse(batch[i].s), coarse(batch[i].t)};
            }},
     Mutant{"pi-squared",
            "pi^2 sin(theta) for 2 pi^2 sin(theta)",
@@ -262,10 +262,18 @@ constexpr std::array kMutants = {
            "repeated-numbers",
            "reference",
            {},
-           nullptr,
-           nullptr,
-           nullptr,
-           4},
+           [](std::span<const SquarePoint> batch, std::size_t i) { return batch[i - i % 4]; }},
+    Mutant{"stratified",
+           "jittered points, one in each of 32x32 strata, passed off as independent",
+           "stratified",
+           "reference",
+           {},
+           [](std::span<const SquarePoint> batch, std::size_t i) {
+             constexpr std::size_t kStrata = 32;
+             return SquarePoint{
+                 (static_cast<double>(i % kStrata) + batch[i].s) / kStrata,
+                 (static_cast<double>(i / kStrata % kStrata) + batch[i].t) / kStrata};
+           }},
     Mutant{"one-texel-moved",
            "one texel's samples go to its neighbour",
            "one-place",

@@ -130,11 +130,13 @@ std::string command_text(const std::string& text) {
 }  // namespace
 
 std::string replay_command(const GateResult& gate, const TestRecord& test) {
-  return fmt::format("lightproof gate {} --sampler {}{}{} --samples {} --seed {}",
-                     shell_quoted(test.source.empty() ? test.map : test.source),
-                     shell_quoted(test.sampler),
-                     test.weighting.empty() ? "" : " --weighting " + test.weighting,
-                     gate.input_options, gate.samples, gate.seed);
+  // Laws over directions have no weighting and need no map.
+  const bool of_map = !test.weighting.empty();
+  const std::string map = shell_quoted(test.source.empty() ? test.map : test.source);
+  return fmt::format("lightproof gate{} --sampler {}{} --samples {} --seed {}",
+                     of_map ? " " + map : "", shell_quoted(test.sampler),
+                     of_map ? " --weighting " + test.weighting + gate.input_options : "",
+                     gate.samples, gate.seed);
 }
 
 std::string gate_junit(const GateResult& gate, bool count_known_defects) {

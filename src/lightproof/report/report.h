@@ -14,7 +14,7 @@ namespace lightproof {
 ///   <map>-<receiver>-<material>-<strategy>.exr, …-error.exr (signed, relative to the reference's
 ///   mean, the same in R, G and B), <map>-<receiver>-<material>-reference.exr; the pictures and
 ///   the reference as .png too, at one exposure a scene
-/// All files appear or none. Throws InputError if one cannot be written.
+/// Nothing appears before all of it is written. Throws InputError if one cannot be written.
 void write_report(const StudyResult& study, const std::filesystem::path& folder);
 
 }  // namespace lightproof

@@ -43,8 +43,9 @@ struct WorstCell {
   double log10_p = 0.0;  ///< of a cell as far off as this anywhere (Bonferroni)
 };
 
-/// Every cell against the exact tail of its own Poisson law, however small its expectation: what is
-/// never drawn, or one place that is wrong, shows here long before it moves a sum over all cells.
+/// The exact Poisson tail of the cell with the largest deviance, however small its expectation:
+/// what is never drawn, or one place that is wrong, shows here long before it moves a sum over all
+/// cells.
 WorstCell worst_cell(std::span<const std::uint64_t> observed, std::span<const double> probability,
                      std::uint64_t samples);
 

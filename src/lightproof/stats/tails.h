@@ -1,5 +1,6 @@
 // Upper tails of the distributions that the gate judges by, as logarithms: a p-value is never
-// rounded to 0, however small. Boost.Math where its doubles reach, continued fractions beyond.
+// rounded to 0, however small. Boost.Math where its doubles reach, continued fractions and series
+// beyond.
 #pragma once
 
 namespace lightproof {
@@ -7,7 +8,8 @@ namespace lightproof {
 /// log10 P(chi-square with `dof` degrees of freedom >= statistic). dof > 0; statistic >= 0.
 double log10_chi_square_tail(double statistic, double dof);
 
-/// log10 P(chi-square < statistic): small where counts agree better than chance allows.
+/// log10 P(chi-square < statistic): small where counts agree better than chance allows;
+/// -infinity at a statistic of 0.
 double log10_chi_square_lower(double statistic, double dof);
 
 /// log10 P(Poisson of this mean <= count), and of >= count. mean > 0.

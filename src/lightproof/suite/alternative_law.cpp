@@ -37,25 +37,26 @@ double declared_row_weight(Extent extent, Weighting weighting, int y) {
 
 /// The declared law with another grey value.
 template <class Grey>
-Grid<double> with_grey(const EnvironmentMap& map, TargetDensity target, const Grey& grey) {
-  const Extent extent = map.radiance.extent();
+Grid<double> with_grey(const DeclaredLaw& declared, const Grey& grey) {
+  const Extent extent = declared.map->radiance.extent();
   return weighted(
-      extent, [&](int x, int y) { return grey(map.radiance(x, y)); },
-      [&](int y) { return declared_row_weight(extent, target.weighting, y); });
+      extent, [&](int x, int y) { return grey(declared.map->radiance(x, y)); },
+      [&](int y) { return declared_row_weight(extent, declared.target.weighting, y); });
 }
 
 /// The declared law with another weight of the rows.
 template <class RowWeight>
-Grid<double> with_rows(const EnvironmentMap& map, TargetDensity target, const RowWeight& weight) {
+Grid<double> with_rows(const DeclaredLaw& declared, const RowWeight& weight) {
   return weighted(
-      map.radiance.extent(),
-      [&](int x, int y) { return luminance(map.radiance(x, y), target.grey); }, weight);
+      declared.map->radiance.extent(),
+      [&](int x, int y) { return luminance(declared.map->radiance(x, y), declared.target.grey); },
+      weight);
 }
 
 /// The declared masses, moved: texel (x, y) gets those of from(x, y).
 template <class From>
-Grid<double> moved(const EnvironmentMap& map, TargetDensity target, const From& from) {
-  const Grid<double> masses = reference::texel_masses(map, target);
+Grid<double> moved(const DeclaredLaw& declared, const From& from) {
+  const Grid<double>& masses = *declared.masses;
   Grid<double> result(masses.extent());
   for (int y = 0; y < masses.extent().height; ++y) {
     for (int x = 0; x < masses.extent().width; ++x) result(x, y) = from(masses, x, y);
@@ -64,86 +65,95 @@ Grid<double> moved(const EnvironmentMap& map, TargetDensity target, const From& 
   return result;
 }
 
-Grid<double> other_weighting(const EnvironmentMap& map, TargetDensity target) {
+Grid<double> other_weighting(const DeclaredLaw& declared) {
+  TargetDensity target = declared.target;
   target.weighting = target.weighting == Weighting::A ? Weighting::B : Weighting::A;
-  return reference::texel_masses(map, target);
+  return reference::texel_masses(*declared.map, target);
 }
 
-Grid<double> sine_at_edge(const EnvironmentMap& map, TargetDensity target) {
-  const double height = map.radiance.extent().height;
-  return with_rows(map, target, [&](int y) { return std::sin(kPi * y / height); });
+Grid<double> sine_at_edge(const DeclaredLaw& declared) {
+  const double height = declared.map->radiance.extent().height;
+  return with_rows(declared, [&](int y) { return std::sin(kPi * y / height); });
 }
 
-Grid<double> sine_to_last_row(const EnvironmentMap& map, TargetDensity target) {
-  const double last = std::max(1, map.radiance.extent().height - 1);
-  return with_rows(map, target, [&](int y) { return std::abs(std::sin(kPi * y / last)); });
+Grid<double> sine_to_last_row(const DeclaredLaw& declared) {
+  const double last = std::max(1, declared.map->radiance.extent().height - 1);
+  return with_rows(declared, [&](int y) { return std::abs(std::sin(kPi * y / last)); });
 }
 
-Grid<double> sine_twice(const EnvironmentMap& map, TargetDensity target) {
-  const Extent extent = map.radiance.extent();
-  return with_rows(map, target, [&](int y) {
+Grid<double> sine_twice(const DeclaredLaw& declared) {
+  const Extent extent = declared.map->radiance.extent();
+  return with_rows(declared, [&](int y) {
     const double sine = sin_theta((y + 0.5) / extent.height);
-    return target.weighting == Weighting::A ? sine * sine : texel_solid_angle(extent, y) * sine;
+    return declared.target.weighting == Weighting::A ? sine * sine
+                                                     : texel_solid_angle(extent, y) * sine;
   });
 }
 
-Grid<double> column_late(const EnvironmentMap& map, TargetDensity target) {
-  return moved(map, target, [](const Grid<double>& m, int x, int y) {
+Grid<double> column_late(const DeclaredLaw& declared) {
+  return moved(declared, [](const Grid<double>& m, int x, int y) {
     return m(x == 0 ? m.extent().width - 1 : x - 1, y);
   });
 }
 
-Grid<double> column_early(const EnvironmentMap& map, TargetDensity target) {
-  return moved(map, target, [](const Grid<double>& m, int x, int y) {
+Grid<double> column_early(const DeclaredLaw& declared) {
+  return moved(declared, [](const Grid<double>& m, int x, int y) {
     return m(x + 1 == m.extent().width ? 0 : x + 1, y);
   });
 }
 
-Grid<double> row_late(const EnvironmentMap& map, TargetDensity target) {
-  return moved(map, target,
+Grid<double> row_late(const DeclaredLaw& declared) {
+  return moved(declared,
                [](const Grid<double>& m, int x, int y) { return y == 0 ? 0.0 : m(x, y - 1); });
 }
 
-Grid<double> upside_down(const EnvironmentMap& map, TargetDensity target) {
-  return moved(map, target,
+Grid<double> upside_down(const DeclaredLaw& declared) {
+  return moved(declared,
                [](const Grid<double>& m, int x, int y) { return m(x, m.extent().height - 1 - y); });
 }
 
-Grid<double> mirrored(const EnvironmentMap& map, TargetDensity target) {
-  return moved(map, target,
+Grid<double> mirrored(const DeclaredLaw& declared) {
+  return moved(declared,
                [](const Grid<double>& m, int x, int y) { return m(m.extent().width - 1 - x, y); });
 }
 
-Grid<double> half_turn(const EnvironmentMap& map, TargetDensity target) {
-  return moved(map, target, [](const Grid<double>& m, int x, int y) {
+Grid<double> half_turn(const DeclaredLaw& declared) {
+  return moved(declared, [](const Grid<double>& m, int x, int y) {
     return m((x + m.extent().width / 2) % m.extent().width, y);
   });
 }
 
-Grid<double> without_last_column(const EnvironmentMap& map, TargetDensity target) {
-  return moved(map, target, [](const Grid<double>& m, int x, int y) {
+/// Only the first half of the columns, twice as likely.
+Grid<double> half_circle(const DeclaredLaw& declared) {
+  return moved(declared, [](const Grid<double>& m, int x, int y) {
+    return 2 * x < m.extent().width ? m(x, y) : 0.0;
+  });
+}
+
+Grid<double> without_last_column(const DeclaredLaw& declared) {
+  return moved(declared, [](const Grid<double>& m, int x, int y) {
     return x + 1 == m.extent().width ? 0.0 : m(x, y);
   });
 }
 
-Grid<double> without_last_row(const EnvironmentMap& map, TargetDensity target) {
-  return moved(map, target, [](const Grid<double>& m, int x, int y) {
+Grid<double> without_last_row(const DeclaredLaw& declared) {
+  return moved(declared, [](const Grid<double>& m, int x, int y) {
     return y + 1 == m.extent().height ? 0.0 : m(x, y);
   });
 }
 
 /// The first row that has light.
-Grid<double> without_first_row(const EnvironmentMap& map, TargetDensity target) {
-  const std::vector<double> rows = reference::row_marginal(reference::texel_masses(map, target));
+Grid<double> without_first_row(const DeclaredLaw& declared) {
+  const std::vector<double> rows = reference::row_marginal(*declared.masses);
   const auto lit = std::find_if(rows.begin(), rows.end(), [](double mass) { return mass > 0.0; });
   const auto first = static_cast<int>(lit - rows.begin());
-  if (rows[static_cast<std::size_t>(first)] == 1.0) return reference::texel_masses(map, target);
-  return moved(map, target,
+  if (rows[static_cast<std::size_t>(first)] == 1.0) return *declared.masses;
+  return moved(declared,
                [&](const Grid<double>& m, int x, int y) { return y == first ? 0.0 : m(x, y); });
 }
 
-Grid<double> rows_alike(const EnvironmentMap& map, TargetDensity target) {
-  const Grid<double> masses = reference::texel_masses(map, target);
+Grid<double> rows_alike(const DeclaredLaw& declared) {
+  const Grid<double>& masses = *declared.masses;
   const std::vector<double> rows = reference::row_marginal(masses);
   return weighted(
       masses.extent(), [&](int x, int y) { return masses(x, y); },
@@ -153,76 +163,79 @@ Grid<double> rows_alike(const EnvironmentMap& map, TargetDensity target) {
       });
 }
 
-Grid<double> columns_of_next_row(const EnvironmentMap& map, TargetDensity target) {
-  const Grid<double> masses = reference::texel_masses(map, target);
+Grid<double> columns_of_next_row(const DeclaredLaw& declared) {
+  const Grid<double>& masses = *declared.masses;
   const std::vector<double> rows = reference::row_marginal(masses);
   const auto height = static_cast<std::size_t>(masses.extent().height);
-  return moved(map, target, [&](const Grid<double>& m, int x, int y) {
+  return moved(declared, [&](const Grid<double>& m, int x, int y) {
     const std::size_t row = static_cast<std::size_t>(y);
     const std::size_t next = rows[(row + 1) % height] > 0.0 ? (row + 1) % height : row;
     return rows[next] > 0.0 ? m(x, static_cast<int>(next)) * rows[row] / rows[next] : 0.0;
   });
 }
 
-Grid<double> lecture_grey(const EnvironmentMap& map, TargetDensity target) {
+Grid<double> lecture_grey(const DeclaredLaw& declared) {
+  TargetDensity target = declared.target;
   // Where the lecture's grey is declared, the mistake is the standard's.
   target.grey = target.grey.red == kPublishedLuminance.red ? kRec709 : kPublishedLuminance;
-  return reference::texel_masses(map, target);
+  return reference::texel_masses(*declared.map, target);
 }
 
-Grid<double> average_grey(const EnvironmentMap& map, TargetDensity target) {
+Grid<double> average_grey(const DeclaredLaw& declared) {
+  TargetDensity target = declared.target;
   target.grey = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
-  return reference::texel_masses(map, target);
+  return reference::texel_masses(*declared.map, target);
 }
 
-Grid<double> swapped_channels(const EnvironmentMap& map, TargetDensity target) {
+Grid<double> swapped_channels(const DeclaredLaw& declared) {
+  TargetDensity target = declared.target;
   std::swap(target.grey.red, target.grey.blue);
-  return reference::texel_masses(map, target);
+  return reference::texel_masses(*declared.map, target);
 }
 
-Grid<double> gamma_left_in(const EnvironmentMap& map, TargetDensity target) {
-  return with_grey(map, target,
-                   [&](Rgb rgb) { return std::pow(luminance(rgb, target.grey), 1.0 / 2.2); });
+Grid<double> gamma_left_in(const DeclaredLaw& declared) {
+  return with_grey(
+      declared, [&](Rgb rgb) { return std::pow(luminance(rgb, declared.target.grey), 1.0 / 2.2); });
 }
 
-Grid<double> squared(const EnvironmentMap& map, TargetDensity target) {
-  return with_grey(map, target, [&](Rgb rgb) {
-    const double grey = luminance(rgb, target.grey);
+Grid<double> squared(const DeclaredLaw& declared) {
+  return with_grey(declared, [&](Rgb rgb) {
+    const double grey = luminance(rgb, declared.target.grey);
     return grey * grey;
   });
 }
 
 /// Clamped where a picture format would clamp: at sixteen times the mean.
-Grid<double> clamped(const EnvironmentMap& map, TargetDensity target) {
-  const Grid<double> grey = luminance(map, target.grey);
+Grid<double> clamped(const DeclaredLaw& declared) {
+  const Grid<double> grey = luminance(*declared.map, declared.target.grey);
   const auto values = grey.values();
   const double mean =
       std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  return with_grey(map, target,
-                   [&](Rgb rgb) { return std::min(luminance(rgb, target.grey), 16.0 * mean); });
-}
-
-Grid<double> uniform_mixed_in(const EnvironmentMap& map, TargetDensity target) {
-  constexpr double kShare = 0.01;
-  const Extent extent = map.radiance.extent();
-  return moved(map, target, [&](const Grid<double>& m, int x, int y) {
-    return (1.0 - kShare) * m(x, y) + kShare / static_cast<double>(extent.count());
+  return with_grey(declared, [&](Rgb rgb) {
+    return std::min(luminance(rgb, declared.target.grey), 16.0 * mean);
   });
 }
 
-Grid<double> uniform(const EnvironmentMap& map, TargetDensity target) {
-  return with_grey(map, target, [](Rgb) { return 1.0; });
+Grid<double> uniform_mixed_in(const DeclaredLaw& declared) {
+  constexpr double kShare = 0.01;
+  return moved(declared, [&](const Grid<double>& m, int x, int y) {
+    return (1.0 - kShare) * m(x, y) + kShare / static_cast<double>(m.extent().count());
+  });
 }
 
-Grid<double> quarter_turn(const EnvironmentMap& map, TargetDensity target) {
-  return moved(map, target, [](const Grid<double>& m, int x, int y) {
+Grid<double> uniform(const DeclaredLaw& declared) {
+  return with_grey(declared, [](Rgb) { return 1.0; });
+}
+
+Grid<double> quarter_turn(const DeclaredLaw& declared) {
+  return moved(declared, [](const Grid<double>& m, int x, int y) {
     return m((x + m.extent().width / 4) % m.extent().width, y);
   });
 }
 
 /// Rows whose average lies below 1e-4, whatever the exposure; the declared law if all do.
-Grid<double> without_dim_rows(const EnvironmentMap& map, TargetDensity target) {
-  const Grid<double> grey = luminance(map, target.grey);
+Grid<double> without_dim_rows(const DeclaredLaw& declared) {
+  const Grid<double> grey = luminance(*declared.map, declared.target.grey);
   const Extent extent = grey.extent();
   std::vector<bool> dim;
   for (int y = 0; y < extent.height; ++y) {
@@ -230,36 +243,39 @@ Grid<double> without_dim_rows(const EnvironmentMap& map, TargetDensity target) {
     dim.push_back(std::accumulate(row.begin(), row.end(), 0.0) / extent.width < 1e-4);
   }
   if (std::all_of(dim.begin(), dim.end(), [](bool d) { return d; })) dim.assign(dim.size(), false);
-  return moved(map, target, [&](const Grid<double>& m, int x, int y) {
+  return moved(declared, [&](const Grid<double>& m, int x, int y) {
     return dim[static_cast<std::size_t>(y)] ? 0.0 : m(x, y);
   });
 }
 
 /// Half of every texel's mass goes to the next column.
-Grid<double> half_column(const EnvironmentMap& map, TargetDensity target) {
-  return moved(map, target, [](const Grid<double>& m, int x, int y) {
+Grid<double> half_column(const DeclaredLaw& declared) {
+  return moved(declared, [](const Grid<double>& m, int x, int y) {
     return 0.5 * (m(x, y) + m(x == 0 ? m.extent().width - 1 : x - 1, y));
   });
 }
 
-constexpr std::array<AlternativeLaw, 26> kLaws = {{
+constexpr std::array<AlternativeLaw, 27> kLaws = {{
     {"other-weighting", "a missing sin(theta) (or one too many): the other weighting",
      other_weighting},
     {"sine-at-edge", "sin(theta) taken at the row's edge, y/H instead of (y+1/2)/H", sine_at_edge},
     {"sine-to-last-row", "sin(theta) taken at y/(H-1) instead of (y+1/2)/H", sine_to_last_row},
     {"sine-twice", "sin(theta) applied twice", sine_twice},
-    {"column-late", "columns off by one: each is drawn for the one before it", column_late},
-    {"column-early", "columns off by one: each is drawn for the one after it", column_early},
-    {"half-texel", "half a texel added in s", half_column},
-    {"row-late", "rows off by one: each is drawn for the one below it", row_late},
-    {"upside-down", "t flipped", upside_down},
-    {"mirrored", "s mirrored", mirrored},
-    {"half-turn", "the seam of phi on the other side: s shifted by one half", half_turn},
-    {"no-last-column", "the last column is never drawn", without_last_column},
-    {"no-last-row", "the last row is never drawn", without_last_row},
-    {"no-first-row", "the first row with light is never drawn", without_first_row},
-    {"rows-alike", "rows not weighted by their sum", rows_alike},
-    {"columns-of-next-row", "columns drawn from the next row's distribution", columns_of_next_row},
+    {"column-late", "columns off by one: each is drawn for the one before it", column_late, false},
+    {"column-early", "columns off by one: each is drawn for the one after it", column_early, false},
+    {"half-texel", "half a texel added in s", half_column, false},
+    {"row-late", "rows off by one: each is drawn for the one below it", row_late, false},
+    {"upside-down", "t flipped", upside_down, false},
+    {"mirrored", "s mirrored", mirrored, false},
+    {"half-turn", "the seam of phi on the other side: s shifted by one half", half_turn, false},
+    {"half-circle", "only half of the azimuths: pi where 2 pi belongs", half_circle, false},
+    {"no-last-column", "the last column is never drawn", without_last_column, false},
+    {"no-last-row", "the last row is never drawn", without_last_row, false},
+    {"no-first-row", "the first row with light is never drawn", without_first_row, false},
+    {"rows-alike", "rows drawn equally often, not weighted by their sum: theta is uniform",
+     rows_alike, false},
+    {"columns-of-next-row", "columns drawn from the next row's distribution", columns_of_next_row,
+     false},
     {"other-grey", "other grey weights than declared (Rec. 709 and the lecture's mixed up)",
      lecture_grey},
     {"average-grey", "the average of R, G, B instead of the declared grey", average_grey},
@@ -267,8 +283,8 @@ constexpr std::array<AlternativeLaw, 26> kLaws = {{
     {"gamma", "gamma left in: values not linear", gamma_left_in},
     {"squared", "grey squared", squared},
     {"clamped", "bright values clamped", clamped},
-    {"uniform-mixed-in", "some samples drawn uniformly", uniform_mixed_in},
-    {"quarter-turn", "the map turned by 90 degrees", quarter_turn},
+    {"uniform-mixed-in", "some samples drawn uniformly", uniform_mixed_in, false},
+    {"quarter-turn", "the map turned by 90 degrees", quarter_turn, false},
     {"dim-rows-skipped", "rows darker than an absolute threshold are never drawn",
      without_dim_rows},
     {"uniform", "the map is not looked at: uniform samples", uniform},

@@ -10,12 +10,20 @@
 
 namespace lightproof {
 
+/// What is declared: masses of texels, and the map that they come from, if they come from one.
+struct DeclaredLaw {
+  const Grid<double>* masses;
+  const EnvironmentMap* map = nullptr;
+  TargetDensity target = {Weighting::B};
+};
+
 struct AlternativeLaw {
   std::string_view name;       ///< "no-sine"
   std::string_view diagnosis;  ///< "a missing sin(theta)"
-  /// Masses of the texels that are drawn where `target` is declared; they sum to 1. Inside a texel
-  /// the place follows the declared weighting.
-  Grid<double> (*masses)(const EnvironmentMap& map, TargetDensity target);
+  /// Masses of the texels that are drawn instead; they sum to 1. Inside a texel the place follows
+  /// the declared weighting.
+  Grid<double> (*masses)(const DeclaredLaw& declared);
+  bool reads_map = true;  ///< has no meaning without one
 };
 
 std::span<const AlternativeLaw> alternative_laws();

@@ -70,13 +70,17 @@ OwnDensity integrate_pdf(const BoundSampler& sampler, Extent map) {
   for (std::size_t j = 0; j + 1 < along.size(); ++j) {
     const double height = along[j + 1] - along[j];
     for (std::size_t i = 0; i + 1 < across.size(); ++i) {
-      const double s = 0.5 * (across[i] + across[i + 1]);
+      const double width = across[i + 1] - across[i];
       double density = 0.0;
-      for (const double node : kNodes) density += sampler.pdf({s, along[j] + node * height}).value;
-      const double mass = 0.5 * density * height * (across[i + 1] - across[i]);
+      for (const double v : kNodes) {
+        for (const double u : kNodes) {
+          density += sampler.pdf({across[i] + u * width, along[j] + v * height}).value;
+        }
+      }
+      const double mass = 0.25 * density * height * width;
       own.integral += mass;
-      own.bins(cell_of(s, kGateBins.width), cell_of(along[j] + 0.5 * height, kGateBins.height)) +=
-          mass;
+      own.bins(cell_of(across[i] + 0.5 * width, kGateBins.width),
+               cell_of(along[j] + 0.5 * height, kGateBins.height)) += mass;
     }
   }
   for (double& mass : own.bins.values()) mass /= own.integral;

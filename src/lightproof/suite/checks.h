@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "lightproof/core/random.h"
+#include "lightproof/suite/bound_sampler.h"
 #include "lightproof/suite/expectation.h"
-#include "lightproof/suite/subject.h"
 
 namespace lightproof {
 
@@ -24,8 +24,8 @@ struct OwnDensity {
   Grid<double> bins;      ///< masses of kGateBins, over the integral
 };
 
-/// Integrates pdf() by Gauss-Legendre over t inside every row of texels, and by one value across
-/// each texel, split where bins begin. The pdf may be any function that is constant across texels.
+/// Integrates pdf() by 2 x 2 Gauss-Legendre nodes in every texel, split where bins begin. The pdf
+/// may be any function that is smooth inside a texel.
 OwnDensity integrate_pdf(const BoundSampler& sampler, Extent map);
 
 /// |∫ pdf ds dt - 1| <= 1e-6.

@@ -20,15 +20,15 @@ class Records {
 
   TestRecord& add(std::string_view oracle, std::string_view test) {
     TestRecord record;
-    record.sampler = configuration_->subject->name;
-    record.weighting = to_string(configuration_->subject->target.weighting);
-    record.map = configuration_->map->name;
-    record.source = configuration_->map->source;
+    record.sampler = configuration_->candidate->name;
+    record.weighting = configuration_->problem->weighting;
+    record.map = configuration_->problem->map;
+    record.source = configuration_->problem->source;
     record.oracle = oracle;
     record.test = test;
     record.samples = samples_;
     record.seed = configuration_->seed;
-    record.known_defect = configuration_->subject->known_defects;
+    record.known_defect = configuration_->candidate->known_defects;
     records_.push_back(record);
     return records_.back();
   }
@@ -169,7 +169,7 @@ std::vector<std::uint64_t> marginal_of_columns(const Grid<std::uint64_t>& texels
 }  // namespace
 
 std::string Configuration::name() const {
-  return fmt::format("{}/{}/{}", subject->name, to_string(subject->target.weighting), map->name);
+  return fmt::format("{}/{}/{}", candidate->name, problem->weighting, problem->map);
 }
 
 RandomStream Configuration::stream(std::string_view purpose) const {
@@ -218,9 +218,9 @@ std::vector<TestRecord> test_exactly(const Configuration& configuration,
   records.add_check(check_pdf_integral(own));
   records.add_check(check_returned_pdf(sampler, stream));
   records.add_check(check_edges(sampler, expectation));
-  if (configuration.subject->inverts_shared_cdf) {
-    const BoundSampler scan = bound(LinearScan(*configuration.map, expectation.target));
-    records.add_check(check_same_texel(sampler, scan, expectation, stream));
+  if (configuration.candidate->twin) {
+    records.add_check(
+        check_same_texel(sampler, configuration.candidate->twin(), expectation, stream));
   }
   return records.take();
 }

@@ -6,15 +6,15 @@
 #include "lightproof/suite/checks.h"
 #include "lightproof/suite/draws.h"
 #include "lightproof/suite/expectation.h"
+#include "lightproof/suite/problem.h"
 #include "lightproof/suite/results.h"
-#include "lightproof/suite/subject.h"
 
 namespace lightproof {
 
-/// A sampler on a map, and the names and numbers that its records carry.
+/// A candidate and its problem, and the names and numbers that its records carry.
 struct Configuration {
-  const EnvironmentMap* map;
-  const Subject* subject;
+  const Problem* problem;
+  const Candidate* candidate;
   std::uint64_t seed;
 
   /// "binary_search/B/city".

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 
 #include "lightproof/stats/goodness_of_fit.h"
-#include "lightproof/suite/alternative_law.h"
 #include "reference/texel_masses.h"
 
 namespace lightproof {
@@ -92,28 +92,27 @@ double bin_excess(const Draws& draws, const Grid<double>& masses, Weighting weig
 /// The law under which the counts of texels are likeliest, and how much of the bins' divergence it
 /// takes away.
 struct Explanation {
-  const AlternativeLaw* law = nullptr;
+  std::string_view law = {};
   double share = 0.0;
 };
 
 /// A gain in log-likelihood below this is chance (and nothing is named by it).
 constexpr double kTellingGain = 12.0;
 
-Explanation best_law(const EnvironmentMap& map, const Expectation& expectation,
-                     const Draws& draws) {
+Explanation best_law(const Problem& problem, const Expectation& expectation, const Draws& draws) {
   Explanation best;
   Grid<double> best_masses;
   double most = kTellingGain;
-  for (const AlternativeLaw& law : alternative_laws()) {
-    Grid<double> masses = law.masses(map, expectation.target);
+  for (const Alternative& law : problem.alternatives()) {
+    Grid<double> masses = law.masses();
     const double gain = likelihood_gain(draws, masses, expectation.masses);
-    if (!(gain > most)) continue;
+    if (!(gain > most * (1.0 + 1e-9))) continue;  // of equals, the first
     most = gain;
-    best.law = &law;
+    best.law = law.name;
     best_masses = std::move(masses);
   }
-  if (best.law == nullptr) return best;
-  const Weighting weighting = expectation.target.weighting;
+  if (best.law.empty()) return best;
+  const Weighting weighting = expectation.weighting;
   const double before = bin_excess(draws, expectation.masses, weighting);
   const double after = bin_excess(draws, best_masses, weighting);
   // Where the bins saw nothing there is nothing to take away.
@@ -122,9 +121,9 @@ Explanation best_law(const EnvironmentMap& map, const Expectation& expectation,
   return best;
 }
 
-/// The law whose bins are nearest to those of the sampler's own pdf; null if the declared one is.
-const AlternativeLaw* law_of_pdf(const EnvironmentMap& map, const Expectation& expectation,
-                                 const OwnDensity& own) {
+/// The law whose bins are nearest to those of the sampler's own pdf; none if the declared one is.
+std::string_view law_of_pdf(const Problem& problem, const Expectation& expectation,
+                            const OwnDensity& own) {
   const auto distance = [&](const Grid<double>& bins) {
     double sum = 0.0;
     for (std::size_t i = 0; i < bins.values().size(); ++i) {
@@ -132,14 +131,14 @@ const AlternativeLaw* law_of_pdf(const EnvironmentMap& map, const Expectation& e
     }
     return sum;
   };
-  const AlternativeLaw* best = nullptr;
+  std::string_view best;
   double least = distance(expectation.bins);
-  for (const AlternativeLaw& law : alternative_laws()) {
-    const double d = distance(reference::bin_masses(law.masses(map, expectation.target),
-                                                    expectation.target.weighting, kGateBins));
+  for (const Alternative& law : problem.alternatives()) {
+    const double d =
+        distance(reference::bin_masses(law.masses(), expectation.weighting, kGateBins));
     if (d < 0.5 * least) {
       least = d;
-      best = &law;
+      best = law.name;
     }
   }
   return best;
@@ -156,11 +155,17 @@ bool too_even(const Verdicts& verdicts) {
   return verdicts.dispersion("bins 16x32") < 0.7 && verdicts.rejected("reference", "bins 16x32");
 }
 
-/// Whether the two transformed coordinates are the same number.
-bool is_diagonal(const Draws& draws) {
-  std::uint64_t diagonal = 0;
-  for (int i = 0; i < kPairBins.width; ++i) diagonal += draws.pairs(i, i);
-  return 2 * diagonal > draws.samples;
+/// Whether one transformed coordinate follows from the other: most samples of a row lie in two
+/// bins.
+bool is_one_number(const Draws& draws) {
+  std::uint64_t together = 0;
+  for (int y = 0; y < kPairBins.height; ++y) {
+    auto row = draws.pairs.row(y);
+    std::vector<std::uint64_t> counts(row.begin(), row.end());
+    std::nth_element(counts.begin(), counts.begin() + 1, counts.end(), std::greater<>());
+    together += counts[0] + counts[1];
+  }
+  return 2 * together > draws.samples;
 }
 
 /// Whether the transformed coordinates take few values only.
@@ -183,19 +188,19 @@ bool is_in_one_place(const Expectation& expectation, const Draws& draws) {
   return parts[0] + parts[1] > 0.5 * total;
 }
 
-std::string_view name_of_wrong_counts(const EnvironmentMap& map, const Expectation& expectation,
+std::string_view name_of_wrong_counts(const Problem& problem, const Expectation& expectation,
                                       const Evidence& evidence, const Verdicts& verdicts) {
   if (too_even(verdicts)) return "stratified";
-  if (is_diagonal(*evidence.draws)) return "same-number";
-  const Explanation explanation = best_law(map, expectation, *evidence.draws);
-  if (explanation.law != nullptr && explanation.share > 0.8) return explanation.law->name;
+  if (is_one_number(*evidence.draws)) return "same-number";
+  const Explanation explanation = best_law(problem, expectation, *evidence.draws);
+  if (!explanation.law.empty() && explanation.share > 0.8) return explanation.law;
   if (scatters_everywhere(verdicts)) return "repeated-numbers";
   if (is_in_one_place(expectation, *evidence.draws)) return "one-place";
-  if (explanation.law != nullptr && explanation.share > 0.3) return explanation.law->name;
+  if (!explanation.law.empty() && explanation.share > 0.3) return explanation.law;
   return "clumped";
 }
 
-std::string_view name_of_wrong_pdf(const EnvironmentMap& map, const Expectation& expectation,
+std::string_view name_of_wrong_pdf(const Problem& problem, const Expectation& expectation,
                                    const Evidence& evidence, const Verdicts& verdicts) {
   const bool own_bins = verdicts.rejected("self", "bins 16x32 of its own pdf");
   if (verdicts.rejected("check", "pdf integrates to 1") &&
@@ -203,8 +208,8 @@ std::string_view name_of_wrong_pdf(const EnvironmentMap& map, const Expectation&
     return own_bins ? "pdf-of-another-measure" : "pdf-scaled";
   }
   if (own_bins) {
-    const AlternativeLaw* law = law_of_pdf(map, expectation, *evidence.own);
-    return law != nullptr ? law->name : "pdf-of-another-place";
+    const std::string_view law = law_of_pdf(problem, expectation, *evidence.own);
+    return law.empty() ? "pdf-of-another-place" : law;
   }
   const TestRecord* returned = verdicts.find("check", "pdf of the sample");
   if (verdicts.rejected("check", "pdf of the sample")) {
@@ -214,32 +219,35 @@ std::string_view name_of_wrong_pdf(const EnvironmentMap& map, const Expectation&
                                                                             : "unknown";
 }
 
-std::string_view name_of(const EnvironmentMap& map, const Expectation& expectation,
+std::string_view name_of(const Problem& problem, const Expectation& expectation,
                          const Evidence& evidence) {
   const Verdicts verdicts(evidence.records);
   if (verdicts.rejected("check", "samples stay on the map")) return "off-the-map";
   if (is_coarse(*evidence.draws)) return "coarse-numbers";
   if (counts_are_wrong(verdicts)) {
-    return name_of_wrong_counts(map, expectation, evidence, verdicts);
+    return name_of_wrong_counts(problem, expectation, evidence, verdicts);
   }
   for (const char* test : {"phi (Kuiper)", "theta (Anderson-Darling)", "transformed pair"}) {
     if (!verdicts.rejected("reference", test)) continue;
     // A law too near to the declared one for the counts may still be the likelier one.
-    const Explanation explanation = best_law(map, expectation, *evidence.draws);
-    return explanation.law != nullptr ? explanation.law->name : "uneven-in-texel";
+    const Explanation explanation = best_law(problem, expectation, *evidence.draws);
+    return explanation.law.empty() ? "uneven-in-texel" : explanation.law;
   }
   const bool pdf = verdicts.rejected("check", "pdf integrates to 1") ||
                    verdicts.rejected("check", "pdf of the sample") || verdicts.any_rejected("self");
-  if (pdf) return name_of_wrong_pdf(map, expectation, evidence, verdicts);
+  if (pdf) return name_of_wrong_pdf(problem, expectation, evidence, verdicts);
   if (verdicts.any_rejected("check")) return "wrong-at-knots";
-  return name_of_wrong_pdf(map, expectation, evidence, verdicts);
+  return name_of_wrong_pdf(problem, expectation, evidence, verdicts);
 }
 
-std::string_view words_of(std::string_view name) {
+std::string_view words_of(const Problem& problem, std::string_view name) {
   for (const Signature& signature : kSignatures) {
     if (signature.name == name) return signature.diagnosis;
   }
-  return alternative_law(name).diagnosis;
+  for (const Alternative& law : problem.alternatives()) {
+    if (law.name == name) return law.diagnosis;
+  }
+  return {};
 }
 
 Grid<double> residuals(const Expectation& expectation, const Draws& draws) {
@@ -273,15 +281,15 @@ std::vector<double> cumulative_divergence(const Expectation& expectation, const 
 
 std::span<const Signature> signatures() { return kSignatures; }
 
-Rejection diagnose(const EnvironmentMap& map, const Expectation& expectation,
+Rejection diagnose(const Problem& problem, const Expectation& expectation,
                    const Evidence& evidence) {
   const TestRecord& first = evidence.records.front();
-  const std::string_view name = name_of(map, expectation, evidence);
+  const std::string_view name = name_of(problem, expectation, evidence);
   return {first.sampler,
           first.weighting,
           first.map,
           std::string(name),
-          std::string(words_of(name)),
+          std::string(words_of(problem, name)),
           residuals(expectation, *evidence.draws),
           cumulative_divergence(expectation, *evidence.draws)};
 }

@@ -7,6 +7,7 @@
 
 #include "lightproof/suite/checks.h"
 #include "lightproof/suite/draws.h"
+#include "lightproof/suite/problem.h"
 #include "lightproof/suite/results.h"
 
 namespace lightproof {
@@ -26,8 +27,8 @@ struct Evidence {
   const OwnDensity* own;
 };
 
-/// `map` and `expectation` are those of the configuration.
-Rejection diagnose(const EnvironmentMap& map, const Expectation& expectation,
+/// `problem` and `expectation` are those of the configuration.
+Rejection diagnose(const Problem& problem, const Expectation& expectation,
                    const Evidence& evidence);
 
 }  // namespace lightproof

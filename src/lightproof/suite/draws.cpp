@@ -33,7 +33,7 @@ void count_transformed(Draws& draws, const reference::UnitPoint& unit) {
   ++draws.along[static_cast<std::size_t>(cell_of(unit.along, kCells))];
   ++draws.column[static_cast<std::size_t>(cell_of(unit.column, kCells))];
   const double scaled = unit.along * 0x1p20;
-  if (std::abs(scaled - std::round(scaled)) < 0x1p-8) ++draws.on_lattice;
+  if (unit.along > 0.0 && std::abs(scaled - std::round(scaled)) < 0x1p-8) ++draws.on_lattice;
   ++draws.pairs(cell_of(unit.across, kPairBins.width), cell_of(unit.along, kPairBins.height));
 }
 

@@ -8,8 +8,8 @@
 
 #include "lightproof/core/moments.h"
 #include "lightproof/core/random.h"
+#include "lightproof/suite/bound_sampler.h"
 #include "lightproof/suite/expectation.h"
-#include "lightproof/suite/subject.h"
 
 namespace lightproof {
 

@@ -29,9 +29,8 @@ reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) 
       if (!expectation.is_bright(x, y)) continue;
       const double mass = expectation.masses(x, y);
       moments.raw[0] += solid_angle;
-      moments.raw[1] += expectation.target.weighting == Weighting::A
-                            ? square / mass
-                            : solid_angle * solid_angle / mass;
+      moments.raw[1] +=
+          expectation.weighting == Weighting::A ? square / mass : solid_angle * solid_angle / mass;
     }
   }
   return moments;
@@ -45,9 +44,15 @@ const std::array<MeanCase, kMeanCaseCount> kMeanCases = {{
 }};
 
 Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
-  Expectation expectation{
-      target, luminance(map, target.grey), reference::texel_masses(map, target), {}, {}, {}, {}, {},
-      {}};
+  Expectation expectation{target.weighting,
+                          luminance(map, target.grey),
+                          reference::texel_masses(map, target),
+                          {},
+                          {},
+                          {},
+                          {},
+                          {},
+                          {}};
   expectation.bins = reference::bin_masses(expectation.masses, target.weighting, kGateBins);
   expectation.rows = reference::row_marginal(expectation.masses);
   expectation.columns = reference::column_marginal(expectation.masses);

@@ -27,12 +27,12 @@ inline constexpr std::size_t kMeanCaseCount = 2;
 extern const std::array<MeanCase, kMeanCaseCount> kMeanCases;
 
 struct Expectation {
-  TargetDensity target;
-  Grid<double> grey;
-  Grid<double> masses;          ///< of texels
-  Grid<double> bins;            ///< of kGateBins
-  std::vector<double> rows;     ///< marginal
-  std::vector<double> columns;  ///< marginal
+  Weighting weighting = Weighting::B;  ///< how the mass lies inside a texel
+  Grid<double> grey;                   ///< radiance that the estimators gather
+  Grid<double> masses;                 ///< of texels
+  Grid<double> bins;                   ///< of kGateBins
+  std::vector<double> rows;            ///< marginal
+  std::vector<double> columns;         ///< marginal
   /// Of a place in a texel; empty where the law inside one is not known in closed form.
   std::function<reference::UnitPoint(SquarePoint at, int x, int y)> transform;
   std::array<reference::EstimatorMoments, kMeanCaseCount> estimators;

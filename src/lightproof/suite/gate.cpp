@@ -36,7 +36,7 @@ struct Slot {
 
 Slot run_first(const Configuration& configuration, const Expectation& expectation,
                std::uint64_t samples) {
-  const BoundSampler sampler = configuration.subject->bind(*configuration.map);
+  const BoundSampler sampler = configuration.candidate->bind();
   const OwnDensity own = integrate_pdf(sampler, expectation.masses.extent());
   Draws draws = draw_samples(sampler, expectation, configuration.stream("draws"), samples);
   Slot slot{test_draws(configuration, expectation, own, draws), std::nullopt, own};
@@ -56,7 +56,7 @@ void run_again(const Configuration& configuration, const Expectation& expectatio
     return r.log10_p && *r.log10_p < std::log10(kSuspicious) && *r.log10_p >= std::log10(at_once);
   };
   if (std::none_of(slot.records.begin(), slot.records.end(), is_open)) return;
-  const BoundSampler sampler = configuration.subject->bind(*configuration.map);
+  const BoundSampler sampler = configuration.candidate->bind();
   const OwnDensity own = integrate_pdf(sampler, expectation.masses.extent());
   const Draws draws = draw_samples(sampler, expectation, configuration.stream("draws again"),
                                    kSecondStage * samples);
@@ -108,57 +108,30 @@ void judge(GateResult& result) {
   }
 }
 
-using Group = std::vector<std::size_t>;
-
-/// Subjects of one target density share its expectation.
-std::vector<Group> groups_of(std::span<const Subject> subjects) {
-  std::vector<Group> groups;
-  for (std::size_t i = 0; i < subjects.size(); ++i) {
-    const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
-      return subjects[group.front()].target == subjects[i].target;
-    });
-    if (same == groups.end()) {
-      groups.push_back({i});
-    } else {
-      same->push_back(i);
-    }
-  }
-  return groups;
-}
-
-/// Maps and subjects, and what is shared between them.
+/// Problems, and what is known of their candidates.
 class Run {
  public:
-  Run(std::span<const EnvironmentMap> maps, std::span<const Subject> subjects,
-      const GateOptions& options, const Progress& progress)
-      : maps_(maps),
-        subjects_(subjects),
-        options_(options),
-        progress_(progress),
-        groups_(groups_of(subjects)),
-        slots_(maps.size() * subjects.size()) {}
+  Run(std::span<const Problem> problems, const GateOptions& options, const Progress& progress)
+      : problems_(problems), options_(options), progress_(progress) {
+    for (const Problem& problem : problems) slots_.emplace_back(problem.candidates.size());
+  }
 
   GateResult operator()() {
     if (progress_) progress_("gate", 0.0);
-    parallel_for(groups_.size() * maps_.size(), [&](std::size_t i) {
-      const EnvironmentMap& map = maps_[i / groups_.size()];
-      const Group& group = groups_[i % groups_.size()];
-      const Expectation expectation = expectation_of(map, subjects_[group.front()].target);
-      for_each_in(group, map, [&](const Configuration& configuration, Slot& slot) {
+    parallel_for(problems_.size(), [&](std::size_t i) {
+      const Expectation expectation = problems_[i].expectation();
+      for_each_candidate(i, [&](const Configuration& configuration, Slot& slot) {
         slot = run_first(configuration, expectation, options_.samples);
         show_progress();
       });
     });
     const double at_once = level_at_once(options_.family_alpha, count_p_values());
-    parallel_for(groups_.size() * maps_.size(), [&](std::size_t i) {
-      const EnvironmentMap& map = maps_[i / groups_.size()];
-      const Group& group = groups_[i % groups_.size()];
-      const bool clean = std::none_of(group.begin(), group.end(), [&](std::size_t subject) {
-        return slot_of(map, subject).draws.has_value();
-      });
+    parallel_for(problems_.size(), [&](std::size_t i) {
+      const bool clean = std::none_of(slots_[i].begin(), slots_[i].end(),
+                                      [](const Slot& slot) { return slot.draws.has_value(); });
       if (clean) return;
-      const Expectation expectation = expectation_of(map, subjects_[group.front()].target);
-      for_each_in(group, map, [&](const Configuration& configuration, Slot& slot) {
+      const Expectation expectation = problems_[i].expectation();
+      for_each_candidate(i, [&](const Configuration& configuration, Slot& slot) {
         run_again(configuration, expectation, options_.samples, at_once, slot);
       });
     });
@@ -166,70 +139,74 @@ class Run {
   }
 
  private:
-  Slot& slot_of(const EnvironmentMap& map, std::size_t subject) {
-    return slots_[static_cast<std::size_t>(&map - maps_.data()) * subjects_.size() + subject];
-  }
-
   template <class Body>
-  void for_each_in(const Group& group, const EnvironmentMap& map, const Body& body) {
-    parallel_for(group.size(), [&](std::size_t i) {
-      body(Configuration{&map, &subjects_[group[i]], options_.seed}, slot_of(map, group[i]));
+  void for_each_candidate(std::size_t problem, const Body& body) {
+    const std::vector<Candidate>& candidates = problems_[problem].candidates;
+    parallel_for(candidates.size(), [&](std::size_t i) {
+      body(Configuration{&problems_[problem], &candidates[i], options_.seed}, slots_[problem][i]);
     });
   }
 
   void show_progress() {
     const std::lock_guard lock(mutex_);
     ++done_;
-    if (progress_) {
-      progress_("gate", static_cast<double>(done_) / static_cast<double>(slots_.size()));
-    }
+    if (!progress_) return;
+    std::size_t all = 0;
+    for (const auto& slots : slots_) all += slots.size();
+    progress_("gate", static_cast<double>(done_) / static_cast<double>(all));
   }
 
   std::size_t count_p_values() const {
     std::size_t count = 0;
-    for (const Slot& slot : slots_) {
-      for (const TestRecord& record : slot.records) count += record.log10_p ? 1 : 0;
+    for (const auto& slots : slots_) {
+      for (const Slot& slot : slots) {
+        for (const TestRecord& record : slot.records) count += record.log10_p ? 1 : 0;
+      }
     }
     return count;
   }
 
   GateResult collect() {
     GateResult result{options_.family_alpha, options_.samples, options_.seed, {}, {}};
-    for (const Slot& slot : slots_) {
-      result.tests.insert(result.tests.end(), slot.records.begin(), slot.records.end());
+    for (const auto& slots : slots_) {
+      for (const Slot& slot : slots) {
+        result.tests.insert(result.tests.end(), slot.records.begin(), slot.records.end());
+      }
     }
     judge(result);
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < slots_.size(); ++i) {
-      const std::span records = std::span(result.tests).subspan(first, slots_[i].records.size());
-      first += records.size();
-      if (std::none_of(records.begin(), records.end(),
-                       [](const auto& r) { return r.outcome == Outcome::reject; })) {
-        continue;
+    std::span<const TestRecord> rest = result.tests;
+    for (std::size_t i = 0; i < problems_.size(); ++i) {
+      for (const Slot& slot : slots_[i]) {
+        const auto records = rest.first(slot.records.size());
+        rest = rest.subspan(records.size());
+        if (std::any_of(records.begin(), records.end(),
+                        [](const auto& r) { return r.outcome == Outcome::reject; })) {
+          result.rejections.push_back(diagnose(problems_[i], problems_[i].expectation(),
+                                               {records, &*slot.draws, &slot.own}));
+        }
       }
-      const EnvironmentMap& map = maps_[i / subjects_.size()];
-      const TargetDensity target = subjects_[i % subjects_.size()].target;
-      result.rejections.push_back(
-          diagnose(map, expectation_of(map, target), {records, &*slots_[i].draws, &slots_[i].own}));
     }
     return result;
   }
 
-  std::span<const EnvironmentMap> maps_;
-  std::span<const Subject> subjects_;
+  std::span<const Problem> problems_;
   GateOptions options_;
   Progress progress_;
-  std::vector<Group> groups_;
-  std::vector<Slot> slots_;
+  std::vector<std::vector<Slot>> slots_;  ///< by problem and candidate
   std::mutex mutex_;
   std::size_t done_ = 0;
 };
 
 }  // namespace
 
+GateResult run_gate(std::span<const Problem> problems, const GateOptions& options,
+                    const Progress& progress) {
+  return Run(problems, options, progress)();
+}
+
 GateResult run_gate(std::span<const EnvironmentMap> maps, std::span<const Subject> subjects,
                     const GateOptions& options, const Progress& progress) {
-  return Run(maps, subjects, options, progress)();
+  return run_gate(problems_of(maps, subjects), options, progress);
 }
 
 Outcome overall_outcome(const GateResult& result, bool count_known_defects) {

@@ -1,5 +1,5 @@
-// The gate: every subject on every map, against the reference, with one error probability for the
-// whole run.
+// The gate: every candidate against the law that it claims to draw, with one error probability for
+// the whole run.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace lightproof {
 
 struct GateOptions {
-  std::uint64_t samples = std::uint64_t{1} << 22U;  ///< per sampler, weighting and map
+  std::uint64_t samples = std::uint64_t{1} << 22U;  ///< per candidate
   std::uint64_t seed = 1;
   /// Probability that a run over correct samplers rejects anything.
   double family_alpha = 1e-6;
@@ -25,6 +25,10 @@ struct GateOptions {
 /// procedure judges those at the other half. Either way a correct sampler is rejected with at most
 /// family_alpha, and small defects have two chances to show. The same bits for any number of
 /// threads.
+GateResult run_gate(std::span<const Problem> problems, const GateOptions& options,
+                    const Progress& progress = {});
+
+/// Every subject on every map.
 GateResult run_gate(std::span<const EnvironmentMap> maps, std::span<const Subject> subjects,
                     const GateOptions& options, const Progress& progress = {});
 

@@ -1,8 +1,45 @@
 #include "lightproof/suite/subject.h"
 
-#include <vector>
+#include <algorithm>
+
+#include "lightproof/suite/alternative_law.h"
+#include "reference/texel_masses.h"
 
 namespace lightproof {
+namespace {
+
+std::vector<Alternative> alternatives_on(const EnvironmentMap& map, TargetDensity target) {
+  const auto declared = std::make_shared<const Grid<double>>(reference::texel_masses(map, target));
+  std::vector<Alternative> alternatives;
+  for (const AlternativeLaw& law : alternative_laws()) {
+    alternatives.push_back({law.name, law.diagnosis, [declared, &map, target, &law] {
+                              return law.masses({declared.get(), &map, target});
+                            }});
+  }
+  return alternatives;
+}
+
+Candidate candidate_of(const Subject& subject, const EnvironmentMap& map) {
+  Candidate candidate{subject.name, subject.known_defects,
+                      [bind = subject.bind, &map] { return bind(map); }};
+  if (subject.inverts_shared_cdf) {
+    candidate.twin = [&map, target = subject.target] { return bound(LinearScan(map, target)); };
+  }
+  return candidate;
+}
+
+/// The target densities of the subjects, each once.
+std::vector<TargetDensity> targets_of(std::span<const Subject> subjects) {
+  std::vector<TargetDensity> targets;
+  for (const Subject& subject : subjects) {
+    if (std::find(targets.begin(), targets.end(), subject.target) == targets.end()) {
+      targets.push_back(subject.target);
+    }
+  }
+  return targets;
+}
+
+}  // namespace
 
 Subject subject_of(const SamplerInfo& sampler, Weighting weighting) {
   return {std::string(sampler.name), sampler.target(weighting), sampler.known_defects,
@@ -20,6 +57,26 @@ std::vector<Subject> all_subjects() {
     }
   }
   return subjects;
+}
+
+std::vector<Problem> problems_of(std::span<const EnvironmentMap> maps,
+                                 std::span<const Subject> subjects) {
+  std::vector<Problem> problems;
+  for (const EnvironmentMap& map : maps) {
+    for (const TargetDensity target : targets_of(subjects)) {
+      Problem problem{map.name,
+                      to_string(target.weighting),
+                      map.source,
+                      [&map, target] { return expectation_of(map, target); },
+                      [&map, target] { return alternatives_on(map, target); },
+                      {}};
+      for (const Subject& subject : subjects) {
+        if (subject.target == target) problem.candidates.push_back(candidate_of(subject, map));
+      }
+      problems.push_back(std::move(problem));
+    }
+  }
+  return problems;
 }
 
 }  // namespace lightproof

@@ -11,6 +11,7 @@
 
 #include "lightproof/core/child_process.h"
 #include "lightproof/core/error.h"
+#include "lightproof/core/temporary_folder.h"
 #include "lightproof/samplers/registry.h"
 #include "lightproof/suite/power_law.h"
 
@@ -85,7 +86,7 @@ std::vector<ThroughputRecord> records_of(const nlohmann::json& document) {
 
 std::vector<ThroughputRecord> measure_throughput(const fs::path& program) {
   const TemporaryFolder folder;
-  const fs::path file = folder.path() / "throughput.json";
+  const fs::path file = folder / "throughput.json";
   run_child(program, {"--benchmark_filter=^sample/", "--benchmark_out=" + file.string(),
                       "--benchmark_out_format=json", "--benchmark_repetitions=3",
                       "--benchmark_min_time=0.1"});

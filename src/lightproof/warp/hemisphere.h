@@ -16,6 +16,14 @@ inline Direction direction_around_z(double cosine, double u) {
   return {sine * std::cos(phi), sine * std::sin(phi), cosine};
 }
 
+/// Density 1/2pi. Archimedes: equal heights, equal areas; u.t = 0 gives the pole.
+inline Direction uniform_hemisphere_from_square(SquarePoint u) {
+  return direction_around_z(1.0 - u.t, u.s);
+}
+inline PerSteradian uniform_hemisphere_pdf(Direction local) {
+  return {local.z > 0.0 ? 1.0 / (2.0 * kPi) : 0.0};
+}
+
 /// Density cos(theta)/pi. Inverse transform; u.t = 0 gives the pole.
 inline Direction cosine_hemisphere_from_square(SquarePoint u) {
   return direction_around_z(std::sqrt(1.0 - u.t), u.s);

@@ -1,0 +1,37 @@
+// Laws over directions that are mixtures of powers of cosines: the hemisphere's warps, and what
+// Phong's materials draw.
+#pragma once
+
+#include <span>
+
+#include "lightproof/core/direction.h"
+#include "lightproof/core/grid.h"
+#include "reference/unit_transform.h"
+
+namespace lightproof::reference {
+
+/// Density share (n+1)/2pi (axis.d)^n on the side of the axis, 0 beyond (Lewis 1994). n = 0 is
+/// uniform over the hemisphere, n = 1 the cosine's own.
+struct CosineLobe {
+  Direction axis;   ///< unit vector
+  double exponent;  ///< n >= 0
+  double share;     ///< of all samples; those of a mixture sum to 1
+};
+
+/// Per steradian.
+double density(std::span<const CosineLobe> lobes, Direction d);
+
+/// A grid over the square whose cells are small against the narrowest lobe.
+Extent cells_for(std::span<const CosineLobe> lobes);
+
+/// Probabilities of the cells of the square; they sum to 1. Lobes around +z in closed form, their
+/// cumulative law being cos^(n+1); others by quadrature.
+Grid<double> cell_masses(std::span<const CosineLobe> lobes, Extent cells);
+
+/// Whether every lobe stands on +z.
+bool is_around_z(std::span<const CosineLobe> lobes);
+
+/// The transform to independent uniform numbers, for lobes around +z.
+UnitPoint unit_point(std::span<const CosineLobe> lobes, SquarePoint at);
+
+}  // namespace lightproof::reference

@@ -1,0 +1,46 @@
+// Goodness of fit that may be looked at after every sample, and stopped at any time.
+//
+// An e-process: a non-negative martingale under the null that starts at 1, so by Ville's
+// inequality (1939) it ever reaches 1/alpha with a probability of at most alpha, whatever the rule
+// of stopping. This one is the Bayes factor of a Dirichlet-multinomial law against the exact cell
+// probabilities p (Good 1967; as a sequential test Lindon and Malek 2022). With the prior
+// Dirichlet(c p) and counts n_i of sum N
+//
+//   E = Gamma(c) / Gamma(N + c) * prod_i Gamma(n_i + c p_i) / (Gamma(c p_i) p_i^n_i).
+//
+// The concentration c says how large a defect the prior expects: its mean square effect
+// w^2 = sum (q - p)^2 / p is (k - 1) / (c + 1) over k cells. The test is the average of E over a
+// geometric grid of c, which is an e-process as well, and so needs no guess of the effect.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lightproof {
+
+/// The smallest effect w for which the test is made: what 24-bit random numbers and a float CDF do
+/// to a correct sampler is of this size.
+inline constexpr double kSmallestSequentialEffect = 0x1p-10;
+
+class SequentialTest {
+ public:
+  /// Sums to 1 within 1e-9; zeros are cells that cannot be hit.
+  explicit SequentialTest(std::span<const double> probability);
+
+  /// log10 E of all counts from the first sample on; +infinity after a hit of an impossible cell.
+  /// Samples that are in no cell are the caller's.
+  double log10_e(std::span<const std::uint64_t> counts) const;
+
+  /// Stopping as soon as this holds is a false alarm with a probability of at most alpha.
+  static bool rejects(double log10_e, double alpha);
+
+  /// Those that E is averaged over, with equal weights: powers of two times the smallest.
+  std::span<const double> concentrations() const { return concentrations_; }
+
+ private:
+  std::vector<double> probability_;
+  std::vector<double> concentrations_;
+};
+
+}  // namespace lightproof

@@ -1,0 +1,45 @@
+// What the gate tests: a law, and the samplers that claim to draw it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lightproof/suite/bound_sampler.h"
+#include "lightproof/suite/expectation.h"
+
+namespace lightproof {
+
+/// A sampler under test: one of a registry, a mutant, a stranger's.
+struct Candidate {
+  std::string name;
+  bool known_defects = false;
+  /// Builds it.
+  std::function<BoundSampler()> bind;
+  /// Another sampler whose texels it claims to return, point for point; empty if none.
+  std::function<BoundSampler()> twin = {};
+};
+
+/// What could be drawn by mistake.
+struct Alternative {
+  std::string_view name;       ///< "no-sine"
+  std::string_view diagnosis;  ///< "a missing sin(theta)"
+  std::function<Grid<double>()> masses;
+};
+
+/// One law over (phi, theta) and its candidates. The parts are made when they are needed: a run
+/// over many maps holds few of them at once.
+struct Problem {
+  std::string map;        ///< name of the map, or kDirections
+  std::string weighting;  ///< "A", "B"; empty for laws over directions
+  std::string source;     ///< of the map, as it was given
+  std::function<Expectation()> expectation;
+  std::function<std::vector<Alternative>()> alternatives;
+  std::vector<Candidate> candidates;
+};
+
+/// Stands where the map's name would in results of laws that need no map.
+inline constexpr std::string_view kDirections = "directions";
+
+}  // namespace lightproof
