@@ -25,16 +25,22 @@ DirectionSampler sound(std::string_view name) {
 using Sample = std::function<DrawnDirection(SquarePoint)>;
 using Pdf = std::function<PerSteradian(Direction)>;
 
-/// `claims` with the parts that are not empty in its place.
-DirectionMutant mutant(std::string name, std::string defect, std::string_view claims,
-                       std::string_view diagnosis, std::string_view oracle, Sample sample,
-                       Pdf pdf = {}) {
-  DirectionSampler sampler = sound(claims);
-  sampler.name = std::move(name);
-  sampler.description = std::string(claims) + ": " + std::move(defect);
+struct Description {
+  std::string name;
+  std::string defect;
+  std::string_view claims;  ///< to be this sampler
+  std::string_view diagnosis;
+  std::string_view oracle;
+};
+
+/// The sampler that it claims to be, with the parts that are not empty in its place.
+DirectionMutant mutant(Description what, Sample sample, Pdf pdf = {}) {
+  DirectionSampler sampler = sound(what.claims);
+  sampler.name = std::move(what.name);
+  sampler.description = std::string(what.claims) + ": " + std::move(what.defect);
   if (sample) sampler.sample = std::move(sample);
   if (pdf) sampler.pdf = std::move(pdf);
-  return {std::move(sampler), diagnosis, oracle};
+  return {std::move(sampler), what.diagnosis, what.oracle};
 }
 
 /// Draws by `direction` and returns what `pdf` says of it.
@@ -59,40 +65,41 @@ Pdf scaled_pdf(const DirectionSampler& sampler, double factor) {
 }
 
 void add_warps(std::vector<DirectionMutant>& all) {
-  all.push_back(mutant("cosine-without-root", "height 1-u instead of its square root",
-                       "cosine_hemisphere", "hemisphere", "reference",
+  all.push_back(mutant({"cosine-without-root", "height 1-u instead of its square root",
+                        "cosine_hemisphere", "hemisphere", "reference"},
                        drawn(uniform_hemisphere_from_square, cosine_hemisphere_pdf)));
   const DirectionSampler cosine = sound("cosine_hemisphere");
-  all.push_back(mutant("cosine-without-pi", "the density not divided by pi", "cosine_hemisphere",
-                       "pdf-scaled", "check", scaled(cosine, kPi), scaled_pdf(cosine, kPi)));
+  all.push_back(mutant({"cosine-without-pi", "the density not divided by pi", "cosine_hemisphere",
+                        "pdf-scaled", "check"},
+                       scaled(cosine, kPi), scaled_pdf(cosine, kPi)));
   const auto projected = [](Direction d) { return PerSteradian{d.z > 0.0 ? 1.0 / kPi : 0.0}; };
-  all.push_back(mutant("cosine-per-projected-angle", "a density per projected solid angle",
-                       "cosine_hemisphere", "pdf-of-another-measure", "check",
+  all.push_back(mutant({"cosine-per-projected-angle", "a density per projected solid angle",
+                        "cosine_hemisphere", "pdf-of-another-measure", "check"},
                        drawn(cosine_hemisphere_from_square, projected), projected));
   all.push_back(
-      mutant("angle-uniform", "the angle to the normal drawn uniformly", "cosine_hemisphere",
-             "rows-alike", "reference",
+      mutant({"angle-uniform", "the angle to the normal drawn uniformly", "cosine_hemisphere",
+              "rows-alike", "reference"},
              drawn([](SquarePoint u) { return direction_around_z(std::cos(0.5 * kPi * u.t), u.s); },
                    cosine_hemisphere_pdf)));
-  all.push_back(mutant("half-azimuth", "the azimuth drawn over pi instead of 2 pi",
-                       "cosine_hemisphere", "half-circle", "reference",
+  all.push_back(mutant({"half-azimuth", "the azimuth drawn over pi instead of 2 pi",
+                        "cosine_hemisphere", "half-circle", "reference"},
                        drawn(
                            [](SquarePoint u) {
                              return cosine_hemisphere_from_square({0.5 * u.s, u.t});
                            },
                            cosine_hemisphere_pdf)));
-  all.push_back(mutant("azimuth-of-height", "one random number for azimuth and height",
-                       "cosine_hemisphere", "same-number", "reference",
+  all.push_back(mutant({"azimuth-of-height", "one random number for azimuth and height",
+                        "cosine_hemisphere", "same-number", "reference"},
                        drawn(
                            [](SquarePoint u) {
                              return cosine_hemisphere_from_square({u.t, u.t});
                            },
                            cosine_hemisphere_pdf)));
-  all.push_back(mutant("whole-sphere", "the lower half drawn as well", "uniform_hemisphere",
-                       "sphere", "reference",
-                       drawn([](SquarePoint u) { return direction_around_z(1.0 - 2.0 * u.t, u.s); },
-                             [](Direction) { return PerSteradian{1.0 / kSphere}; }),
-                       [](Direction) { return PerSteradian{1.0 / kSphere}; }));
+  all.push_back(mutant(
+      {"whole-sphere", "the lower half drawn as well", "uniform_hemisphere", "sphere", "reference"},
+      drawn([](SquarePoint u) { return direction_around_z(1.0 - 2.0 * u.t, u.s); },
+            [](Direction) { return PerSteradian{1.0 / kSphere}; }),
+      [](Direction) { return PerSteradian{1.0 / kSphere}; }));
 }
 
 void add_phong_lobes(std::vector<DirectionMutant>& all) {
@@ -104,17 +111,17 @@ void add_phong_lobes(std::vector<DirectionMutant>& all) {
   const auto density = [](double exponent) {
     return [exponent](Direction d) { return phong_lobe_pdf(d.z, exponent); };
   };
-  all.push_back(mutant("phong-root-of-n", "the n-th root of u instead of the (n+1)-th",
-                       "phong_lobe_50", "exponent-one-less", "reference",
+  all.push_back(mutant({"phong-root-of-n", "the n-th root of u instead of the (n+1)-th",
+                        "phong_lobe_50", "exponent-one-less", "reference"},
                        drawn(with_exponent(n - 1.0), density(n))));
-  all.push_back(mutant("phong-for-brdf",
-                       "sample and density of cos^(n+1), the BRDF times the cosine",
-                       "phong_lobe_50", "exponent-one-more", "reference",
-                       drawn(with_exponent(n + 1.0), density(n + 1.0)), density(n + 1.0)));
+  all.push_back(
+      mutant({"phong-for-brdf", "sample and density of cos^(n+1), the BRDF times the cosine",
+              "phong_lobe_50", "exponent-one-more", "reference"},
+             drawn(with_exponent(n + 1.0), density(n + 1.0)), density(n + 1.0)));
   const double brdf = (n + 2.0) / (n + 1.0);
-  all.push_back(mutant("phong-normalised-as-brdf", "(n+2)/2pi where (n+1)/2pi belongs",
-                       "phong_lobe_50", "pdf-scaled", "check", scaled(lobe, brdf),
-                       scaled_pdf(lobe, brdf)));
+  all.push_back(mutant({"phong-normalised-as-brdf", "(n+2)/2pi where (n+1)/2pi belongs",
+                        "phong_lobe_50", "pdf-scaled", "check"},
+                       scaled(lobe, brdf), scaled_pdf(lobe, brdf)));
 }
 
 /// What the mutants of the two-lobed material need of it.
@@ -150,7 +157,7 @@ DirectionMutant moved_lobe(std::string name, std::string defect, std::string_vie
     if (u.s < moved.share) return moved.diffuse({u.s / moved.share, u.t});
     return moved.glossy({(u.s - moved.share) / (1.0 - moved.share), u.t});
   };
-  return mutant(std::move(name), std::move(defect), "phong_45", diagnosis, "reference",
+  return mutant({std::move(name), std::move(defect), "phong_45", diagnosis, "reference"},
                 drawn(direction, pdf), pdf);
 }
 
@@ -161,23 +168,24 @@ void add_materials(std::vector<DirectionMutant>& all) {
       moved_lobe("lobe-around-normal", "the lobe stands on the normal", "lobe-around-normal", kUp));
   all.push_back(moved_lobe("lobe-around-view", "the view not mirrored", "lobe-around-view",
                            {-axis.x, axis.y, axis.z}));
-  all.push_back(mutant("lobes-chosen-alike",
-                       "both lobes drawn equally often, whatever they reflect", "phong_45",
-                       "lobes-alike", "reference",
-                       drawn(
-                           [lobes](SquarePoint u) {
-                             return u.s < 0.5 ? lobes.diffuse({2.0 * u.s, u.t})
-                                              : lobes.glossy({2.0 * u.s - 1.0, u.t});
-                           },
-                           lobes.sampler.pdf)));
+  all.push_back(
+      mutant({"lobes-chosen-alike", "both lobes drawn equally often, whatever they reflect",
+              "phong_45", "lobes-alike", "reference"},
+             drawn(
+                 [lobes](SquarePoint u) {
+                   return u.s < 0.5 ? lobes.diffuse({2.0 * u.s, u.t})
+                                    : lobes.glossy({2.0 * u.s - 1.0, u.t});
+                 },
+                 lobes.sampler.pdf)));
   all.push_back(mutant(
-      "number-not-stretched", "the number that chose the lobe used again as it is", "phong_45",
-      "clumped", "reference",
+      {"number-not-stretched", "the number that chose the lobe used again as it is", "phong_45",
+       "clumped", "reference"},
       drawn(
           [lobes](SquarePoint u) { return u.s < lobes.share ? lobes.diffuse(u) : lobes.glossy(u); },
           lobes.sampler.pdf)));
-  all.push_back(mutant("density-of-one-lobe", "the density of the chosen lobe alone is returned",
-                       "phong_45", "pdf-of-another-place", "check", [lobes](SquarePoint u) {
+  all.push_back(mutant({"density-of-one-lobe", "the density of the chosen lobe alone is returned",
+                        "phong_45", "pdf-of-another-place", "check"},
+                       [lobes](SquarePoint u) {
                          const DrawnDirection drawn = lobes.sampler.sample(u);
                          const double cosine = glm::dot(lobes.mirrored.normal, drawn.direction);
                          const PerSteradian own = u.s < lobes.share

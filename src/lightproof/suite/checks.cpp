@@ -66,18 +66,17 @@ OwnDensity integrate_pdf(const BoundSampler& sampler, Extent map) {
   const std::vector<double> across = edges(map.width, kGateBins.width);
   const std::vector<double> along =
       edges(map.height * std::max(1, 256 / map.height), kGateBins.height);
+  const auto at = [&](std::size_t i, std::size_t j, int u, int v) {
+    const double s = across[i] + kNodes[u] * (across[i + 1] - across[i]);
+    return sampler.pdf({s, along[j] + kNodes[v] * (along[j + 1] - along[j])}).value;
+  };
   OwnDensity own{0.0, Grid<double>(kGateBins)};
   for (std::size_t j = 0; j + 1 < along.size(); ++j) {
     const double height = along[j + 1] - along[j];
     for (std::size_t i = 0; i + 1 < across.size(); ++i) {
       const double width = across[i + 1] - across[i];
-      double density = 0.0;
-      for (const double v : kNodes) {
-        for (const double u : kNodes) {
-          density += sampler.pdf({across[i] + u * width, along[j] + v * height}).value;
-        }
-      }
-      const double mass = 0.25 * density * height * width;
+      const double mass = 0.25 * height * width *
+                          (at(i, j, 0, 0) + at(i, j, 0, 1) + at(i, j, 1, 0) + at(i, j, 1, 1));
       own.integral += mass;
       own.bins(cell_of(across[i] + 0.5 * width, kGateBins.width),
                cell_of(along[j] + 0.5 * height, kGateBins.height)) += mass;
