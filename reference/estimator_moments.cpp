@@ -78,6 +78,10 @@ void merge(EstimatorMoments& into, const EstimatorMoments& from) {
 
 double EstimatorMoments::variance() const { return std::max(0.0, raw[1] - raw[0] * raw[0]); }
 
+double EstimatorMoments::third_central() const {
+  return raw[2] - 3.0 * raw[0] * raw[1] + 2.0 * raw[0] * raw[0] * raw[0];
+}
+
 double EstimatorMoments::fourth_central() const {
   const double m = raw[0];
   return std::max(0.0, raw[3] - 4.0 * m * raw[2] + 6.0 * m * m * raw[1] - 3.0 * m * m * m * m);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <span>
 #include <vector>
@@ -34,7 +35,9 @@ struct EstimatorMoments {
 
   double mean() const { return raw[0]; }
   double variance() const;
+  double third_central() const;
   double fourth_central() const;
+  double skewness() const { return third_central() / std::pow(variance(), 1.5); }
 };
 
 /// The estimators of all strategies over one map.

@@ -4,6 +4,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <chrono>
 #include <memory>
 
 #include "common.h"
@@ -14,9 +15,11 @@
 #include "lightproof/mutants/mutant.h"
 #include "lightproof/report/ci_outputs.h"
 #include "lightproof/report/json.h"
+#include "lightproof/report/rejection_files.h"
 #include "lightproof/report/table.h"
 #include "lightproof/suite/direction_sampler.h"
 #include "lightproof/suite/gate.h"
+#include "lightproof/suite/sequential_gate.h"
 
 namespace lightproof::cli {
 namespace {
@@ -27,7 +30,10 @@ struct Options : CommonOptions {
   std::string json;
   std::string junit;
   std::string markdown;
+  std::string rejections;
   bool github = false;
+  bool sequential = false;
+  bool nightly = false;
   GateOptions gate;
 };
 
@@ -81,6 +87,14 @@ std::uint64_t samples_of(const std::string& level) {
   return level == "full" ? GateOptions{}.samples : std::uint64_t{1} << 26U;
 }
 
+/// 20260131 on 31 January 2026 (UTC): other samples every night, and the report says which.
+std::uint64_t seed_of_today() {
+  const auto today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+  const std::chrono::year_month_day date(today);
+  return static_cast<std::uint64_t>(static_cast<int>(date.year())) * 10000 +
+         static_cast<unsigned>(date.month()) * 100 + static_cast<unsigned>(date.day());
+}
+
 void write_outputs(const Options& options, const GateResult& result, Outcome outcome,
                    bool count_known_defects) {
   if (!options.json.empty()) write_file(options.json, gate_json(result, outcome));
@@ -88,6 +102,7 @@ void write_outputs(const Options& options, const GateResult& result, Outcome out
   if (!options.markdown.empty()) {
     write_file(options.markdown, gate_markdown(result, count_known_defects));
   }
+  if (!options.rejections.empty()) write_rejections(result, options.rejections);
   if (options.github) fmt::print("{}", gate_annotations(result, count_known_defects));
 }
 
@@ -104,7 +119,9 @@ int run(const Options& options) {
   for (Problem& problem : problems_of(chosen.of_directions)) {
     problems.push_back(std::move(problem));
   }
-  GateResult result = run_gate(problems, gate, progress_bar(options));
+  const Progress progress = progress_bar(options);
+  GateResult result = options.sequential ? run_sequential_gate(problems, gate, progress)
+                                         : run_gate(problems, gate, progress);
   result.input_options = input_options(options);
   // A sampler with known defects fails a run only if it was asked for.
   const bool count_known_defects = !options.samplers.empty();
@@ -144,20 +161,33 @@ void add_gate(CLI::App& app, int& exit_code) {
   command
       ->add_option_function<std::string>(
           "--level",
-          [options](const std::string& level) { options->gate.samples = samples_of(level); },
-          "samples by name: quick 2^20, full 2^22 (as without), nightly 2^26")
+          [options](const std::string& level) {
+            options->gate.samples = samples_of(level);
+            options->nightly = level == "nightly";
+          },
+          "samples by name: quick 2^20, full 2^22 (as without), nightly 2^26; nightly takes the "
+          "date for the seed unless --seed is given")
       ->check(CLI::IsMember({"quick", "full", "nightly"}))
       ->excludes(samples);
+  command->add_flag("--sequential", options->sequential,
+                    "stop drawing as soon as a sampler is known to be wrong; tests counts only");
   add_path(*command, "--json", options->json, "write every test to this file");
   add_path(*command, "--junit", options->junit, "the same as JUnit XML, one case a test");
   add_path(*command, "--markdown", options->markdown, "a summary for a pull request");
+  add_path(
+      *command, "--rejections", options->rejections,
+      "write residual maps, worst bins and divergence by row of what is rejected to this folder");
   command->add_flag("--github", options->github, "print annotations for GitHub Actions");
   command->footer(
       "Without MAP the samplers are tested on every built-in map, and the warps and materials\n"
       "as well. Exit codes: 0 all accepted, 1 rejected, 2 usage or input, 3 inconclusive.\n"
       "Samplers with known defects are shown, but decide the exit code only if named by\n"
       "--sampler.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  const CLI::Option* seed = command->get_option("--seed");
+  command->callback([options, seed, &exit_code] {
+    if (options->nightly && seed->count() == 0) options->seed = seed_of_today();
+    exit_code = run(*options);
+  });
 }
 
 }  // namespace lightproof::cli

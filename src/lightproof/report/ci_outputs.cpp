@@ -133,10 +133,18 @@ std::string replay_command(const GateResult& gate, const TestRecord& test) {
   // Laws over directions have no weighting and need no map.
   const bool of_map = !test.weighting.empty();
   const std::string map = shell_quoted(test.source.empty() ? test.map : test.source);
-  return fmt::format("lightproof gate{} --sampler {}{} --samples {} --seed {}",
+  return fmt::format("lightproof gate{} --sampler {}{} --samples {} --seed {}{}",
                      of_map ? " " + map : "", shell_quoted(test.sampler),
                      of_map ? " --weighting " + test.weighting + gate.input_options : "",
-                     gate.samples, gate.seed);
+                     gate.samples, gate.seed, test.test == "sequential" ? " --sequential" : "");
+}
+
+std::string replay_command(const GateResult& gate, const Rejection& rejection) {
+  const auto test = std::find_if(gate.tests.begin(), gate.tests.end(), [&](const TestRecord& t) {
+    return t.sampler == rejection.sampler && t.weighting == rejection.weighting &&
+           t.map == rejection.map;
+  });
+  return test == gate.tests.end() ? "" : replay_command(gate, *test);
 }
 
 std::string gate_junit(const GateResult& gate, bool count_known_defects) {

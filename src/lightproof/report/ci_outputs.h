@@ -9,6 +9,8 @@ namespace lightproof {
 
 /// The command that draws the same samples again, for one configuration, quoted for a shell.
 std::string replay_command(const GateResult& gate, const TestRecord& test);
+/// Of the rejected sampler.
+std::string replay_command(const GateResult& gate, const Rejection& rejection);
 
 /// JUnit XML: one test case per sampler, weighting, map and test, with p-value, effect, seed and
 /// replay command in its properties and, where it failed, in its message. Rejections of samplers

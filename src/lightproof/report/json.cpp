@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "lightproof/report/ci_outputs.h"
 #include "lightproof/report/gate_summary.h"
 #include "lightproof/report/names.h"
 
@@ -31,6 +32,7 @@ Json json_of(const TestRecord& t) {
           {"log10_p", number(t.log10_p)},
           {"effect", number(t.effect)},
           {"detectable_effect", number(t.detectable_effect)},
+          {"resolution_floor", number(t.resolution_floor)},
           {"outcome", to_string(t.outcome)},
           {"known_defect", t.known_defect},
           {"stage", t.stage},
@@ -39,7 +41,7 @@ Json json_of(const TestRecord& t) {
 }
 
 // Declared here so that list_of finds them all.
-Json json_of(const Rejection& r);
+Json json_of(const GateResult& gate, const Rejection& r);
 Json json_of(const ConvergencePoint& p);
 Json json_of(const ConvergenceRecord& r);
 Json json_of(const ThroughputRecord& r);
@@ -56,12 +58,14 @@ Json list_of(const std::vector<Record>& records) {
 }
 
 Json json_of(const GateResult& gate, Outcome overall) {
+  Json rejections = Json::array();
+  for (const Rejection& rejection : gate.rejections) rejections.push_back(json_of(gate, rejection));
   return {{"outcome", to_string(overall)}, {"family_alpha", number(gate.family_alpha)},
           {"samples", gate.samples},       {"seed", gate.seed},
-          {"tests", list_of(gate.tests)},  {"rejections", list_of(gate.rejections)}};
+          {"tests", list_of(gate.tests)},  {"rejections", rejections}};
 }
 
-Json json_of(const Rejection& r) {
+Json json_of(const GateResult& gate, const Rejection& r) {
   Json worst = Json::array();
   for (const WorstBin& bin : worst_bins(r, 20)) {
     worst.push_back({{"column", bin.x}, {"row", bin.y}, {"residual", number(bin.residual)}});
@@ -72,7 +76,8 @@ Json json_of(const Rejection& r) {
           {"looks_like", r.looks_like},
           {"diagnosis", r.diagnosis},
           {"worst_bins", worst},
-          {"row_divergence", r.row_divergence}};
+          {"row_divergence", r.row_divergence},
+          {"replay", replay_command(gate, r)}};
 }
 
 Json json_of(const ConvergencePoint& p) {
@@ -166,6 +171,10 @@ std::string text_of(const Json& json) {
 
 std::string gate_json(const GateResult& gate, Outcome overall) {
   return text_of(json_of(gate, overall));
+}
+
+std::string rejection_json(const GateResult& gate, const Rejection& rejection) {
+  return json_of(gate, rejection).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string study_json(const StudyResult& study) {

@@ -17,6 +17,10 @@ namespace lightproof {
 /// whole run: the caller decides whether known defects count.
 std::string gate_json(const GateResult& gate, Outcome overall);
 
+/// One of its rejections: sampler, weighting, map, looks_like, diagnosis, worst_bins,
+/// row_divergence, replay.
+std::string rejection_json(const GateResult& gate, const Rejection& rejection);
+
 /// Everything in the study but the pixels, which lie in the EXR files that it names. Tests of
 /// samplers with known defects do not count towards gate.outcome.
 std::string study_json(const StudyResult& study);

@@ -94,10 +94,7 @@ std::string diagnosis_lines(const GateResult& gate) {
   for (const Rejection& r : gate.rejections) {
     text += fmt::format("{} {} on {} looks like: {} ({})\n", r.sampler, r.weighting, r.map,
                         r.diagnosis, r.looks_like);
-    const auto test = std::find_if(gate.tests.begin(), gate.tests.end(), [&](const auto& t) {
-      return t.sampler == r.sampler && t.weighting == r.weighting && t.map == r.map;
-    });
-    if (test != gate.tests.end()) text += "    again: " + replay_command(gate, *test) + "\n";
+    text += "    again: " + replay_command(gate, r) + "\n";
   }
   return text.empty() ? "" : "\nDiagnosis\n" + text;
 }

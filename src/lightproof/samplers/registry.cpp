@@ -21,11 +21,11 @@ double halved(Extent map) { return std::log2(map.width) + std::log2(map.height);
 
 constexpr std::array<SamplerInfo, 3> kSamplers = {{
     {"linear_scan_published", "lecture \"Image-based Lighting\", GLSL listing", "S + T", scanned,
-     kPublishedLuminance, true, false, make<LinearScanPublished, kPublishedLuminance>},
+     kPublishedLuminance, 0x1p-24, true, false, make<LinearScanPublished, kPublishedLuminance>},
     {"linear_scan", "the lecture's scan, corrected, over stored sums", "S + T", scanned, kRec709,
-     false, false, make<LinearScan, kRec709>},
+     0x1p-31, false, false, make<LinearScan, kRec709>},
     {"binary_search", "bisection of the same sums (Knuth, TAOCP 3, 6.2.1)", "log2 S + log2 T",
-     halved, kRec709, false, true, make<BinarySearch, kRec709>},
+     halved, kRec709, 0x1p-31, false, true, make<BinarySearch, kRec709>},
 }};
 
 }  // namespace

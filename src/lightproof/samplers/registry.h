@@ -21,6 +21,7 @@ struct SamplerInfo {
   std::string_view growth;  ///< steps of one sample on a map of S x T texels, up to a constant
   double (*steps)(Extent);  ///< the same as a function
   LuminanceWeights grey;    ///< the grey value that the sampler declares
+  double resolution;        ///< step of its sums and of the random numbers that it reads
   bool known_defects;       ///< kept as published, to show what the gate finds
   bool inverts_shared_cdf;  ///< must return the texel of LinearScan for every point
   /// The map must outlive the sampler. Throws InputError if it is black.

@@ -78,27 +78,39 @@ GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
   return fit;
 }
 
+double detectable_w(double dof, double level, double power, double samples) {
+  const double upper = dof >= kLeastDofForLowerTail ? 0.5 * level : level;
+  return std::sqrt(detectable_noncentrality(dof, upper, power) / samples);
+}
+
+double detectable_excess(const WorstCell& worst, double level, double power, double samples) {
+  return detectable_z(level / static_cast<double>(worst.cells), power) /
+         std::sqrt(worst.likeliest * samples);
+}
+
 WorstCell worst_cell(std::span<const std::uint64_t> observed, std::span<const double> probability,
                      std::uint64_t samples) {
   WorstCell worst;
   double most = -1.0;
-  std::size_t cells = 0;
   for (std::size_t i = 0; i < observed.size(); ++i) {
     if (probability[i] <= 0.0) continue;
-    ++cells;
+    ++worst.cells;
+    worst.likeliest = std::max(worst.likeliest, probability[i]);
     const double o = static_cast<double>(observed[i]);
     const double e = probability[i] * static_cast<double>(samples);
     // Half the deviance: the exponent of Chernoff's bound on the tail.
     const double deviance = (o > 0.0 ? o * std::log(o / e) : 0.0) - (o - e);
     if (deviance <= most) continue;
     most = deviance;
-    worst = {i, o, e, 0.0};
+    worst.cell = i;
+    worst.observed = o;
+    worst.expected = e;
   }
-  if (cells == 0) return worst;
+  if (worst.cells == 0) return worst;
   const double tail = worst.observed < worst.expected
                           ? log10_poisson_lower(worst.observed, worst.expected)
                           : log10_poisson_upper(worst.observed, worst.expected);
-  worst.log10_p = std::min(0.0, tail + std::log10(2.0 * static_cast<double>(cells)));
+  worst.log10_p = std::min(0.0, tail + std::log10(2.0 * static_cast<double>(worst.cells)));
   return worst;
 }
 

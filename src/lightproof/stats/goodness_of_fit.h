@@ -37,6 +37,8 @@ GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
 
 /// The cell that is farthest from its expectation.
 struct WorstCell {
+  std::size_t cells = 0;   ///< of positive expectation
+  double likeliest = 0.0;  ///< largest probability of a cell
   std::size_t cell = 0;
   double observed = 0.0;
   double expected = 0.0;
@@ -48,6 +50,13 @@ struct WorstCell {
 /// cells.
 WorstCell worst_cell(std::span<const std::uint64_t> observed, std::span<const double> probability,
                      std::uint64_t samples);
+
+/// The effect w that cressie_read with these degrees of freedom finds with `power` at this level.
+double detectable_w(double dof, double level, double power, double samples);
+
+/// The relative excess of the likeliest cell that such a test finds with `power` at this level, by
+/// the normal law.
+double detectable_excess(const WorstCell& worst, double level, double power, double samples);
 
 /// Row by row, every second row backwards, so that consecutive cells touch.
 template <class T>

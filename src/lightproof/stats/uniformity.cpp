@@ -56,7 +56,33 @@ double anderson_darling_cdf(double a) {
   return std::sqrt(2.0 * std::numbers::pi) / a * sum;
 }
 
+/// Where a decreasing tail reaches `log10_p`.
+template <class Tail>
+double critical_value(const Tail& tail, double log10_p) {
+  double low = 0.0;
+  double high = 1.0;
+  while (tail(high) > log10_p) high *= 2.0;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (tail(middle) > log10_p ? low : high) = middle;
+  }
+  return high;
+}
+
+/// The standard normal quantile of `power`.
+double quantile(double power) { return detectable_z(1.0, power); }
+
 }  // namespace
+
+double detectable_kuiper_distance(double level, double power, double samples) {
+  const double critical = critical_value(log10_kuiper_tail, std::log10(level));
+  return (critical + 0.5 * quantile(power)) / std::sqrt(samples);
+}
+
+double detectable_anderson_darling_distance(double level, double power, double samples) {
+  const double critical = critical_value(log10_anderson_darling_tail, std::log10(level));
+  return (std::sqrt(critical) + std::sqrt(0.5) * quantile(power)) / std::sqrt(samples);
+}
 
 double log10_kuiper_tail(double v) {
   // Q(v) = 2 sum_j (4 j^2 v^2 - 1) exp(-2 j^2 v^2); below 0.4 it is 1 to seven digits.

@@ -27,6 +27,13 @@ UniformityTest kuiper_test(std::span<const std::uint64_t> counts);
 /// Anderson and Darling's A^2 (1954), which weighs both ends: N ∫ (F_N - F)^2 / (F (1-F)) dF.
 UniformityTest anderson_darling_test(std::span<const std::uint64_t> counts);
 
+/// The `distance` between the true law and the uniform one that a test of size `level` finds with
+/// at least `power`. Kuiper: F_N between the two farthest places is a binomial share, of standard
+/// deviation 1/(2 sqrt N) at most. Anderson-Darling: the weighted deviation, projected on the true
+/// one, is a normal of variance 1/2 at most, the largest eigenvalue of its kernel.
+double detectable_kuiper_distance(double level, double power, double samples);
+double detectable_anderson_darling_distance(double level, double power, double samples);
+
 /// log10 P(Kuiper's scaled statistic >= v).
 double log10_kuiper_tail(double v);
 

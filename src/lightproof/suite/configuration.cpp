@@ -7,6 +7,7 @@
 
 #include "lightproof/stats/goodness_of_fit.h"
 #include "lightproof/stats/moment_tests.h"
+#include "lightproof/stats/tails.h"
 #include "lightproof/stats/uniformity.h"
 
 namespace lightproof {
@@ -18,25 +19,19 @@ class Records {
   Records(const Configuration& configuration, std::uint64_t samples)
       : configuration_(&configuration), samples_(samples) {}
 
-  TestRecord& add(std::string_view oracle, std::string_view test) {
-    TestRecord record;
-    record.sampler = configuration_->candidate->name;
-    record.weighting = configuration_->problem->weighting;
-    record.map = configuration_->problem->map;
-    record.source = configuration_->problem->source;
-    record.oracle = oracle;
-    record.test = test;
-    record.samples = samples_;
-    record.seed = configuration_->seed;
-    record.known_defect = configuration_->candidate->known_defects;
-    records_.push_back(record);
-    return records_.back();
+  Measured& add(std::string_view oracle, std::string_view test) {
+    return records_.emplace_back(Measured{record_of(*configuration_, oracle, test, samples_)});
   }
 
   void add_fit(std::string_view oracle, std::string_view test,
                std::span<const std::uint64_t> observed, std::span<const double> probability) {
     const GoodnessOfFit fit = cressie_read(observed, probability, samples_);
-    TestRecord& record = add(oracle, test);
+    auto& [record, detectable] = add(oracle, test);
+    if (fit.dof > 0.0) {
+      detectable = [dof = fit.dof](double level, double power, double samples) {
+        return detectable_w(dof, level, power, samples);
+      };
+    }
     record.statistic = fit.statistic;
     record.dof = fit.dof;
     record.effect = fit.effect;
@@ -51,8 +46,11 @@ class Records {
     }
   }
 
-  void add_uniformity(std::string_view test, const UniformityTest& uniformity) {
-    TestRecord& record = add("reference", test);
+  template <class Detectable>
+  void add_uniformity(std::string_view test, const UniformityTest& uniformity,
+                      const Detectable& found) {
+    auto& [record, detectable] = add("reference", test);
+    detectable = found;
     record.statistic = uniformity.statistic;
     record.log10_p = uniformity.log10_p;
     record.effect = uniformity.distance;
@@ -61,7 +59,10 @@ class Records {
   void add_worst(std::string_view test, std::span<const std::uint64_t> observed,
                  std::span<const double> probability) {
     const WorstCell worst = worst_cell(observed, probability, samples_);
-    TestRecord& record = add("reference", test);
+    auto& [record, detectable] = add("reference", test);
+    detectable = [worst](double level, double power, double samples) {
+      return detectable_excess(worst, level, power, samples);
+    };
     record.statistic = worst.observed;
     record.log10_p = worst.log10_p;
     if (worst.expected > 0.0) record.effect = worst.observed / worst.expected - 1.0;
@@ -69,24 +70,26 @@ class Records {
                                 worst.observed, worst.expected);
   }
 
-  void add_z(std::string_view oracle, std::string_view test, const ZTest& z,
-             double standard_error) {
-    TestRecord& record = add(oracle, test);
+  /// `deviation`: of one sample, relative to what is estimated.
+  void add_z(std::string_view oracle, std::string_view test, const ZTest& z, double deviation) {
+    auto& [record, detectable] = add(oracle, test);
+    detectable = [deviation](double level, double power, double samples) {
+      return detectable_z(level, power) * deviation / std::sqrt(samples);
+    };
     record.statistic = z.z;
     record.log10_p = z.log10_p;
     record.effect = z.effect;
-    record.detectable_effect = standard_error;
   }
 
   void add_check(const CheckResult& result) {
-    TestRecord& record = add("check", result.name);
+    TestRecord& record = add("check", result.name).record;
     record.effect = result.worst;
     record.outcome = result.passed ? Outcome::accept : Outcome::reject;
     record.detail = result.detail;
   }
 
   void add_strays(std::string_view test, std::string_view what, const Strays& strays) {
-    TestRecord& record = add("check", test);
+    TestRecord& record = add("check", test).record;
     record.statistic = static_cast<double>(strays.count);
     record.effect = record.statistic / static_cast<double>(samples_);
     record.outcome = strays.count == 0 ? Outcome::accept : Outcome::reject;
@@ -99,12 +102,17 @@ class Records {
         sample.pdf.value);
   }
 
-  std::vector<TestRecord> take() { return std::move(records_); }
+  /// The step of the sampler's sums makes an effect of this size by itself.
+  void set_resolution_floor(double effect) {
+    if (effect > 0.0) records_.back().record.resolution_floor = effect;
+  }
+
+  std::vector<Measured> take() { return std::move(records_); }
 
  private:
   const Configuration* configuration_;
   std::uint64_t samples_;
-  std::vector<TestRecord> records_;
+  std::vector<Measured> records_;
 };
 
 /// Below this share of the mean square the fourth central moment drowns in rounding, and there is
@@ -117,7 +125,7 @@ void add_moments(Records& records, std::string_view oracle, std::string_view tes
                  const Moments& measured, const reference::EstimatorMoments& exact) {
   if (exact.mean() <= 0.0) return;  // no light reaches this case
   if (measured.count() < 2) {
-    records.add(oracle, test).detail = "no sample stayed on the map";
+    records.add(oracle, test).record.detail = "no sample stayed on the map";
     return;
   }
   if (exact.variance() <= 1e-12 * exact.raw[1]) {
@@ -125,13 +133,39 @@ void add_moments(Records& records, std::string_view oracle, std::string_view tes
     records.add_check({std::string(test) + " is constant", error <= 1e-6, error, ""});
     return;
   }
-  const double n = static_cast<double>(measured.count());
   records.add_z(oracle, test, mean_test(measured, exact.mean(), exact.variance()),
-                std::sqrt(exact.variance() / n) / exact.mean());
+                std::sqrt(exact.variance()) / exact.mean());
   if (oracle != "mean" || exact.variance() <= kTestableVariance * exact.raw[1]) return;
-  records.add_z("variance", test, variance_test(measured, exact.variance(), exact.fourth_central()),
-                std::sqrt((exact.fourth_central() - exact.variance() * exact.variance()) / n) /
-                    exact.variance());
+  records.add_z(
+      "variance", test, variance_test(measured, exact.variance(), exact.fourth_central()),
+      std::sqrt(exact.fourth_central() - exact.variance() * exact.variance()) / exact.variance());
+}
+
+/// An estimator: what was measured of it, and its exact moments.
+struct Estimator {
+  const Moments& measured;
+  const reference::EstimatorMoments& exact;
+
+  /// Whether the mean of so many samples is normal to a relative error of 1e-6 tails: skewness
+  /// shifts them by (skewness / sqrt N) z^3 / 6.
+  bool is_normal() const {
+    const double skewness = exact.skewness();
+    return static_cast<double>(measured.count()) >= 2.3e4 * skewness * skewness;
+  }
+  double relative_variance() const { return exact.variance() / (exact.mean() * exact.mean()); }
+};
+
+/// The sampler's estimate against that of uniform directions. There is none where the estimates
+/// are too skewed for a normal law (a small sun, found by few uniform directions).
+void add_welch(Records& records, std::string_view test, const Estimator& sampled,
+               const Estimator& uniform) {
+  if (sampled.exact.mean() <= 0.0 || uniform.exact.variance() <= 0.0 || !uniform.is_normal() ||
+      !(sampled.exact.variance() <= 1e-12 * sampled.exact.raw[1] || sampled.is_normal())) {
+    return;
+  }
+  records.add_z("mean", fmt::format("{}, against uniform", test),
+                welch_test(sampled.measured, uniform.measured),
+                std::sqrt(sampled.relative_variance() + uniform.relative_variance()));
 }
 
 /// More than half of the samples on a lattice of 2^-20 is no chance: one in 128 is expected.
@@ -147,25 +181,6 @@ std::vector<double> uniform_masses(Extent bins) {
   return std::vector<double>(bins.count(), 1.0 / static_cast<double>(bins.count()));
 }
 
-std::vector<std::uint64_t> marginal_of_rows(const Grid<std::uint64_t>& texels) {
-  std::vector<std::uint64_t> counts;
-  for (int y = 0; y < texels.extent().height; ++y) {
-    const auto row = texels.row(y);
-    counts.push_back(std::accumulate(row.begin(), row.end(), std::uint64_t{0}));
-  }
-  return counts;
-}
-
-std::vector<std::uint64_t> marginal_of_columns(const Grid<std::uint64_t>& texels) {
-  std::vector<std::uint64_t> counts(static_cast<std::size_t>(texels.extent().width));
-  for (int y = 0; y < texels.extent().height; ++y) {
-    for (int x = 0; x < texels.extent().width; ++x) {
-      counts[static_cast<std::size_t>(x)] += texels(x, y);
-    }
-  }
-  return counts;
-}
-
 }  // namespace
 
 std::string Configuration::name() const {
@@ -176,14 +191,30 @@ RandomStream Configuration::stream(std::string_view purpose) const {
   return {fmt::format("{}/{}", name(), purpose), seed};
 }
 
-std::vector<TestRecord> test_draws(const Configuration& configuration,
-                                   const Expectation& expectation, const OwnDensity& own,
-                                   const Draws& draws) {
+TestRecord record_of(const Configuration& configuration, std::string_view oracle,
+                     std::string_view test, std::uint64_t samples) {
+  TestRecord record;
+  record.sampler = configuration.candidate->name;
+  record.weighting = configuration.problem->weighting;
+  record.map = configuration.problem->map;
+  record.source = configuration.problem->source;
+  record.oracle = oracle;
+  record.test = test;
+  record.samples = samples;
+  record.seed = configuration.seed;
+  record.known_defect = configuration.candidate->known_defects;
+  return record;
+}
+
+std::vector<Measured> test_draws(const Configuration& configuration, const Expectation& expectation,
+                                 const OwnDensity& own, const Draws& draws,
+                                 const UniformEstimates& uniform) {
   Records records(configuration, draws.samples);
   records.add_fit("reference", "bins 16x32", serpentine(draws.bins), serpentine(expectation.bins));
-  const std::vector<std::uint64_t> rows = marginal_of_rows(draws.texels);
-  const std::vector<std::uint64_t> columns = marginal_of_columns(draws.texels);
+  const std::vector<std::uint64_t> rows = row_counts(draws.texels);
+  const std::vector<std::uint64_t> columns = column_counts(draws.texels);
   records.add_fit("reference", "texels", serpentine(draws.texels), serpentine(expectation.masses));
+  records.set_resolution_floor(expectation.rounding_effect * configuration.candidate->resolution);
   records.add_fit("reference", "rows", rows, expectation.rows);
   records.add_fit("reference", "columns", columns, expectation.columns);
   records.add_worst("worst texel", draws.texels.values(), expectation.masses.values());
@@ -194,22 +225,25 @@ std::vector<TestRecord> test_draws(const Configuration& configuration,
                     serpentine(own.bins));
   }
   if (expectation.transform) {
-    records.add_uniformity("phi (Kuiper)", kuiper_test(draws.column));
-    records.add_uniformity("theta (Anderson-Darling)", anderson_darling_test(draws.along));
+    records.add_uniformity("phi (Kuiper)", kuiper_test(draws.column), detectable_kuiper_distance);
+    records.add_uniformity("theta (Anderson-Darling)", anderson_darling_test(draws.along),
+                           detectable_anderson_darling_distance);
     const std::vector<double> even = uniform_masses(kPairBins);
     records.add_fit("reference", "transformed pair", serpentine(draws.pairs), even);
   }
   for (std::size_t i = 0; i < kMeanCaseCount; ++i) {
     add_moments(records, "mean", kMeanCases[i].name, draws.estimators[i],
                 expectation.estimators[i]);
+    add_welch(records, kMeanCases[i].name, {draws.estimators[i], expectation.estimators[i]},
+              {uniform[i], expectation.uniform[i]});
   }
   add_moments(records, "self", "mean of 1/pdf", draws.inverse_pdf, expectation.inverse_pdf);
   return records.take();
 }
 
-std::vector<TestRecord> test_exactly(const Configuration& configuration,
-                                     const Expectation& expectation, const BoundSampler& sampler,
-                                     const OwnDensity& own, const Draws& draws) {
+std::vector<Measured> test_exactly(const Configuration& configuration,
+                                   const Expectation& expectation, const BoundSampler& sampler,
+                                   const OwnDensity& own, const Draws& draws) {
   Records records(configuration, draws.samples);
   records.add_strays("samples stay on the map", "left the map", draws.lost);
   records.add_strays("no dark texel is drawn", "lie in texels without light", draws.dark);

@@ -1,6 +1,7 @@
 // One sampler against one law: everything that is tested of it.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "lightproof/suite/checks.h"
@@ -23,14 +24,25 @@ struct Configuration {
   RandomStream stream(std::string_view purpose) const;
 };
 
+/// A record of nothing yet.
+TestRecord record_of(const Configuration& configuration, std::string_view oracle,
+                     std::string_view test, std::uint64_t samples);
+
+/// What a test found, and what it would find.
+struct Measured {
+  TestRecord record;
+  /// The effect that is found with `power` by a test of size `level`; empty for exact checks.
+  std::function<double(double level, double power, double samples)> detectable = {};
+};
+
 /// The tests of drawn samples; their p-values are not judged yet.
-std::vector<TestRecord> test_draws(const Configuration& configuration,
-                                   const Expectation& expectation, const OwnDensity& own,
-                                   const Draws& draws);
+std::vector<Measured> test_draws(const Configuration& configuration, const Expectation& expectation,
+                                 const OwnDensity& own, const Draws& draws,
+                                 const UniformEstimates& uniform);
 
 /// The checks that need no statistics.
-std::vector<TestRecord> test_exactly(const Configuration& configuration,
-                                     const Expectation& expectation, const BoundSampler& sampler,
-                                     const OwnDensity& own, const Draws& draws);
+std::vector<Measured> test_exactly(const Configuration& configuration,
+                                   const Expectation& expectation, const BoundSampler& sampler,
+                                   const OwnDensity& own, const Draws& draws);
 
 }  // namespace lightproof

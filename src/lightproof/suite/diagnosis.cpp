@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <numeric>
 
 #include "lightproof/stats/goodness_of_fit.h"
 #include "reference/texel_masses.h"
@@ -62,8 +63,8 @@ class Verdicts {
 };
 
 bool counts_are_wrong(const Verdicts& verdicts) {
-  for (const char* test :
-       {"bins 16x32", "texels", "rows", "columns", "worst texel", "worst row", "worst column"}) {
+  for (const char* test : {"bins 16x32", "texels", "rows", "columns", "worst texel", "worst row",
+                           "worst column", "sequential"}) {
     if (verdicts.rejected("reference", test)) return true;
   }
   return false;
@@ -155,17 +156,24 @@ bool too_even(const Verdicts& verdicts) {
   return verdicts.dispersion("bins 16x32") < 0.7 && verdicts.rejected("reference", "bins 16x32");
 }
 
-/// Whether one transformed coordinate follows from the other: most samples of a row lie in two
-/// bins.
+/// Whether one transformed coordinate follows from the other: each takes many values, but most
+/// samples of a row lie in two bins.
 bool is_one_number(const Draws& draws) {
   std::uint64_t together = 0;
+  std::vector<std::uint64_t> columns(static_cast<std::size_t>(kPairBins.width));
+  std::uint64_t fullest_row = 0;
   for (int y = 0; y < kPairBins.height; ++y) {
-    auto row = draws.pairs.row(y);
+    const auto row = draws.pairs.row(y);
     std::vector<std::uint64_t> counts(row.begin(), row.end());
+    std::transform(counts.begin(), counts.end(), columns.begin(), columns.begin(), std::plus<>());
+    fullest_row =
+        std::max(fullest_row, std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
     std::nth_element(counts.begin(), counts.begin() + 1, counts.end(), std::greater<>());
     together += counts[0] + counts[1];
   }
-  return 2 * together > draws.samples;
+  const std::uint64_t fullest =
+      std::max(fullest_row, *std::max_element(columns.begin(), columns.end()));
+  return 2 * together > draws.samples && 8 * fullest < draws.samples;
 }
 
 /// Whether the transformed coordinates take few values only.
@@ -222,7 +230,7 @@ std::string_view name_of_wrong_pdf(const Problem& problem, const Expectation& ex
 std::string_view name_of(const Problem& problem, const Expectation& expectation,
                          const Evidence& evidence) {
   const Verdicts verdicts(evidence.records);
-  if (verdicts.rejected("check", "samples stay on the map")) return "off-the-map";
+  if (evidence.draws->lost.count > 0) return "off-the-map";
   if (is_coarse(*evidence.draws)) return "coarse-numbers";
   if (counts_are_wrong(verdicts)) {
     return name_of_wrong_counts(problem, expectation, evidence, verdicts);

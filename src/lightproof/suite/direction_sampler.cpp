@@ -96,8 +96,9 @@ void add_estimators(Expectation& expectation, const Lobes& law) {
                                         return reference::KernelValue{cosine.at(d).k, density(d)};
                                       },
                                       never};
-    expectation.estimators[i] =
-        reference::light_moments(kernel, {&expectation.grey, 1})[0].material;
+    const auto moments = reference::light_moments(kernel, {&expectation.grey, 1});
+    expectation.estimators[i] = moments[0].material;
+    expectation.uniform[i] = moments[0].uniform;
   }
   Grid<double> bright(expectation.grey.extent());
   for (std::size_t i = 0; i < bright.values().size(); ++i) {

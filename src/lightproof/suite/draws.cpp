@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/stats/uniformity.h"
@@ -61,19 +62,36 @@ void count(Part& part, const Expectation& expectation, SquarePoint u, const Texe
 }
 
 Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
-               const RandomStream& stream, std::uint64_t first, std::uint64_t count_all) {
+               const RandomStream& stream, Range range) {
   Part part;
-  part.draws.samples = count_all;
-  part.texels.reserve(count_all);
+  part.draws.samples = range.count;
+  part.texels.reserve(range.count);
   std::vector<SquarePoint> points(kBatch);
   std::vector<TexelSample> samples(kBatch);
-  for (std::uint64_t done = 0; done < count_all; done += kBatch) {
-    const auto size = static_cast<std::size_t>(std::min(kBatch, count_all - done));
-    for (std::size_t i = 0; i < size; ++i) points[i] = stream.point(first + done + i);
+  for (std::uint64_t done = 0; done < range.count; done += kBatch) {
+    const auto size = static_cast<std::size_t>(std::min(kBatch, range.count - done));
+    for (std::size_t i = 0; i < size; ++i) points[i] = stream.point(range.first + done + i);
     sampler.sample(std::span(points).first(size), std::span(samples).first(size));
     for (std::size_t i = 0; i < size; ++i) count(part, expectation, points[i], samples[i]);
   }
   return part;
+}
+
+/// Splits a range into tasks that depend on nothing else, makes their parts in parallel and hands
+/// them on in order.
+template <class Make, class Take>
+void for_each_part(Range range, const Make& make, const Take& take) {
+  constexpr std::uint64_t kBlock = kTasksAtOnce * kTaskSamples;
+  const std::uint64_t last = range.first + range.count;
+  for (std::uint64_t start = range.first; start < last; start += kBlock) {
+    const std::uint64_t end = std::min(last, start + kBlock);
+    std::vector<decltype(make(range))> parts((end - start + kTaskSamples - 1) / kTaskSamples);
+    parallel_for(parts.size(), [&](std::size_t task) {
+      const std::uint64_t first = start + task * kTaskSamples;
+      parts[task] = make({first, std::min(kTaskSamples, end - first)});
+    });
+    for (const auto& part : parts) take(part);
+  }
 }
 
 }  // namespace
@@ -102,24 +120,62 @@ bool is_on_map(const TexelSample& sample, Extent map) {
          sample.y < map.height && sample.pdf.value > 0.0 && std::isfinite(sample.pdf.value);
 }
 
+UniformEstimates draw_uniformly(const Expectation& expectation, const RandomStream& stream,
+                                std::uint64_t count_all) {
+  const Extent extent = expectation.grey.extent();
+  UniformEstimates all;
+  for_each_part(
+      {0, count_all},
+      [&](Range range) {
+        UniformEstimates part;
+        for (std::uint64_t i = range.first; i < range.first + range.count; ++i) {
+          const SquarePoint u = stream.point(i);
+          const SquarePoint at = {u.s, std::acos(1.0 - 2.0 * u.t) / kPi};
+          const Direction direction = direction_from_square(at);
+          const double radiance =
+              expectation.grey(cell_of(at.s, extent.width), cell_of(at.t, extent.height));
+          for (std::size_t k = 0; k < kMeanCaseCount; ++k) {
+            const double cosine = std::max(0.0, glm::dot(kMeanCases[k].normal, direction));
+            part[k].add(kSphere * radiance * cosine);
+          }
+        }
+        return part;
+      },
+      [&](const UniformEstimates& part) {
+        for (std::size_t k = 0; k < kMeanCaseCount; ++k) all[k].merge(part[k]);
+      });
+  return all;
+}
+
 Draws draw_samples(const BoundSampler& sampler, const Expectation& expectation,
-                   const RandomStream& stream, std::uint64_t count_all) {
+                   const RandomStream& stream, Range all_points) {
   Draws all(expectation.masses.extent());
-  constexpr std::uint64_t kBlock = kTasksAtOnce * kTaskSamples;
-  for (std::uint64_t start = 0; start < count_all; start += kBlock) {
-    const std::uint64_t end = std::min(count_all, start + kBlock);
-    std::vector<Part> parts((end - start + kTaskSamples - 1) / kTaskSamples);
-    parallel_for(parts.size(), [&](std::size_t task) {
-      const std::uint64_t first = start + task * kTaskSamples;
-      parts[task] =
-          draw_part(sampler, expectation, stream, first, std::min(kTaskSamples, end - first));
-    });
-    for (const Part& part : parts) {
-      all.merge(part.draws);
-      for (const std::uint32_t texel : part.texels) ++all.texels.values()[texel];
+  for_each_part(
+      all_points, [&](Range range) { return draw_part(sampler, expectation, stream, range); },
+      [&](const Part& part) {
+        all.merge(part.draws);
+        for (const std::uint32_t texel : part.texels) ++all.texels.values()[texel];
+      });
+  return all;
+}
+
+std::vector<std::uint64_t> row_counts(const Grid<std::uint64_t>& texels) {
+  std::vector<std::uint64_t> counts;
+  for (int y = 0; y < texels.extent().height; ++y) {
+    const auto row = texels.row(y);
+    counts.push_back(std::accumulate(row.begin(), row.end(), std::uint64_t{0}));
+  }
+  return counts;
+}
+
+std::vector<std::uint64_t> column_counts(const Grid<std::uint64_t>& texels) {
+  std::vector<std::uint64_t> counts(static_cast<std::size_t>(texels.extent().width));
+  for (int y = 0; y < texels.extent().height; ++y) {
+    for (int x = 0; x < texels.extent().width; ++x) {
+      counts[static_cast<std::size_t>(x)] += texels(x, y);
     }
   }
-  return all;
+  return counts;
 }
 
 }  // namespace lightproof

@@ -58,8 +58,22 @@ inline constexpr Extent kPairBins = {32, 32};
 /// Whether a sample lies on the map and names a texel of it, with a positive, finite density.
 bool is_on_map(const TexelSample& sample, Extent map);
 
-/// Draws the points [0, count) of the stream, in parallel.
+/// The same integrals, estimated from directions drawn uniformly.
+using UniformEstimates = std::array<Moments, kMeanCaseCount>;
+UniformEstimates draw_uniformly(const Expectation& expectation, const RandomStream& stream,
+                                std::uint64_t count);
+
+/// Points of a stream.
+struct Range {
+  std::uint64_t first;
+  std::uint64_t count;
+};
+
+/// Draws these points of the stream, in parallel.
 Draws draw_samples(const BoundSampler& sampler, const Expectation& expectation,
-                   const RandomStream& stream, std::uint64_t count);
+                   const RandomStream& stream, Range range);
+
+std::vector<std::uint64_t> row_counts(const Grid<std::uint64_t>& texels);
+std::vector<std::uint64_t> column_counts(const Grid<std::uint64_t>& texels);
 
 }  // namespace lightproof

@@ -36,12 +36,17 @@ struct Expectation {
   /// Of a place in a texel; empty where the law inside one is not known in closed form.
   std::function<reference::UnitPoint(SquarePoint at, int x, int y)> transform;
   std::array<reference::EstimatorMoments, kMeanCaseCount> estimators;
+  std::array<reference::EstimatorMoments, kMeanCaseCount> uniform;  ///< drawn over the sphere
   /// 1/p(omega) over the texels at least a tenth as bright as the mean.
   reference::EstimatorMoments inverse_pdf;
 
   /// Whether a texel belongs to the part of the map over which 1/p is averaged.
   bool is_bright(int x, int y) const { return grey(x, y) >= 0.1 * mean_grey; }
   double mean_grey = 0.0;
+
+  /// The effect w on the texels that rounding of all sums to steps of 1 would have, on average: it
+  /// grows in proportion to the step. 0 where nothing is summed.
+  double rounding_effect = 0.0;
 };
 
 /// Throws InputError if the map is black.

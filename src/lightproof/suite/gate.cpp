@@ -1,5 +1,7 @@
 #include "lightproof/suite/gate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -29,84 +31,114 @@ double level_at_once(double family_alpha, std::size_t tests) {
 /// The records of one configuration, and the draws behind them if they may be needed for a
 /// diagnosis.
 struct Slot {
-  std::vector<TestRecord> records;
+  std::vector<Measured> tests;
   std::optional<Draws> draws;
   OwnDensity own;
 };
 
-Slot run_first(const Configuration& configuration, const Expectation& expectation,
-               std::uint64_t samples) {
+/// What the candidates of one problem share, at one number of samples.
+struct Yardstick {
+  const Expectation& expectation;
+  std::uint64_t samples;
+  UniformEstimates uniform;
+};
+
+Yardstick yardstick_of(const Problem& problem, const Expectation& expectation, std::uint64_t seed,
+                       std::uint64_t samples) {
+  const RandomStream stream(
+      fmt::format("uniform/{}/{}/{}", problem.weighting, problem.map, samples), seed);
+  return {expectation, samples, draw_uniformly(expectation, stream, samples)};
+}
+
+Slot run_first(const Configuration& configuration, const Yardstick& yardstick) {
+  const Expectation& expectation = yardstick.expectation;
   const BoundSampler sampler = configuration.candidate->bind();
   const OwnDensity own = integrate_pdf(sampler, expectation.masses.extent());
-  Draws draws = draw_samples(sampler, expectation, configuration.stream("draws"), samples);
-  Slot slot{test_draws(configuration, expectation, own, draws), std::nullopt, own};
+  Draws draws =
+      draw_samples(sampler, expectation, configuration.stream("draws"), {0, yardstick.samples});
+  Slot slot{test_draws(configuration, expectation, own, draws, yardstick.uniform), std::nullopt,
+            own};
   auto exact = test_exactly(configuration, expectation, sampler, own, draws);
-  std::move(exact.begin(), exact.end(), std::back_inserter(slot.records));
-  const bool clean = std::all_of(slot.records.begin(), slot.records.end(), [](const auto& r) {
+  std::move(exact.begin(), exact.end(), std::back_inserter(slot.tests));
+  const bool clean = std::all_of(slot.tests.begin(), slot.tests.end(), [](const Measured& test) {
+    const TestRecord& r = test.record;
     return r.log10_p ? *r.log10_p >= std::log10(kSuspicious) : r.outcome == Outcome::accept;
   });
   if (!clean) slot.draws = std::move(draws);
   return slot;
 }
 
+/// Whether a test of the first stage is to be run again.
+bool is_suspicious(const Measured& test, double at_once) {
+  const std::optional<double>& log10_p = test.record.log10_p;
+  return log10_p && *log10_p < std::log10(kSuspicious) && *log10_p >= std::log10(at_once);
+}
+
 /// Suspicious tests of a slot get the records of new samples in their place.
-void run_again(const Configuration& configuration, const Expectation& expectation,
-               std::uint64_t samples, double at_once, Slot& slot) {
-  const auto is_open = [&](const TestRecord& r) {
-    return r.log10_p && *r.log10_p < std::log10(kSuspicious) && *r.log10_p >= std::log10(at_once);
-  };
-  if (std::none_of(slot.records.begin(), slot.records.end(), is_open)) return;
+void run_again(const Configuration& configuration, const Yardstick& yardstick, double at_once,
+               Slot& slot) {
+  const Expectation& expectation = yardstick.expectation;
   const BoundSampler sampler = configuration.candidate->bind();
-  const OwnDensity own = integrate_pdf(sampler, expectation.masses.extent());
   const Draws draws = draw_samples(sampler, expectation, configuration.stream("draws again"),
-                                   kSecondStage * samples);
-  const auto again = test_draws(configuration, expectation, own, draws);
-  for (TestRecord& record : slot.records) {
-    if (!is_open(record)) continue;
-    const auto same = std::find_if(again.begin(), again.end(), [&](const TestRecord& r) {
-      return r.oracle == record.oracle && r.test == record.test;
+                                   {0, yardstick.samples});
+  const auto again = test_draws(configuration, expectation, slot.own, draws, yardstick.uniform);
+  for (Measured& test : slot.tests) {
+    if (!is_suspicious(test, at_once)) continue;
+    const auto same = std::find_if(again.begin(), again.end(), [&](const Measured& other) {
+      return other.record.oracle == test.record.oracle && other.record.test == test.record.test;
     });
     if (same == again.end()) continue;
-    record = *same;
-    record.stage = 2;
+    test = *same;
+    test.record.stage = 2;
   }
 }
 
-/// The effect that both stages see with kStagePower each, a hundredth less together.
-double detectable_effect(const TestRecord& test, double second_level, std::uint64_t samples) {
-  const auto needed = [&](double level) {
-    return test.dof > 0.0 ? std::sqrt(detectable_noncentrality(test.dof, level, kStagePower))
-                          : detectable_z(level, kStagePower);
-  };
-  const double roots = std::sqrt(static_cast<double>(kSecondStage));
-  const double worst = std::max(needed(kSuspicious), needed(second_level) / roots);
-  if (test.dof > 0.0) return worst / std::sqrt(static_cast<double>(samples));
-  // A standard error of the mean, at the samples of the record's own stage.
-  return worst * *test.detectable_effect * (test.stage == 2 ? roots : 1.0);
-}
+/// Turns p-values into outcomes, and says what would have been found.
+class Judge {
+ public:
+  Judge(const GateOptions& options, std::size_t tests)
+      : samples_(static_cast<double>(options.samples)),
+        at_once_(level_at_once(options.family_alpha, tests)),
+        second_alpha_(0.5 * options.family_alpha),
+        second_level_(strictest_level(second_alpha_, tests)) {}
 
-/// Turns p-values into outcomes, and standard errors into detectable effects.
-void judge(GateResult& result) {
-  const std::size_t tests = static_cast<std::size_t>(
-      std::count_if(result.tests.begin(), result.tests.end(),
-                    [](const TestRecord& test) { return test.log10_p.has_value(); }));
-  std::vector<double> second;
-  for (const TestRecord& test : result.tests) {
-    if (test.stage == 2) second.push_back(*test.log10_p);
-  }
-  const std::vector<bool> rejected = holm_rejections(second, 0.5 * result.family_alpha);
-  const double at_once = std::log10(level_at_once(result.family_alpha, tests));
-  const double second_level = strictest_level(0.5 * result.family_alpha, tests);
-  std::size_t next = 0;
-  for (TestRecord& test : result.tests) {
-    if (!test.log10_p) continue;
-    const bool reject = test.stage == 2 ? rejected[next++] : !(*test.log10_p >= at_once);
-    test.outcome = reject ? Outcome::reject : Outcome::accept;
-    if (test.dof > 0.0 || test.detectable_effect) {
-      test.detectable_effect = detectable_effect(test, second_level, result.samples);
+  double at_once() const { return at_once_; }
+
+  void operator()(std::span<Measured* const> tests) const {
+    std::vector<double> second;
+    for (const Measured* test : tests) {
+      if (test->record.stage == 2) second.push_back(*test->record.log10_p);
+    }
+    const std::vector<bool> rejected = holm_rejections(second, second_alpha_);
+    std::size_t next = 0;
+    for (Measured* test : tests) {
+      TestRecord& record = test->record;
+      if (test->detectable) record.detectable_effect = detectable_effect(*test);
+      if (!record.log10_p) continue;
+      const bool reject =
+          record.stage == 2 ? rejected[next++] : !(*record.log10_p >= std::log10(at_once_));
+      record.outcome = reject ? Outcome::reject : Outcome::accept;
+      if (!reject && record.resolution_floor.value_or(0.0) > *record.detectable_effect) {
+        record.detail =
+            fmt::format("resolution-limited: the sampler's own rounding makes an effect of {:.3g}",
+                        *record.resolution_floor);
+      }
     }
   }
-}
+
+ private:
+  /// The effect that both stages see with kStagePower each, a hundredth less together.
+  double detectable_effect(const Measured& test) const {
+    const double again = static_cast<double>(kSecondStage) * samples_;
+    return std::max(test.detectable(kSuspicious, kStagePower, samples_),
+                    test.detectable(second_level_, kStagePower, again));
+  }
+
+  double samples_;
+  double at_once_;
+  double second_alpha_;
+  double second_level_;  ///< of Holm's strictest test, if all tests were run again
+};
 
 /// Problems, and what is known of their candidates.
 class Run {
@@ -120,21 +152,31 @@ class Run {
     if (progress_) progress_("gate", 0.0);
     parallel_for(problems_.size(), [&](std::size_t i) {
       const Expectation expectation = problems_[i].expectation();
+      const Yardstick yardstick =
+          yardstick_of(problems_[i], expectation, options_.seed, options_.samples);
       for_each_candidate(i, [&](const Configuration& configuration, Slot& slot) {
-        slot = run_first(configuration, expectation, options_.samples);
+        slot = run_first(configuration, yardstick);
         show_progress();
       });
     });
-    const double at_once = level_at_once(options_.family_alpha, count_p_values());
+    const Judge judge(options_, count_p_values());
     parallel_for(problems_.size(), [&](std::size_t i) {
-      const bool clean = std::none_of(slots_[i].begin(), slots_[i].end(),
-                                      [](const Slot& slot) { return slot.draws.has_value(); });
-      if (clean) return;
+      const auto is_open = [&](const Slot& slot) {
+        return std::any_of(slot.tests.begin(), slot.tests.end(), [&](const Measured& test) {
+          return is_suspicious(test, judge.at_once());
+        });
+      };
+      if (std::none_of(slots_[i].begin(), slots_[i].end(), is_open)) return;
       const Expectation expectation = problems_[i].expectation();
+      const Yardstick yardstick =
+          yardstick_of(problems_[i], expectation, options_.seed, kSecondStage * options_.samples);
       for_each_candidate(i, [&](const Configuration& configuration, Slot& slot) {
-        run_again(configuration, expectation, options_.samples, at_once, slot);
+        if (is_open(slot)) run_again(configuration, yardstick, judge.at_once(), slot);
       });
     });
+    std::vector<Measured*> tests;
+    for_each_test([&](Measured& test) { tests.push_back(&test); });
+    judge(tests);
     return collect();
   }
 
@@ -156,34 +198,33 @@ class Run {
     progress_("gate", static_cast<double>(done_) / static_cast<double>(all));
   }
 
-  std::size_t count_p_values() const {
-    std::size_t count = 0;
-    for (const auto& slots : slots_) {
-      for (const Slot& slot : slots) {
-        for (const TestRecord& record : slot.records) count += record.log10_p ? 1 : 0;
+  template <class Visit>
+  void for_each_test(const Visit& visit) {
+    for (auto& slots : slots_) {
+      for (Slot& slot : slots) {
+        for (Measured& test : slot.tests) visit(test);
       }
     }
+  }
+
+  std::size_t count_p_values() {
+    std::size_t count = 0;
+    for_each_test([&](const Measured& test) { count += test.record.log10_p ? 1 : 0; });
     return count;
   }
 
-  GateResult collect() {
+  GateResult collect() const {
     GateResult result{options_.family_alpha, options_.samples, options_.seed, {}, {}};
-    for (const auto& slots : slots_) {
-      for (const Slot& slot : slots) {
-        result.tests.insert(result.tests.end(), slot.records.begin(), slot.records.end());
-      }
-    }
-    judge(result);
-    std::span<const TestRecord> rest = result.tests;
     for (std::size_t i = 0; i < problems_.size(); ++i) {
       for (const Slot& slot : slots_[i]) {
-        const auto records = rest.first(slot.records.size());
-        rest = rest.subspan(records.size());
+        std::vector<TestRecord> records;
+        for (const Measured& test : slot.tests) records.push_back(test.record);
         if (std::any_of(records.begin(), records.end(),
                         [](const auto& r) { return r.outcome == Outcome::reject; })) {
           result.rejections.push_back(diagnose(problems_[i], problems_[i].expectation(),
                                                {records, &*slot.draws, &slot.own}));
         }
+        std::move(records.begin(), records.end(), std::back_inserter(result.tests));
       }
     }
     return result;

@@ -20,7 +20,7 @@ struct TestRecord {
   std::string sampler;
   std::string weighting;  ///< "A" (p proportional to g) or "B" (g times solid angle)
   std::string map;
-  std::string oracle;  ///< "self", "reference", "mean", "variance", or "check" (deterministic)
+  std::string oracle;  ///< "self", "reference", "mean", "variance", or "check" (exact)
   std::string test;
   std::uint64_t samples = 0;
   double statistic = 0.0;
@@ -28,6 +28,8 @@ struct TestRecord {
   std::optional<double> log10_p;            ///< none for a deterministic check
   double effect = 0.0;                      ///< size of the deviation that was seen
   std::optional<double> detectable_effect;  ///< seen with power 0.99 at this run's alpha
+  /// Below this effect the sampler's own rounding shows; none where it does not matter.
+  std::optional<double> resolution_floor = {};
   Outcome outcome = Outcome::inconclusive;
   std::string detail;         ///< why, in words; empty if there is nothing to say
   std::uint64_t seed = 0;     ///< base seed of the samples

@@ -21,7 +21,7 @@ std::vector<Alternative> alternatives_on(const EnvironmentMap& map, TargetDensit
 
 Candidate candidate_of(const Subject& subject, const EnvironmentMap& map) {
   Candidate candidate{subject.name, subject.known_defects,
-                      [bind = subject.bind, &map] { return bind(map); }};
+                      [bind = subject.bind, &map] { return bind(map); }, subject.resolution};
   if (subject.inverts_shared_cdf) {
     candidate.twin = [&map, target = subject.target] { return bound(LinearScan(map, target)); };
   }
@@ -42,11 +42,15 @@ std::vector<TargetDensity> targets_of(std::span<const Subject> subjects) {
 }  // namespace
 
 Subject subject_of(const SamplerInfo& sampler, Weighting weighting) {
-  return {std::string(sampler.name), sampler.target(weighting), sampler.known_defects,
-          sampler.inverts_shared_cdf, [&sampler, weighting](const EnvironmentMap& map) {
+  return {std::string(sampler.name),
+          sampler.target(weighting),
+          sampler.known_defects,
+          sampler.inverts_shared_cdf,
+          [&sampler, weighting](const EnvironmentMap& map) {
             return std::visit([](auto made) { return bound(std::move(made)); },
                               sampler.make(map, weighting));
-          }};
+          },
+          sampler.resolution};
 }
 
 std::vector<Subject> all_subjects() {

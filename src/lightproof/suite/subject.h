@@ -19,6 +19,7 @@ struct Subject {
   bool inverts_shared_cdf = false;
   /// The map outlives what is bound to it. Throws InputError if the map is black.
   std::function<BoundSampler(const EnvironmentMap&)> bind;
+  double resolution = 0x1p-24;  ///< as a Candidate's
 };
 
 /// A row of the registry under one weighting.

@@ -1,0 +1,53 @@
+#include "lightproof/report/rejection_files.h"
+
+#include "lightproof/core/pending_file.h"
+#include "lightproof/image/writer.h"
+#include "lightproof/report/json.h"
+#include "lightproof/report/names.h"
+#include "lightproof/report/pictures.h"
+
+namespace lightproof {
+namespace {
+
+/// Standard deviations at which the colours are full.
+constexpr double kFullColour = 10.0;
+constexpr int kPixelsPerBin = 16;
+
+std::string stem_of(const Rejection& r) {
+  const std::string weighting = r.weighting.empty() ? "" : "-" + r.weighting;
+  return file_name_part(r.sampler + weighting + "-" + r.map);
+}
+
+Grid<Rgb> enlarged(const Grid<Rgb>& picture, int factor) {
+  Grid<Rgb> large({picture.extent().width * factor, picture.extent().height * factor});
+  for (int y = 0; y < large.extent().height; ++y) {
+    for (int x = 0; x < large.extent().width; ++x) {
+      large(x, y) = picture(x / factor, y / factor);
+    }
+  }
+  return large;
+}
+
+Grid<Rgb> as_grey(const Grid<double>& values) {
+  Grid<Rgb> grey(values.extent());
+  for (std::size_t i = 0; i < values.values().size(); ++i) {
+    grey.values()[i] = Rgb(static_cast<float>(values.values()[i]));
+  }
+  return grey;
+}
+
+}  // namespace
+
+void write_rejections(const GateResult& gate, const std::filesystem::path& folder) {
+  PendingFolder pending(folder);
+  for (const Rejection& rejection : gate.rejections) {
+    const std::filesystem::path stem = pending.temporary() / stem_of(rejection);
+    write_exr(stem.string() + "-residual.exr", flip_rows(as_grey(rejection.residual)));
+    const Grid<Rgb> colours = flip_rows(diverging_picture(rejection.residual, kFullColour));
+    write_png(stem.string() + "-residual.png", enlarged(colours, kPixelsPerBin));
+    write_file(stem.string() + ".json", rejection_json(gate, rejection));
+  }
+  pending.commit();
+}
+
+}  // namespace lightproof

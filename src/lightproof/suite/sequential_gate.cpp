@@ -1,0 +1,130 @@
+#include "lightproof/suite/sequential_gate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "lightproof/core/parallel.h"
+#include "lightproof/stats/goodness_of_fit.h"
+#include "lightproof/stats/sequential.h"
+#include "lightproof/suite/configuration.h"
+#include "lightproof/suite/diagnosis.h"
+
+namespace lightproof {
+namespace {
+
+constexpr std::uint64_t kFirstLook = 1024;
+/// A look at more cells than this takes longer than drawing.
+constexpr std::size_t kMostCells = std::size_t{1} << 15U;
+
+/// log10 of the average of 10^x.
+double log10_average(std::span<const double> values) {
+  const double most = *std::max_element(values.begin(), values.end());
+  if (std::isinf(most)) return most;
+  double sum = 0.0;
+  for (const double value : values) sum += std::pow(10.0, value - most);
+  return most + std::log10(sum / static_cast<double>(values.size()));
+}
+
+/// The e-processes of one law.
+class Evidence {
+ public:
+  explicit Evidence(const Expectation& expectation)
+      : bins_(expectation.bins.values()), rows_(expectation.rows), columns_(expectation.columns) {
+    const auto texels = expectation.masses.values();
+    if (texels.size() <= kMostCells) texels_.emplace(texels);
+  }
+
+  /// Of all samples so far; infinite once one lies where none can.
+  double log10_e(const Draws& draws) const {
+    if (draws.lost.count > 0 || draws.dark.count > 0) return INFINITY;
+    std::vector<double> all = {bins_.log10_e(draws.bins.values()),
+                               rows_.log10_e(row_counts(draws.texels)),
+                               columns_.log10_e(column_counts(draws.texels))};
+    if (texels_) all.push_back(texels_->log10_e(draws.texels.values()));
+    return log10_average(all);
+  }
+
+ private:
+  SequentialTest bins_;
+  SequentialTest rows_;
+  SequentialTest columns_;
+  std::optional<SequentialTest> texels_;
+};
+
+struct Finding {
+  TestRecord record;
+  std::optional<Rejection> rejection;
+};
+
+/// Draws until the evidence reaches `enough` (log10), or to the end.
+Finding watch(const Configuration& configuration, const Expectation& expectation,
+              const GateOptions& options, double enough) {
+  const BoundSampler sampler = configuration.candidate->bind();
+  const Evidence evidence(expectation);
+  const RandomStream stream = configuration.stream("sequential");
+  Draws draws(expectation.masses.extent());
+  double log10_e = 0.0;
+  for (std::uint64_t next = kFirstLook; log10_e < enough && draws.samples < options.samples;
+       next += next / 2) {
+    const std::uint64_t target = std::min(next, options.samples);
+    const Draws more =
+        draw_samples(sampler, expectation, stream, {draws.samples, target - draws.samples});
+    draws.merge(more);
+    log10_e = evidence.log10_e(draws);
+  }
+  Finding finding;
+  TestRecord& record = finding.record;
+  record = record_of(configuration, "reference", "sequential", draws.samples);
+  record.statistic = log10_e;
+  record.log10_p = std::min(0.0, -log10_e);
+  record.outcome = log10_e >= enough ? Outcome::reject : Outcome::accept;
+  record.effect =
+      cressie_read(serpentine(draws.bins), serpentine(expectation.bins), draws.samples).effect;
+  if (record.outcome == Outcome::accept) return finding;
+  record.detail =
+      std::isinf(log10_e)
+          ? fmt::format("one of {} samples lies where none can", draws.samples)
+          : fmt::format("known after {} samples: evidence 10^{:.3g}, 10^{:.3g} is enough",
+                        draws.samples, log10_e, enough);
+  const OwnDensity own = integrate_pdf(sampler, expectation.masses.extent());
+  finding.rejection = diagnose(*configuration.problem, expectation, {{&record, 1}, &draws, &own});
+  return finding;
+}
+
+}  // namespace
+
+GateResult run_sequential_gate(std::span<const Problem> problems, const GateOptions& options,
+                               const Progress& progress) {
+  if (progress) progress("gate", 0.0);
+  std::size_t candidates = 0;
+  for (const Problem& problem : problems) candidates += problem.candidates.size();
+  const double enough = -std::log10(options.family_alpha / static_cast<double>(candidates));
+  std::vector<std::vector<Finding>> findings(problems.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  parallel_for(problems.size(), [&](std::size_t i) {
+    const Problem& problem = problems[i];
+    const Expectation expectation = problem.expectation();
+    findings[i].resize(problem.candidates.size());
+    parallel_for(problem.candidates.size(), [&](std::size_t k) {
+      const Configuration configuration{&problem, &problem.candidates[k], options.seed};
+      findings[i][k] = watch(configuration, expectation, options, enough);
+      const std::lock_guard lock(mutex);
+      ++done;
+      if (progress) progress("gate", static_cast<double>(done) / static_cast<double>(candidates));
+    });
+  });
+  GateResult result{options.family_alpha, options.samples, options.seed, {}, {}};
+  for (auto& of_problem : findings) {
+    for (Finding& finding : of_problem) {
+      result.tests.push_back(std::move(finding.record));
+      if (finding.rejection) result.rejections.push_back(std::move(*finding.rejection));
+    }
+  }
+  return result;
+}
+
+}  // namespace lightproof
