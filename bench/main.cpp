@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   try {
     lightproof::bench::register_sample_benchmarks();
     lightproof::bench::register_render_benchmarks();
+    lightproof::bench::register_histogram_benchmarks();
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
     benchmark::RunSpecifiedBenchmarks();

@@ -1,12 +1,20 @@
 // Each task registers its benchmarks under task/method/map/resolution/order.
 #pragma once
 
+#include <benchmark/benchmark.h>
+
+#include <string>
+
 namespace lightproof::bench {
 
 void register_sample_benchmarks();
 void register_render_benchmarks();
+void register_histogram_benchmarks();
 
-/// Whether a sampler that was to be timed disagreed with the reference.
+/// Skips a benchmark whose subject disagrees with the reference.
+void disagree(benchmark::State& state, const std::string& why);
+
+/// Whether anything that was to be timed disagreed with the reference.
 bool any_disagreement();
 
 }  // namespace lightproof::bench

@@ -87,9 +87,7 @@ void time_sampler(benchmark::State& state, const Sampler& sampler, const Sampler
                   Extent extent, double build_ms) {
   const std::vector<SquarePoint> points = random_points();
   if (const std::string why = disagreement(sampler, info, extent, points); !why.empty()) {
-    disagreed = true;
-    state.SkipWithError(why.c_str());
-    return;
+    return disagree(state, why);
   }
   for (std::size_t i = 0; i < 256; ++i) benchmark::DoNotOptimize(sampler.sample(points[i]));
   std::size_t next = 0;
@@ -116,6 +114,11 @@ void sample_benchmark(benchmark::State& state, const SamplerInfo& info, Extent e
 }
 
 }  // namespace
+
+void disagree(benchmark::State& state, const std::string& why) {
+  disagreed = true;
+  state.SkipWithError(why.c_str());
+}
 
 bool any_disagreement() { return disagreed; }
 

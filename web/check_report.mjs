@@ -49,7 +49,8 @@ function inspectChart(figure) {
   const frame = svg.getBoundingClientRect();
   if (frame.width < 150 || frame.height < 100) problems.push(`${name}: ${frame.width}x${frame.height} px`);
   const shapes = svg.querySelectorAll(
-    ".mark-symbol.role-mark path, .mark-line.role-mark path, .mark-rule.role-mark line");
+    ".mark-symbol.role-mark path, .mark-line.role-mark path, .mark-rule.role-mark line, " +
+    ".mark-rect.role-mark path");
   const visible = [...shapes].filter((shape) => {
     const box = shape.getBoundingClientRect();
     return box.width + box.height > 0.5;

@@ -1,14 +1,17 @@
 // Every mutant is rejected, by the oracle that it names, and called by its name; and every test of
 // the gate has a mutant that it must reject.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <set>
 #include <string>
 
 #include "lightproof/mutants/direction_mutant.h"
+#include "lightproof/mutants/kill_matrix.h"
 #include "lightproof/mutants/mutant.h"
 #include "lightproof/suite/gate.h"
 
@@ -16,24 +19,6 @@ namespace lightproof {
 namespace {
 
 using testing::Contains;
-
-constexpr Extent kExtent = {128, 64};
-
-/// Dim, so that the lower quarter falls below an absolute threshold; brighter upwards and on one
-/// side; warm on one side; a sun that does not outshine the rest; the first row black.
-EnvironmentMap hostile_map() {
-  EnvironmentMap map = {"hostile", Grid<Rgb>(kExtent), {}};
-  for (int y = 1; y < kExtent.height; ++y) {
-    for (int x = 0; x < kExtent.width; ++x) {
-      const double around = 1.0 + 0.5 * std::sin(2.0 * kPi * x / kExtent.width + 1.0);
-      const auto grey = static_cast<float>(3e-4 * (0.1 + 1.0 * y / kExtent.height) * around);
-      const float warm = x < kExtent.width / 3 ? 1.6F : 1.0F;
-      const bool sun = std::abs(x - 90) <= 1 && std::abs(y - 45) <= 1;
-      map.radiance(x, y) = grey * (sun ? 40.0F : 1.0F) * Rgb(warm, 1.0F, 1.0F / warm);
-    }
-  }
-  return map;
-}
 
 struct Kill {
   std::string_view oracle;
@@ -58,6 +43,8 @@ constexpr Kill kKills[] = {
     {"self", "mean of 1/pdf", "weights-2-percent-off"},
     {"mean", "irradiance, normal +z", "weights-2-percent-off"},
     {"mean", "irradiance, normal +x", "weights-2-percent-off"},
+    {"mean", "irradiance, normal +z, against uniform", "pi-squared"},
+    {"mean", "irradiance, normal +x, against uniform", "pi-squared"},
     {"variance", "irradiance, normal +z", "noisy-weights"},
     {"variance", "irradiance, normal +x", "noisy-weights"},
     {"check", "samples stay on the map", "cdf-ends-early"},
@@ -96,13 +83,13 @@ std::string name_of_test(std::string_view mutant) {
   return name;
 }
 
-class EveryMutant : public testing::TestWithParam<std::tuple<std::size_t, Weighting>> {};
+/// With as many samples as the gate draws unless told otherwise.
+class EveryMutant : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(EveryMutant, IsKilledByItsOracleAndNamed) {
-  const auto [index, weighting] = GetParam();
-  const Mutant& mutant = mutants()[index];
+  const Mutant& mutant = mutants()[GetParam()];
   const EnvironmentMap map = hostile_map();
-  const Subject subject = subject_of(mutant, weighting);
+  const Subject subject = subject_of(mutant, Weighting::A);
   const GateResult result = run_gate({&map, 1}, {&subject, 1}, {});
   expect_killed(result, mutant.oracle, mutant.diagnosis);
   for (const Kill& kill : kKills) {
@@ -111,28 +98,41 @@ TEST_P(EveryMutant, IsKilledByItsOracleAndNamed) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Mutants, EveryMutant,
-                         testing::Combine(testing::Range<std::size_t>(0, mutants().size()),
-                                          testing::Values(Weighting::A, Weighting::B)),
+INSTANTIATE_TEST_SUITE_P(Mutants, EveryMutant, testing::Range<std::size_t>(0, mutants().size()),
                          [](const auto& param_info) {
-                           const auto index = std::get<0>(param_info.param);
-                           return name_of_test(mutants()[index].name) + "_" +
-                                  to_string(std::get<1>(param_info.param));
+                           return name_of_test(mutants()[param_info.param].name);
                          });
 
-class EveryDirectionMutant : public testing::TestWithParam<std::size_t> {};
-
-TEST_P(EveryDirectionMutant, IsKilledByItsOracleAndNamed) {
-  const DirectionMutant mutant = direction_mutants()[GetParam()];
-  const GateResult result = run_gate(problems_of({&mutant.sampler, 1}), {});
-  expect_killed(result, mutant.oracle, mutant.diagnosis);
+/// The matrix as text: a row for each mutant, the tests that reject it with the samples that they
+/// need, as powers of two.
+std::string text_of(const std::vector<KillRecord>& records) {
+  std::string text;
+  for (const KillRecord& record : records) {
+    text += fmt::format("{:<27}{:<10}{:<23}", record.mutant, record.oracle, record.looks_like);
+    text += record.sequential ? fmt::format("sequential {}", *record.sequential) : "";
+    for (const auto& [test, samples] : record.kills) {
+      text += fmt::format(" | {} 2^{:.0f}", test, std::log2(samples));
+    }
+    text += "\n";
+  }
+  return text;
 }
 
-INSTANTIATE_TEST_SUITE_P(Mutants, EveryDirectionMutant,
-                         testing::Range<std::size_t>(0, direction_mutants().size()),
-                         [](const auto& param_info) {
-                           return name_of_test(direction_mutants()[param_info.param].sampler.name);
-                         });
+// Under weighting B, and the warps and materials, each with the fewest samples that it takes.
+TEST(KillMatrix, EveryMutantIsKilledByItsOracleAndNamed) {
+  const std::vector<KillRecord> records = measure_kills(1);
+  std::printf("%s", text_of(records).c_str());
+  EXPECT_EQ(records.size(), mutants().size() + direction_mutants().size());
+  for (const KillRecord& record : records) {
+    std::set<std::string> oracles;
+    for (const KillRecord::Kill& kill : record.kills) {
+      oracles.insert(kill.test.substr(0, kill.test.find('/')));
+      EXPECT_LE(kill.samples, GateOptions{}.samples);
+    }
+    EXPECT_THAT(oracles, Contains(record.oracle)) << record.mutant;
+    EXPECT_EQ(record.looks_like, record.expected_diagnosis) << record.mutant;
+  }
+}
 
 TEST(Mutants, HaveNamesOfTheirOwn) {
   std::set<std::string> names;

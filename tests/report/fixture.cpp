@@ -194,6 +194,47 @@ RenderRecord render(std::size_t strategy) {
   return r;
 }
 
+SelfTestResult self_test() {
+  SelfTestResult result;
+  for (const char* test : {"reference/rows", "mean/irradiance, normal +z", "reference/worst row"}) {
+    CalibrationRecord record;
+    record.test = test;
+    record.is_bound = record.test == "reference/worst row";
+    record.replicates = 10000;
+    for (int i = 0; i <= 100; ++i) {
+      const double p = 0.01 * i;
+      record.quantiles.push_back(std::min(1.0, record.is_bound ? 1.1 * p : p + 0.01 * p * (1 - p)));
+    }
+    record.ks_distance = 0.009;
+    record.log10_p_ks = -0.6;
+    if (!record.is_bound) record.log10_p_anderson = -0.4;
+    record.below_one_percent = 97;
+    result.calibration.tests.push_back(record);
+  }
+  result.calibration.families = {{"one stage, Holm", 0.05, 10000, 391},
+                                 {"the gate, two stages", 0.05, 1000, 1}};
+  for (const std::uint64_t samples : {1024U, 4096U, 16384U}) {
+    const double predicted = samples == 1024 ? 0.1 : samples == 4096 ? 0.6 : 0.999;
+    const auto rejected = static_cast<std::uint64_t>(1000.0 * predicted);
+    result.power.push_back({"reference/rows", 0.12, 1e-3, samples, 1000, rejected, predicted});
+    result.power.push_back(
+        {"reference/phi (Kuiper)", 0.1, 1e-3, samples, 1000, 1000, predicted, true});
+  }
+  result.mutants = {{"no-sine",
+                     "reference",
+                     "other-weighting",
+                     "other-weighting",
+                     {{"reference/rows", 4096}, {"variance/irradiance, normal +z", 65536}},
+                     1024},
+                    {"pi-squared",
+                     "check",
+                     "pdf-scaled",
+                     "pdf-scaled",
+                     {{"check/pdf integrates to 1", 4096}},
+                     {}}};
+  return result;
+}
+
 }  // namespace
 
 TestRecord accepted_test(const std::string& sampler, const std::string& map) {
@@ -223,6 +264,7 @@ StudyResult made_up_study() {
                   {"alias_table", "constant", 0.052, 0.008, {{small, 9.0}, {large, 11.0}}}};
   for (std::size_t strategy = 0; strategy < 4; ++strategy)
     study.renders.push_back(render(strategy));
+  study.self_test = self_test();
   return study;
 }
 

@@ -37,7 +37,8 @@ TEST(GateJson, HasItsKeys) {
   EXPECT_EQ(keys_of(document["tests"][0]),
             (std::set<std::string>{"sampler", "weighting", "map", "oracle", "test", "samples",
                                    "statistic", "dof", "log10_p", "effect", "detectable_effect",
-                                   "outcome", "known_defect", "stage", "seed", "detail"}));
+                                   "outcome", "known_defect", "stage", "seed", "detail",
+                                   "resolution_floor"}));
   EXPECT_EQ(document["outcome"], "inconclusive");
   EXPECT_EQ(document["seed"], 42);
   EXPECT_EQ(document["tests"][0]["log10_p"], -0.37);

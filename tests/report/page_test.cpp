@@ -45,6 +45,7 @@ TEST(Page, SaysWhatWasNotMeasured) {
   study.convergence.clear();
   study.gate.tests.clear();
   study.maps.clear();
+  study.self_test.reset();
   const std::string page = report_page(study);
   EXPECT_NE(page.find("Throughput was not measured in this study. Build"), std::string::npos);
   EXPECT_EQ(page.find("<figure class=\"chart"), std::string::npos) << "an empty chart";

@@ -15,6 +15,7 @@ void strip(lightproof::StudyResult& study) {
   study.growth.clear();
   study.renders.clear();
   study.maps.resize(1);
+  study.self_test.reset();
   study.convergence.resize(5);  // leaves a scene with one strategy
   study.gate.tests.resize(3);
   study.gate.tests[1].outcome = lightproof::Outcome::inconclusive;

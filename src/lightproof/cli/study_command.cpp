@@ -10,6 +10,7 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/pending_file.h"
+#include "lightproof/mutants/self_test.h"
 #include "lightproof/report/report.h"
 #include "lightproof/suite/study.h"
 #include "lightproof/suite/throughput.h"
@@ -22,6 +23,7 @@ struct Options : CommonOptions {
   std::string output;
   std::string throughput;
   bool no_throughput = false;
+  bool no_self_test = false;
   StudyOptions study;
 };
 
@@ -78,6 +80,9 @@ int run(Options options) {
     result.growth = growth_of(throughput);
     result.throughput = std::move(throughput);
   }
+  if (!options.no_self_test) {
+    result.self_test = run_self_test(options.seed, progress_bar(options));
+  }
   write_report(result, folder);
   if (!options.quiet) fmt::print("{}\n", (folder / "report.html").string());
   return kPassed;
@@ -98,6 +103,8 @@ void add_study(CLI::App& app, int& exit_code) {
                         "take throughput from this output of lightproof_bench");
   command->add_flag("--no-throughput", options->no_throughput, "leave throughput out")
       ->excludes(file);
+  command->add_flag("--no-self-test", options->no_self_test,
+                    "leave out the test of the gate itself (mutants, calibration, power)");
   command->footer(
       "Writes report.html, results.json, CSV, EXR and PNG files.\nExit codes: 0 done, 2 usage or "
       "input.");

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "lightproof/mutants/law_sampler.h"
+#include "lightproof/suite/law_sampler.h"
 #include "lightproof/suite/subject.h"
 
 namespace lightproof {

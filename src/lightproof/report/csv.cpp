@@ -55,6 +55,19 @@ std::string gate_csv(const GateResult& gate) {
   return csv;
 }
 
+std::string mutants_csv(const std::vector<KillRecord>& mutants) {
+  std::string csv = "mutant,oracle,test,samples,looks_like\n";
+  for (const KillRecord& m : mutants) {
+    for (const auto& [test, samples] : m.kills) {
+      csv += row(m.mutant, m.oracle, test, samples, m.looks_like);
+    }
+    if (m.sequential) {
+      csv += row(m.mutant, m.oracle, "sequential gate", *m.sequential, m.looks_like);
+    }
+  }
+  return csv;
+}
+
 std::string convergence_csv(const std::vector<ConvergenceRecord>& records) {
   std::string csv =
       "map,receiver,material,strategy,pixels,replicates,samples,rmse,rmse_error,predicted\n";

@@ -17,6 +17,8 @@ std::string convergence_csv(const std::vector<ConvergenceRecord>& records);
 std::string variance_csv(const std::vector<ConvergenceRecord>& records);
 std::string throughput_csv(const std::vector<ThroughputRecord>& records);
 std::string renders_csv(const std::vector<RenderRecord>& records);
+/// One row per mutant and test that rejects it.
+std::string mutants_csv(const std::vector<KillRecord>& mutants);
 std::string maps_csv(const std::vector<MapRecord>& records);
 
 }  // namespace lightproof

@@ -30,8 +30,17 @@ Cell tally_cell(const GateCell& cell) {
   return {text, to_string(tally.outcome()), worst};
 }
 
-std::string matrix(const GateResult& gate) {
-  const std::vector<GateCell> cells = summarise(gate);
+/// Samplers of directions have no map: one verdict each.
+std::string direction_verdicts(const std::vector<GateCell>& cells) {
+  Table table("Verdict of every warp and material", {"Sampler", "Verdict"}, "matrix");
+  for (const GateCell& cell : cells) {
+    table.add({text_cell(cell.configuration), tally_cell(cell)});
+  }
+  return cells.empty() ? "" : "<h4>Warps and materials</h4>\n" + table.html();
+}
+
+std::string matrix(const std::vector<GateCell>& cells) {
+  if (cells.empty()) return "";
   std::vector<std::string> maps;
   std::vector<std::string> configurations;
   for (const GateCell& cell : cells) {
@@ -195,7 +204,13 @@ std::string gate_section(const GateResult& gate) {
            "</section>\n";
   }
   html += fmt::format("<h3>{}</h3>\n", escaped(gate_title(gate)));
-  html += paragraph(kLegend, "note") + matrix(gate) + diagnoses(gate) + failed_tests(gate, all);
+  std::vector<GateCell> cells = summarise(gate);
+  const auto directions = std::stable_partition(
+      cells.begin(), cells.end(), [](const GateCell& cell) { return cell.map != kDirections; });
+  const std::vector<GateCell> of_directions(directions, cells.end());
+  cells.erase(directions, cells.end());
+  html += paragraph(kLegend, "note") + matrix(cells) + direction_verdicts(of_directions) +
+          diagnoses(gate) + failed_tests(gate, all);
   html += collapsible("What each kind of test could have seen", sight_table(gate));
   html += collapsible(fmt::format("All {}", counted(all.tests, "test")),
                       test_table(gate, "All tests", [](const TestRecord&) { return true; }));

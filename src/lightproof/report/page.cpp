@@ -13,6 +13,7 @@ namespace {
 constexpr std::string_view kNavigation = R"(<nav aria-label="Sections"><ul>
 <li><a href="#overview">Overview</a></li>
 <li><a href="#gate">Gate</a></li>
+<li><a href="#self-test">Trust</a></li>
 <li><a href="#maps">Maps</a></li>
 <li><a href="#convergence">Convergence</a></li>
 <li><a href="#variance">Variance</a></li>
@@ -53,7 +54,7 @@ std::string scripts() {
 
 std::string report_page(const StudyResult& study) {
   return head(study) + std::string(kNavigation) + "<main>\n" + overview_section(study) +
-         gate_section(study.gate) + map_section(study.maps) +
+         gate_section(study.gate) + self_test_section(study.self_test) + map_section(study.maps) +
          convergence_section(study.convergence) + variance_section(study.convergence) +
          throughput_section(study) + render_section(study.renders) +
          "<noscript><p class=\"empty\">The charts need JavaScript; every number is also in the "

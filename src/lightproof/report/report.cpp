@@ -50,6 +50,9 @@ void write_tables(const StudyResult& study, const fs::path& folder) {
   write_file(folder / "throughput.csv", throughput_csv(study.throughput));
   write_file(folder / "renders.csv", renders_csv(study.renders));
   write_file(folder / "maps.csv", maps_csv(study.maps));
+  if (study.self_test) {
+    write_file(folder / "mutants.csv", mutants_csv(study.self_test->mutants));
+  }
   write_file(folder / "results.json", study_json(study));
 }
 

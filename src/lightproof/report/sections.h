@@ -9,6 +9,7 @@ namespace lightproof {
 
 std::string overview_section(const StudyResult& study);
 std::string gate_section(const GateResult& gate);
+std::string self_test_section(const std::optional<SelfTestResult>& self_test);
 std::string map_section(const std::vector<MapRecord>& maps);
 std::string convergence_section(const std::vector<ConvergenceRecord>& records);
 std::string variance_section(const std::vector<ConvergenceRecord>& records);

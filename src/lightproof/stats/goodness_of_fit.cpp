@@ -26,8 +26,9 @@ double cell_divergence(const Pool& pool) {
          1.2 * (pool.expected - pool.observed);
 }
 
-std::vector<Pool> pool_cells(std::span<const std::uint64_t> observed,
-                             std::span<const double> probability, double samples) {
+template <class Count>
+std::vector<Pool> pool_cells(std::span<const Count> observed, std::span<const double> probability,
+                             double samples) {
   std::vector<Pool> pools;
   Pool open;
   for (std::size_t i = 0; i < observed.size(); ++i) {
@@ -81,6 +82,20 @@ GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
 double detectable_w(double dof, double level, double power, double samples) {
   const double upper = dof >= kLeastDofForLowerTail ? 0.5 * level : level;
   return std::sqrt(detectable_noncentrality(dof, upper, power) / samples);
+}
+
+double fit_power(std::span<const double> probability, std::span<const double> actual, double level,
+                 std::uint64_t samples) {
+  const auto n = static_cast<double>(samples);
+  std::vector<double> mean;
+  for (const double q : actual) mean.push_back(n * q);
+  const std::vector<Pool> pools = pool_cells<double>(mean, probability, n);
+  if (pools.size() < 2) return 0.0;
+  double noncentrality = 0.0;
+  for (const Pool& pool : pools) noncentrality += cell_divergence(pool);
+  const double dof = static_cast<double>(pools.size() - 1);
+  const double upper = dof >= kLeastDofForLowerTail ? 0.5 * level : level;
+  return chi_square_power(dof, upper, noncentrality);
 }
 
 double detectable_excess(const WorstCell& worst, double level, double power, double samples) {

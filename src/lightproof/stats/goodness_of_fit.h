@@ -54,6 +54,11 @@ WorstCell worst_cell(std::span<const std::uint64_t> observed, std::span<const do
 /// The effect w that cressie_read with these degrees of freedom finds with `power` at this level.
 double detectable_w(double dof, double level, double power, double samples);
 
+/// How often cressie_read of this size rejects samples of the law `actual`: a non-central
+/// chi-square whose non-centrality is the divergence of the expectations.
+double fit_power(std::span<const double> probability, std::span<const double> actual, double level,
+                 std::uint64_t samples);
+
 /// The relative excess of the likeliest cell that such a test finds with `power` at this level, by
 /// the normal law.
 double detectable_excess(const WorstCell& worst, double level, double power, double samples);

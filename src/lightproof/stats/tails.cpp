@@ -99,6 +99,16 @@ double detectable_noncentrality(double dof, double alpha, double power) {
   return boost::math::non_central_chi_squared::find_non_centrality(dof, critical, 1.0 - power);
 }
 
+double chi_square_power(double dof, double alpha, double noncentrality) {
+  const boost::math::chi_squared central(dof);
+  const double critical = boost::math::quantile(boost::math::complement(central, alpha));
+  if (noncentrality <= 0.0) return alpha;
+  const boost::math::non_central_chi_squared shifted(dof, noncentrality);
+  return boost::math::cdf(boost::math::complement(shifted, critical));
+}
+
+double normal_cdf(double z) { return boost::math::cdf(boost::math::normal(), z); }
+
 double detectable_z(double alpha, double power) {
   const boost::math::normal standard;
   return boost::math::quantile(boost::math::complement(standard, 0.5 * alpha)) +

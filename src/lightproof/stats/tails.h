@@ -22,6 +22,12 @@ double log10_normal_tails(double z);
 /// The non-centrality at which a chi-square test of size alpha rejects with the given power.
 double detectable_noncentrality(double dof, double alpha, double power);
 
+/// P(a chi-square test of size alpha rejects) at this non-centrality.
+double chi_square_power(double dof, double alpha, double noncentrality);
+
+/// P(standard normal <= z).
+double normal_cdf(double z);
+
 /// The deviation of a mean in standard errors at which a two-sided z-test of size alpha rejects
 /// with the given power.
 double detectable_z(double alpha, double power);

@@ -79,9 +79,31 @@ double detectable_kuiper_distance(double level, double power, double samples) {
   return (critical + 0.5 * quantile(power)) / std::sqrt(samples);
 }
 
+double kuiper_power(double distance, double level, double samples) {
+  const double critical = critical_value(log10_kuiper_tail, std::log10(level));
+  return normal_cdf(2.0 * (distance * std::sqrt(samples) - critical));
+}
+
+double anderson_darling_power(double distance, double level, double samples) {
+  const double critical = critical_value(log10_anderson_darling_tail, std::log10(level));
+  return normal_cdf(std::numbers::sqrt2 * (distance * std::sqrt(samples) - std::sqrt(critical)));
+}
+
 double detectable_anderson_darling_distance(double level, double power, double samples) {
   const double critical = critical_value(log10_anderson_darling_tail, std::log10(level));
   return (std::sqrt(critical) + std::sqrt(0.5) * quantile(power)) / std::sqrt(samples);
+}
+
+double log10_kolmogorov_tail(double x) {
+  // 2 sum_j (-1)^(j-1) exp(-2 j^2 x^2); below 0.2 it is 1 to twelve digits.
+  if (x < 0.2) return 0.0;
+  double rest = 1.0;  // terms relative to the first
+  double sign = -1.0;
+  for (int j = 2; j < 20; ++j, sign = -sign) {
+    rest += sign * std::exp(-2.0 * (static_cast<double>(j) * j - 1.0) * x * x);
+  }
+  const double log10_q = (std::log(2.0 * rest) - 2.0 * x * x) * std::numbers::log10e;
+  return std::min(0.0, log10_q);
 }
 
 double log10_kuiper_tail(double v) {

@@ -32,7 +32,12 @@ UniformityTest anderson_darling_test(std::span<const std::uint64_t> counts);
 /// deviation 1/(2 sqrt N) at most. Anderson-Darling: the weighted deviation, projected on the true
 /// one, is a normal of variance 1/2 at most, the largest eigenvalue of its kernel.
 double detectable_kuiper_distance(double level, double power, double samples);
+double kuiper_power(double distance, double level, double samples);  ///< at least
 double detectable_anderson_darling_distance(double level, double power, double samples);
+double anderson_darling_power(double distance, double level, double samples);  ///< at least
+
+/// log10 P(sqrt(N) D >= x) for many samples (Kolmogorov 1933).
+double log10_kolmogorov_tail(double x);
 
 /// log10 P(Kuiper's scaled statistic >= v).
 double log10_kuiper_tail(double v);

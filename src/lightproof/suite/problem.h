@@ -8,6 +8,7 @@
 
 #include "lightproof/suite/bound_sampler.h"
 #include "lightproof/suite/expectation.h"
+#include "lightproof/suite/results.h"
 
 namespace lightproof {
 
@@ -40,8 +41,5 @@ struct Problem {
   std::function<std::vector<Alternative>()> alternatives;
   std::vector<Candidate> candidates;
 };
-
-/// Stands where the map's name would in results of laws that need no map.
-inline constexpr std::string_view kDirections = "directions";
 
 }  // namespace lightproof

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lightproof/core/direction.h"
@@ -14,6 +15,9 @@
 #include "lightproof/stats/verdict.h"
 
 namespace lightproof {
+
+/// Stands where the map's name would in records of laws that need no map.
+inline constexpr std::string_view kDirections = "directions";
 
 /// One test of one configuration.
 struct TestRecord {
@@ -28,14 +32,14 @@ struct TestRecord {
   std::optional<double> log10_p;            ///< none for a deterministic check
   double effect = 0.0;                      ///< size of the deviation that was seen
   std::optional<double> detectable_effect;  ///< seen with power 0.99 at this run's alpha
-  /// Below this effect the sampler's own rounding shows; none where it does not matter.
-  std::optional<double> resolution_floor = {};
   Outcome outcome = Outcome::inconclusive;
   std::string detail;         ///< why, in words; empty if there is nothing to say
   std::uint64_t seed = 0;     ///< base seed of the samples
   std::string source = {};    ///< of the map, as it was given; empty: its name
   int stage = 1;              ///< 2: run again, with more samples, because it looked suspicious
   bool known_defect = false;  ///< of a sampler kept as published, to show what the gate finds
+  /// Below this effect the sampler's own rounding shows; none where it does not matter.
+  std::optional<double> resolution_floor = {};
 };
 
 /// A configuration that was rejected, for whoever has to mend it.
@@ -136,6 +140,64 @@ struct RenderRecord {
   std::uint64_t reference_samples = 0;  ///< per pixel of the reference; 0 if it is not sampled
 };
 
+/// p-values of one test of a sampler that is right: uniform, if the test is.
+struct CalibrationRecord {
+  std::string test;       ///< "reference/rows"
+  bool is_bound = false;  ///< its p-values may be too large, never too small
+  std::uint64_t replicates = 0;
+  std::vector<double> quantiles;           ///< of p, at 0 %, 1 %, … 100 %
+  double ks_distance = 0.0;                ///< of their distribution from uniform
+  double log10_p_ks = 0.0;                 ///< Kolmogorov-Smirnov; one-sided for a bound
+  std::optional<double> log10_p_anderson;  ///< none for a bound
+  std::uint64_t below_one_percent = 0;     ///< p-values below 0.01
+};
+
+/// How often runs over right samplers reject anything.
+struct FamilyRecord {
+  std::string procedure;
+  double family_alpha = 0.0;
+  std::uint64_t runs = 0;
+  std::uint64_t rejected = 0;
+};
+
+struct CalibrationResult {
+  std::vector<CalibrationRecord> tests;
+  std::vector<FamilyRecord> families;
+};
+
+/// How often a test rejects a law that is off by a known effect.
+struct PowerRecord {
+  std::string test;
+  double effect = 0.0;
+  double level = 0.0;  ///< size of the test
+  std::uint64_t samples = 0;
+  std::uint64_t replicates = 0;
+  std::uint64_t rejected = 0;
+  double predicted = 0.0;  ///< share that should be rejected
+  bool is_bound = false;   ///< at least that share
+};
+
+/// The fewest samples, of those tried, with which each test rejects one mutant.
+struct KillRecord {
+  std::string mutant;
+  std::string oracle;  ///< that must reject it
+  std::string looks_like;
+  std::string expected_diagnosis;
+  struct Kill {
+    std::string test;  ///< "reference/rows"
+    std::uint64_t samples;
+  };
+  std::vector<Kill> kills;
+  std::optional<std::uint64_t> sequential;  ///< that the sequential gate took; none: accepted
+};
+
+/// The gate tested on itself.
+struct SelfTestResult {
+  CalibrationResult calibration;
+  std::vector<PowerRecord> power;
+  std::vector<KillRecord> mutants;
+};
+
 /// Everything that one study found.
 struct StudyResult {
   std::string version;
@@ -147,6 +209,7 @@ struct StudyResult {
   std::vector<ThroughputRecord> throughput;
   std::vector<GrowthFit> growth;
   std::vector<RenderRecord> renders;
+  std::optional<SelfTestResult> self_test = {};
 };
 
 }  // namespace lightproof

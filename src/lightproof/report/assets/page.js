@@ -3,11 +3,13 @@
 (() => {
   const narrow = 640;
 
-  // On a narrow page legends have one column, and the kinds of line go below the chart.
+  // On a narrow page legends have one column, the kinds of line go below the chart, and labels that
+  // would stand upright are left to the tooltips and the table.
   function fitted(spec, width) {
     if (width >= narrow) return spec;
     spec.config.legend.columns = 1;
     for (const layer of spec.layer) {
+      if (layer.encoding.x?.axis?.labelAngle) layer.encoding.x.axis.labels = false;
       for (const [name, channel] of Object.entries(layer.encoding)) {
         if (!channel.legend) continue;
         channel.legend.columns = 1;

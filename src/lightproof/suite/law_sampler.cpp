@@ -1,4 +1,4 @@
-#include "lightproof/mutants/law_sampler.h"
+#include "lightproof/suite/law_sampler.h"
 
 #include <algorithm>
 #include <numeric>

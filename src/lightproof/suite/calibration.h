@@ -1,0 +1,35 @@
+// The gate, tested on itself: are its p-values what they say, is a whole run wrong as rarely as it
+// promises, and does it see what it says that it would see?
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lightproof/core/progress.h"
+#include "lightproof/suite/results.h"
+
+namespace lightproof {
+
+struct CalibrationOptions {
+  std::uint64_t seed = 1;
+  std::uint64_t replicates = 10000;  ///< p-values for each test
+  std::uint64_t samples = 8192;      ///< behind each p-value
+  std::uint64_t runs = 1000;         ///< whole runs of the gate
+  std::uint64_t run_samples = 4096;
+  double family_alpha = 0.05;  ///< scaled up, so that false alarms can be counted
+};
+
+/// Draws from a law whose masses are known to the last bit, by inversion in double, and keeps what
+/// the gate's tests make of it. The same bits for any number of threads.
+CalibrationResult calibrate(const CalibrationOptions& options, const Progress& progress = {});
+
+struct PowerOptions {
+  std::uint64_t seed = 1;
+  std::uint64_t replicates = 1000;  ///< for each point
+};
+
+/// Lets a law a little off be judged with several numbers of samples, some too few: how often each
+/// test rejects, and how often it should.
+std::vector<PowerRecord> measure_power(const PowerOptions& options, const Progress& progress = {});
+
+}  // namespace lightproof

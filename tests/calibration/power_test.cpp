@@ -1,0 +1,31 @@
+// The gate sees what it says that it would see.
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/binomial.hpp>
+#include <set>
+#include <string>
+
+#include "lightproof/suite/calibration.h"
+
+namespace lightproof {
+namespace {
+
+TEST(Power, IsThePredictedOne) {
+  constexpr double kAlpha = 1e-6;
+  std::set<std::string> telling;
+  for (const PowerRecord& record : measure_power({})) {
+    const boost::math::binomial law(static_cast<double>(record.replicates), record.predicted);
+    const auto count = static_cast<double>(record.rejected);
+    const std::string what = record.test + ", N = " + std::to_string(record.samples) + ": " +
+                             std::to_string(record.rejected) + ", predicted " +
+                             std::to_string(record.predicted);
+    EXPECT_GT(boost::math::cdf(law, count), kAlpha) << what;
+    if (record.predicted > 0.2 && record.predicted < 0.99) telling.insert(record.test);
+    if (record.is_bound || record.rejected == 0) continue;
+    EXPECT_GT(boost::math::cdf(boost::math::complement(law, count - 1.0)), kAlpha) << what;
+  }
+  EXPECT_EQ(telling.size(), 6U) << "every test is tried where its power is neither 0 nor 1";
+}
+
+}  // namespace
+}  // namespace lightproof
