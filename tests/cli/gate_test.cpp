@@ -179,5 +179,50 @@ TEST(GateOptions, RefuseANegativeSeed) {
   EXPECT_THAT(gate.err, HasSubstr("--seed"));
 }
 
+TEST(GateSequential, StopsBeforeAllSamplesAndSaysHowToRunItAgain) {
+  const TemporaryFolder folder;
+  const Finished gate =
+      gate_into(folder / "g.json", {"gate", "sun-sky", "--size", "128x64", "--sampler", "squared",
+                                    "--weighting", "B", "--sequential"});
+  EXPECT_EQ(gate.exit_code, 1);
+  EXPECT_THAT(gate.out, AllOf(HasSubstr("grey squared"), HasSubstr("--sequential")));
+  const json results = json_of(folder / "g.json");
+  ASSERT_EQ(results.at("tests").size(), 1U);
+  EXPECT_EQ(results.at("tests")[0].at("test"), "sequential");
+  EXPECT_LT(results.at("tests")[0].at("samples"), 1 << 20);
+}
+
+TEST(GateRejections, AreWrittenAsFiles) {
+  const TemporaryFolder folder;
+  const std::string target = (folder / "rejected").string();
+  const Finished gate = lightproof({"gate", "sun-sky", "--size", "128x64", "--sampler", "squared",
+                                    "-n", "65536", "-q", "--rejections", target});
+  EXPECT_EQ(gate.exit_code, 1);
+  EXPECT_THAT(names_in(folder / "rejected"),
+              ElementsAre("squared-A-sun-sky-residual.exr", "squared-A-sun-sky-residual.png",
+                          "squared-A-sun-sky.json", "squared-B-sun-sky-residual.exr",
+                          "squared-B-sun-sky-residual.png", "squared-B-sun-sky.json"));
+  const json rejection = json_of(folder / "rejected" / "squared-B-sun-sky.json");
+  EXPECT_EQ(rejection.at("looks_like"), "squared");
+  EXPECT_EQ(rejection.at("worst_bins").size(), 20U);
+  EXPECT_EQ(rejection.at("row_divergence").size(), 64U);
+  const std::string replay = rejection.at("replay");
+  EXPECT_THAT(replay, AllOf(HasSubstr("--sampler squared"), HasSubstr("--size 128x64"),
+                            HasSubstr("--samples 65536"), HasSubstr("--seed 1")));
+}
+
+// Without --seed it is the date, in eight digits.
+TEST(GateLevel, OfTheNightHasAnotherSeedEveryDay) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(gate_into(folder / "g.json", {"gate", "constant", "--size", "8x4", "--sampler",
+                                          "linear_scan", "--weighting", "B", "--level", "nightly"})
+                .exit_code,
+            0);
+  const json results = json_of(folder / "g.json");
+  EXPECT_EQ(results.at("samples"), 1 << 26);
+  EXPECT_GT(results.at("seed"), 20200101);
+  EXPECT_LT(results.at("seed"), 30000000);
+}
+
 }  // namespace
 }  // namespace lightproof::test

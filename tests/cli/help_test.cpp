@@ -42,15 +42,16 @@ Words with_common(Words words) {
 
 INSTANTIATE_TEST_SUITE_P(
     Commands, Help,
-    testing::Values(
-        HelpCase{"", {"study", "gate", "list", "--version", "Usage: lightproof"}},
-        HelpCase{"gate", with_common({"--sampler", "--weighting", "--level", "--json", "--junit",
-                                      "--markdown", "--github", "Exit codes", "inconclusive"})},
-        HelpCase{"study",
-                 with_common({"-o,--output", "--throughput", "--no-throughput", "Exit codes"})},
-        HelpCase{
-            "list",
-            {"samplers", "maps", "presets", "materials", "receivers", "strategies", "--json"}}),
+    testing::Values(HelpCase{"", {"study", "gate", "list", "--version", "Usage: lightproof"}},
+                    HelpCase{"gate",
+                             with_common({"--sampler", "--weighting", "--level", "--json",
+                                          "--junit", "--markdown", "--github", "--sequential",
+                                          "--rejections", "Exit codes", "inconclusive"})},
+                    HelpCase{"study", with_common({"-o,--output", "--throughput", "--no-throughput",
+                                                   "--no-self-test", "Exit codes"})},
+                    HelpCase{"list",
+                             {"samplers", "maps", "presets", "materials", "receivers", "strategies",
+                              "--json"}}),
     [](const auto& test) {
       return test.param.subcommand.empty() ? "lightproof" : test.param.subcommand;
     });

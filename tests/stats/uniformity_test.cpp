@@ -21,6 +21,16 @@ TEST(KuiperTail, HasTheTabulatedPercentagePoints) {
   }
 }
 
+// Critical values of sqrt(N) D for large N (Smirnov 1948).
+TEST(KolmogorovTail, HasTheTabulatedPercentagePoints) {
+  for (const auto& [x, p] : {std::pair(1.2238, 0.10), std::pair(1.3581, 0.05),
+                             std::pair(1.6276, 0.01), std::pair(1.9495, 0.001)}) {
+    EXPECT_NEAR(std::pow(10.0, log10_kolmogorov_tail(x)) / p, 1.0, 0.002) << x;
+  }
+  EXPECT_EQ(log10_kolmogorov_tail(0.1), 0.0);
+  EXPECT_NEAR(log10_kolmogorov_tail(30.0), std::log10(2.0) - 1800.0 / std::log(10.0), 1e-9);
+}
+
 TEST(KuiperTail, KeepsItsLogarithmFarOut) {
   // The first term alone: 2 (4 v^2 - 1) exp(-2 v^2).
   const double v = 40.0;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/image/synthetic.h"
@@ -170,6 +171,58 @@ TEST(Gate, LooksAgainAtWhatIsSuspiciousWithFourTimesTheSamples) {
     }
   }
   EXPECT_EQ(rejected_again, 1);
+}
+
+// Sums in steps of 2^-8: their own rounding makes an effect that is larger than what 2^20 samples
+// can see, so an acceptance says nothing finer.
+TEST(Gate, SaysWhereTheResolutionOfTheSamplerIsTheLimit) {
+  const EnvironmentMap map = make_synthetic_map("gradient", kExtent);
+  Subject subject = subject_of(sampler_by_name("binary_search"), Weighting::B);
+  const auto texels = [&] {
+    const GateResult result = run_gate({&map, 1}, {&subject, 1}, {.samples = 1U << 20U});
+    EXPECT_EQ(overall_outcome(result, true), Outcome::accept);
+    return *std::find_if(result.tests.begin(), result.tests.end(),
+                         [](const TestRecord& test) { return test.test == "texels"; });
+  };
+  EXPECT_EQ(texels().detail, "");
+  subject.resolution = 0x1p-8;
+  const TestRecord coarse = texels();
+  EXPECT_GT(*coarse.resolution_floor, *coarse.detectable_effect);
+  EXPECT_THAT(coarse.detail, testing::HasSubstr("resolution-limited"));
+}
+
+// The effect that rounding makes, against sums that are in fact rounded: to a float's step below 1,
+// on a 128 x 64 map with a sun.
+TEST(Expectation, RoundingEffectIsThatOfRoundedSums) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", kExtent);
+  const Expectation expectation = expectation_of(map, {Weighting::B, kRec709});
+  constexpr double kStep = 0x1p-24;
+  const auto rounded_shares = [](std::span<const double> masses) {
+    const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
+    std::vector<double> shares;
+    double sum = 0.0;
+    double below = 0.0;
+    for (const double mass : masses) {
+      sum += mass;
+      const double knot = std::round(sum / total / kStep) * kStep;
+      shares.push_back(knot - below);
+      below = knot;
+    }
+    return shares;
+  };
+  const std::vector<double> rows = rounded_shares(expectation.rows);
+  double square = 0.0;
+  for (int y = 0; y < kExtent.height; ++y) {
+    const std::vector<double> shares = rounded_shares(expectation.masses.row(y));
+    for (int x = 0; x < kExtent.width; ++x) {
+      const double p = expectation.masses(x, y);
+      const double q = rows[static_cast<std::size_t>(y)] * shares[static_cast<std::size_t>(x)];
+      if (p > 0.0) square += (q - p) * (q - p) / p;
+    }
+  }
+  std::printf("w = %.3g of %.3g\n", std::sqrt(square), expectation.rounding_effect * kStep);
+  // An average over places of 8192 knots.
+  EXPECT_NEAR(std::sqrt(square) / (expectation.rounding_effect * kStep), 1.0, 0.2);
 }
 
 TEST(Gate, TooFewSamplesAreInconclusive) {

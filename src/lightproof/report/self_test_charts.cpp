@@ -95,7 +95,7 @@ std::string kill_chart(const std::vector<KillRecord>& mutants) {
                     {"grid", true}}}};
   const Json colour = {{"field", "samples"},
                        {"type", "ordinal"},
-                       {"title", "fewest samples that it takes"},
+                       {"title", "samples"},
                        {"scale", {{"scheme", "viridis"}, {"reverse", true}}},
                        {"legend", {{"format", ",d"}, {"columns", 6}}}};
   const Json border = {{"condition", {{"test", "datum.named == 'yes'"}, {"value", "#1d232a"}}},
@@ -111,9 +111,13 @@ std::string kill_chart(const std::vector<KillRecord>& mutants) {
 
 std::string calibration_chart(const std::vector<CalibrationRecord>& tests) {
   const std::vector<SeriesStyle> styles = series_styles({"exact", "bound: may be too large"});
-  Json lines = {{"mark", {{"type", "line"}, {"strokeWidth", 1.3}, {"opacity", 0.75}}}};
+  const double limit = calibration_limit(tests.front().replicates);
+  Json y = quantity("deviation", "share of p-values below, less p", "linear");
+  y["scale"]["domain"] = {-2.0 * limit, 1.5 * limit};
+  Json lines = {
+      {"mark", {{"type", "line"}, {"strokeWidth", 1.3}, {"opacity", 0.75}, {"clip", true}}}};
   lines["encoding"] = {{"x", quantity("p", "p-value", "linear")},
-                       {"y", quantity("deviation", "share of p-values below, less p", "linear")},
+                       {"y", y},
                        {"color", series(styles, &SeriesStyle::colour, {{"title", nullptr}})},
                        {"detail", {{"field", "test"}}},
                        {"tooltip",
@@ -121,7 +125,7 @@ std::string calibration_chart(const std::vector<CalibrationRecord>& tests) {
                          tooltip("deviation", "deviation", ".4f")}}};
   Json chart = base_chart(340);
   chart["data"] = {{"values", deviation_rows(tests)}};
-  chart["layer"] = {lines, limits(calibration_limit(tests.front().replicates))};
+  chart["layer"] = {lines, limits(limit)};
   return text_of(chart);
 }
 

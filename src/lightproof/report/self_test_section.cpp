@@ -139,7 +139,7 @@ constexpr std::string_view kKillNote =
     "samples.";
 constexpr std::string_view kCalibrationNote =
     "One line for each test; dashed lines are the limits. The worst of many cells has a bound in "
-    "place of a p-value: it may run below zero, never above.";
+    "place of a p-value: it may run far below zero, never above.";
 constexpr std::string_view kPowerNote =
     "Lines are predicted from the exact law, points are measured, bars are two standard errors. "
     "Tests at a level of 0.001.";

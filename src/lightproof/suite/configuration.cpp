@@ -39,7 +39,8 @@ class Records {
     // With a single possible cell every sample is in it, unless it is an impossible hit.
     if (fit.dof == 0.0 && fit.possible_cells <= 1) record.outcome = Outcome::accept;
     if (fit.dof == 0.0 && fit.possible_cells > 1) record.detail = "too few samples for two pools";
-    if (fit.too_even) record.detail = "counts nearer to the expectation than chance makes them";
+    if (fit.too_even && fit.log10_p < -3.0)
+      record.detail = "counts nearer to the expectation than chance makes them";
     if (fit.impossible_hits > 0) {
       record.detail = fmt::format("{} samples in cells without light, the first is cell {}",
                                   fit.impossible_hits, *fit.first_impossible);
