@@ -101,7 +101,11 @@ std::vector<LightMoments> light_moments(const Kernel& kernel,
   const Extent extent = radiance.front().extent();
   assert(std::all_of(radiance.begin(), radiance.end(),
                      [&](const auto& grid) { return grid.extent() == extent; }));
-  const SphereQuadrature quadrature(extent);
+  // Large texels are divided first, so that only those parts are split where an edge may run.
+  constexpr Extent kLeast = SphereQuadrature::kLeastCells;
+  const Extent parts = {(kLeast.width + extent.width - 1) / extent.width,
+                        (kLeast.height + extent.height - 1) / extent.height};
+  const SphereQuadrature quadrature({extent.width * parts.width, extent.height * parts.height});
   std::vector<Totals> totals;
   for (const auto& grid : radiance) totals.push_back(totals_of(grid));
 
@@ -114,11 +118,16 @@ std::vector<LightMoments> light_moments(const Kernel& kernel,
                                     [&](const auto& grid) { return grid(x, y) == 0.0; });
       if (dark) continue;
       TexelIntegrals texel;
-      const bool split = kernel.straddles(quadrature.centre(x, y), quadrature.radius());
-      quadrature.visit(x, y, split, [&](const Node& node) {
+      const auto add_node = [&](const Node& node) {
         const KernelValue value = kernel.at(node.direction);
         if (value.k > 0.0) texel.add(value, node);
-      });
+      };
+      for (int j = y * parts.height; j < (y + 1) * parts.height; ++j) {
+        for (int i = x * parts.width; i < (x + 1) * parts.width; ++i) {
+          const bool split = kernel.straddles(quadrature.centre(i, j), quadrature.radius());
+          quadrature.visit(i, j, split, add_node);
+        }
+      }
       if (texel.plain[0] == 0.0) continue;
       for (std::size_t map = 0; map < radiance.size(); ++map) {
         if (radiance[map](x, y) == 0.0) continue;  // whatever the powers of 1/pdf are

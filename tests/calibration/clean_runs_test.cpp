@@ -10,7 +10,7 @@ namespace {
 
 TEST(CleanRuns, NoneOfTwoHundredSeedsRejectsASoundSampler) {
   std::vector<EnvironmentMap> maps;
-  for (const SyntheticMap& entry : synthetic_maps()) maps.push_back(entry.make({64, 32}));
+  for (const SyntheticMap& entry : synthetic_maps()) maps.push_back(entry.make({32, 16}));
   std::vector<Subject> sound = all_subjects();
   std::erase_if(sound, [](const Subject& subject) { return subject.known_defects; });
   std::vector<Problem> problems = problems_of(maps, sound);
@@ -20,7 +20,7 @@ TEST(CleanRuns, NoneOfTwoHundredSeedsRejectsASoundSampler) {
     problem.expectation = [expectation] { return *expectation; };
   }
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    const GateResult result = run_gate(problems, {.samples = 1U << 14U, .seed = seed});
+    const GateResult result = run_gate(problems, {.samples = 1U << 13U, .seed = seed});
     for (const TestRecord& test : result.tests) {
       EXPECT_NE(test.outcome, Outcome::reject)
           << test.sampler << " " << test.weighting << " on " << test.map << ": " << test.oracle

@@ -120,12 +120,25 @@ TEST_F(Study, NamesFilesWithoutSpaces) {
 
 TEST_F(Study, LeavesNoPartsBehind) { EXPECT_THAT(parts_in(path("")), IsEmpty()); }
 
+/// Tests of maps, without what depends on the number of all tests: a study has more.
+std::vector<json> verdicts_on_maps(const json& gate) {
+  std::vector<json> tests;
+  for (json test : gate.at("tests")) {
+    test.erase("detectable_effect");
+    if (test.at("map") != "directions") tests.push_back(std::move(test));
+  }
+  return tests;
+}
+
 TEST_F(Study, FindsTheSameAsTheGate) {
   const json gate = json_of(path("results.json")).at("gate");
   const TemporaryFolder folder;
   lightproof({"gate", "constant", "--size", "32x16", "-n", "65536", "-q", "--json",
               (folder / "g.json").string()});
-  EXPECT_EQ(gate, json_of(folder / "g.json"));
+  const json alone = json_of(folder / "g.json");
+  EXPECT_TRUE(verdicts_on_maps(gate) == verdicts_on_maps(alone));
+  EXPECT_EQ(gate.at("rejections"), alone.at("rejections"));
+  EXPECT_GT(gate.at("tests").size(), alone.at("tests").size());
 }
 
 TEST_F(Study, OnAFullDiskNamesFileAndReason) {

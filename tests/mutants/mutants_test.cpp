@@ -43,7 +43,6 @@ constexpr Kill kKills[] = {
     {"self", "mean of 1/pdf", "weights-2-percent-off"},
     {"mean", "irradiance, normal +z", "weights-2-percent-off"},
     {"mean", "irradiance, normal +x", "weights-2-percent-off"},
-    {"mean", "irradiance, normal +z, against uniform", "pi-squared"},
     {"mean", "irradiance, normal +x, against uniform", "pi-squared"},
     {"variance", "irradiance, normal +z", "noisy-weights"},
     {"variance", "irradiance, normal +x", "noisy-weights"},

@@ -74,6 +74,40 @@ TEST(CressieReadCalibration, PValuesOfPooledCellsAreUniform) {
   expect_uniform(p_values("CressieReadCalibration.PValuesOfPooledCellsAreUniform", 256, 170));
 }
 
+// 64 cells, expected 32 times and more in the smaller sample.
+TEST(TwoSamplesCalibration, PValuesAreUniform) {
+  const TwoSteps law(64, 0.0);
+  const RandomStream first("TwoSamplesCalibration.first", 1);
+  const RandomStream second("TwoSamplesCalibration.second", 1);
+  std::vector<double> log10_p;
+  for (std::uint64_t replicate = 0; replicate < 2000; ++replicate) {
+    log10_p.push_back(
+        two_sample_fit(law.counts(first, replicate, 16384), law.counts(second, replicate, 4096))
+            .log10_p);
+  }
+  expect_uniform(log10_p);
+}
+
+// At the planned effect two samples of N and N/4 reject like one of N/5.
+TEST(TwoSamplesPower, IsThatOfTheHarmonicSize) {
+  constexpr double kAlpha = 1e-3;
+  constexpr std::uint64_t kFirst = 16384;
+  const double w = detectable_w(63.0, kAlpha, 0.5, kFirst / 5.0);
+  const TwoSteps law(64, 0.0);
+  const TwoSteps defect(64, w);
+  const RandomStream first("TwoSamplesPower.first", 1);
+  const RandomStream second("TwoSamplesPower.second", 1);
+  int rejected = 0;
+  for (std::uint64_t replicate = 0; replicate < 1000; ++replicate) {
+    const GoodnessOfFit fit = two_sample_fit(defect.counts(first, replicate, kFirst),
+                                             law.counts(second, replicate, kFirst / 4));
+    rejected += fit.log10_p < std::log10(kAlpha) ? 1 : 0;
+  }
+  // Half of 1000 within five standard deviations of 16 (one in a million), and 2 % for the
+  // approximation by a non-central chi-square.
+  EXPECT_NEAR(rejected, 500, 5 * 16 + 20);
+}
+
 /// The share of the mass that must move for an effect w, and its test at the planned N.
 class PlantedDefect {
  public:

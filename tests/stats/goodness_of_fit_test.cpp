@@ -300,6 +300,32 @@ TEST(WorstCell, FindsAnOutlierInAFaintCellThatMovesNoSum) {
   EXPECT_GT(cressie_read(counts, probability, kSamples).log10_p, -3.0);
 }
 
+// Pearson's statistic of the table {40, 60}, {60, 40} is four times 10^2 / 50; Cressie and Read's
+// divergence is within a few percent of it.
+TEST(TwoSamples, OfTwoCellsAreNearPearson) {
+  const std::vector<std::uint64_t> first = {40, 60};
+  const std::vector<std::uint64_t> second = {60, 40};
+  const GoodnessOfFit fit = two_sample_fit(first, second);
+  EXPECT_EQ(fit.dof, 1.0);
+  EXPECT_NEAR(fit.statistic, 8.0, 0.2);
+  EXPECT_NEAR(fit.statistic, two_sample_fit(second, first).statistic, 1e-12);
+}
+
+TEST(TwoSamples, InTheSameProportionsAgreeWhateverTheirSizes) {
+  const std::vector<std::uint64_t> few = {30, 60, 90};
+  const std::vector<std::uint64_t> many = {300, 600, 900};
+  EXPECT_NEAR(two_sample_fit(few, many).statistic, 0.0, 1e-9);
+  EXPECT_EQ(two_sample_fit(few, many).dof, 2.0);
+}
+
+TEST(TwoSamples, PoolThinCellsAndLeaveEmptyOnesOut) {
+  const std::vector<std::uint64_t> first = {0, 20, 20, 0, 200, 3};
+  const std::vector<std::uint64_t> second = {0, 20, 20, 0, 200, 3};
+  const GoodnessOfFit fit = two_sample_fit(first, second);
+  EXPECT_EQ(fit.dof, 1.0);
+  EXPECT_EQ(fit.possible_cells, 4U);
+}
+
 TEST(Serpentine, TurnsEverySecondRow) {
   Grid<int> grid({3, 3});
   std::iota(grid.values().begin(), grid.values().end(), 0);

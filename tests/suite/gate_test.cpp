@@ -152,6 +152,17 @@ TEST(Gate, FindsASingleTexelThatDiffersFromLinearScan) {
   EXPECT_THAT(rejections(result), testing::Contains("check/same texel as linear_scan"));
 }
 
+TEST(Gate, FindsASamplerThatDrawsAnotherLawThanItsTwin) {
+  const EnvironmentMap map = make_synthetic_map("constant", kExtent);
+  const Subject subject = changed([](TexelSample& sample) {
+    if (sample.x >= 2) return;
+    sample.x += 64;
+    sample.at.s += 64.0 / kExtent.width;
+  });
+  const GateResult result = run_gate({&map, 1}, {&subject, 1}, {.samples = 1U << 16U});
+  EXPECT_THAT(rejections(result), testing::Contains("reference/two samples with linear_scan"));
+}
+
 // Densities 0.4 % too small: the mean of the estimator is 0.4 % too large. On the constant map and
 // towards a pole X = 4 pi cos(theta)+ has a relative variance of 5/3: the deviation is 3.2 standard
 // errors at 2^20 samples and 6.3 at 2^22. So the first stage, with 2^20, finds it suspicious (3.3

@@ -95,6 +95,15 @@ void add_warps(std::vector<DirectionMutant>& all) {
                              return cosine_hemisphere_from_square({u.t, u.t});
                            },
                            cosine_hemisphere_pdf)));
+  all.push_back(mutant({"leak-below-horizon", "one sample in a hundred mirrored below the horizon",
+                        "cosine_hemisphere", "below-horizon", "reference"},
+                       [](SquarePoint u) {
+                         Direction d = cosine_hemisphere_from_square(u);
+                         const PerSteradian pdf = cosine_hemisphere_pdf(d);
+                         // Chosen by the number's later digits, at any height.
+                         if (1000.0 * u.t - std::floor(1000.0 * u.t) < 0.01) d.z = -d.z;
+                         return DrawnDirection{d, pdf};
+                       }));
   all.push_back(mutant(
       {"whole-sphere", "the lower half drawn as well", "uniform_hemisphere", "sphere", "reference"},
       drawn([](SquarePoint u) { return direction_around_z(1.0 - 2.0 * u.t, u.s); },

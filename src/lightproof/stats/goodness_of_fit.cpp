@@ -47,6 +47,20 @@ std::vector<Pool> pool_cells(std::span<const Count> observed, std::span<const do
   return pools;
 }
 
+/// The p-value of a statistic with its degrees of freedom.
+void judge(GoodnessOfFit& fit) {
+  if (fit.dof <= 0.0) return;
+  fit.log10_p = log10_chi_square_tail(fit.statistic, fit.dof);
+  if (fit.dof < kLeastDofForLowerTail) return;
+  const double lower = log10_chi_square_lower(fit.statistic, fit.dof);
+  fit.too_even = lower < fit.log10_p;
+  fit.log10_p = std::min(0.0, std::min(fit.log10_p, lower) + std::log10(2.0));
+}
+
+double sum_of(std::span<const std::uint64_t> counts) {
+  return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
+}
+
 }  // namespace
 
 GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
@@ -67,15 +81,37 @@ GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
   fit.dof = pools.empty() ? 0.0 : static_cast<double>(pools.size() - 1);
   if (fit.impossible_hits > 0) {
     fit.log10_p = -INFINITY;
-  } else if (fit.dof > 0.0) {
-    fit.log10_p = log10_chi_square_tail(fit.statistic, fit.dof);
-    if (fit.dof >= kLeastDofForLowerTail) {
-      const double lower = log10_chi_square_lower(fit.statistic, fit.dof);
-      fit.too_even = lower < fit.log10_p;
-      fit.log10_p = std::min(0.0, std::min(fit.log10_p, lower) + std::log10(2.0));
-    }
+  } else {
+    judge(fit);
   }
   fit.effect = std::sqrt(std::max(0.0, fit.statistic - fit.dof) / n);
+  return fit;
+}
+
+GoodnessOfFit two_sample_fit(std::span<const std::uint64_t> first,
+                             std::span<const std::uint64_t> second) {
+  assert(first.size() == second.size());
+  const double n1 = sum_of(first);
+  const double n2 = sum_of(second);
+  std::vector<double> share;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    share.push_back(static_cast<double>(first[i] + second[i]) / (n1 + n2));
+  }
+  // Pools depend on the shares alone: those of the smaller sample do for both.
+  const double fewer = std::min(n1, n2);
+  const std::vector<Pool> pools =
+      pool_cells<std::uint64_t>(n1 <= n2 ? first : second, share, fewer);
+  GoodnessOfFit fit;
+  fit.possible_cells = static_cast<std::size_t>(
+      std::count_if(share.begin(), share.end(), [](double p) { return p > 0.0; }));
+  for (const Pool& pool : pools) {
+    const double both = pool.expected / fewer * (n1 + n2);
+    const double rest = both - pool.observed;
+    fit.statistic += cell_divergence(pool) + cell_divergence({rest, both - pool.expected});
+  }
+  fit.dof = pools.empty() ? 0.0 : static_cast<double>(pools.size() - 1);
+  judge(fit);
+  fit.effect = std::sqrt(std::max(0.0, fit.statistic - fit.dof) * (n1 + n2) / (n1 * n2));
   return fit;
 }
 

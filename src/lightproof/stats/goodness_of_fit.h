@@ -35,6 +35,11 @@ struct GoodnessOfFit {
 GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
                            std::span<const double> probability, std::uint64_t samples);
 
+/// Whether two samples are of one law, whatever it is: the same divergence of both from their common
+/// shares, on cells pooled until each sample expects 25. `impossible_hits` stays 0.
+GoodnessOfFit two_sample_fit(std::span<const std::uint64_t> first,
+                             std::span<const std::uint64_t> second);
+
 /// The cell that is farthest from its expectation.
 struct WorstCell {
   std::size_t cells = 0;   ///< of positive expectation

@@ -13,7 +13,7 @@ namespace lightproof {
 struct CalibrationOptions {
   std::uint64_t seed = 1;
   std::uint64_t replicates = 10000;  ///< p-values for each test
-  std::uint64_t samples = 8192;      ///< behind each p-value
+  std::uint64_t samples = 4096;      ///< behind each p-value
   std::uint64_t runs = 1000;         ///< whole runs of the gate
   std::uint64_t run_samples = 4096;
   double family_alpha = 0.05;  ///< scaled up, so that false alarms can be counted

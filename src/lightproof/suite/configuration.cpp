@@ -47,6 +47,20 @@ class Records {
     }
   }
 
+  /// `share`: of the other sample, of both.
+  void add_two_samples(std::string_view test, const GoodnessOfFit& fit, double share) {
+    auto& [record, detectable] = add("reference", test);
+    record.statistic = fit.statistic;
+    record.dof = fit.dof;
+    record.effect = fit.effect;
+    if (fit.possible_cells <= 1) record.outcome = Outcome::accept;
+    if (fit.dof <= 0.0) return;
+    record.log10_p = fit.log10_p;
+    detectable = [dof = fit.dof, share](double level, double power, double samples) {
+      return detectable_w(dof, level, power, samples * share);
+    };
+  }
+
   template <class Detectable>
   void add_uniformity(std::string_view test, const UniformityTest& uniformity,
                       const Detectable& found) {
@@ -239,6 +253,21 @@ std::vector<Measured> test_draws(const Configuration& configuration, const Expec
               {uniform[i], expectation.uniform[i]});
   }
   add_moments(records, "self", "mean of 1/pdf", draws.inverse_pdf, expectation.inverse_pdf);
+  return records.take();
+}
+
+std::vector<Measured> test_against_twin(const Configuration& configuration,
+                                        const Expectation& expectation, const Draws& draws,
+                                        std::string_view purpose) {
+  if (!configuration.candidate->twin) return {};
+  const std::uint64_t samples = draws.samples / 4;
+  const Draws other = draw_samples(configuration.candidate->twin(), expectation,
+                                   configuration.stream(purpose), {0, samples});
+  Records records(configuration, draws.samples);
+  records.add_two_samples(
+      "two samples with linear_scan",
+      two_sample_fit(serpentine(draws.bins), serpentine(other.bins)),
+      static_cast<double>(samples) / static_cast<double>(samples + draws.samples));
   return records.take();
 }
 

@@ -40,6 +40,12 @@ std::vector<Measured> test_draws(const Configuration& configuration, const Expec
                                  const OwnDensity& own, const Draws& draws,
                                  const UniformEstimates& uniform);
 
+/// Both draw their own numbers, the twin a quarter as many: are they of one law? None without a
+/// twin.
+std::vector<Measured> test_against_twin(const Configuration& configuration,
+                                        const Expectation& expectation, const Draws& draws,
+                                        std::string_view purpose);
+
 /// The checks that need no statistics.
 std::vector<Measured> test_exactly(const Configuration& configuration,
                                    const Expectation& expectation, const BoundSampler& sampler,

@@ -173,6 +173,17 @@ constexpr OtherLobes kOtherLobes[] = {
      }},
     {"exponent-one-more", "an exponent of n + 2 where n + 1 belongs: the lobe is that of n + 1",
      [](Lobes lobes) { return each(std::move(lobes), [](auto& lobe) { lobe.exponent += 1.0; }); }},
+    {"below-horizon", "some samples are mirrored below the horizon",
+     [](Lobes lobes) {
+       const std::size_t count = lobes.size();
+       for (std::size_t i = 0; i < count; ++i) {
+         const reference::CosineLobe lobe = lobes[i];
+         lobes.push_back(
+             {{lobe.axis.x, lobe.axis.y, -lobe.axis.z}, lobe.exponent, 0.01 * lobe.share});
+         lobes[i].share *= 0.99;
+       }
+       return lobes;
+     }},
     {"lobe-around-normal", "the lobe stands on the normal instead of the mirrored view",
      [](Lobes lobes) { return each(std::move(lobes), [](auto& lobe) { lobe.axis = kUp; }); }},
     {"lobe-around-view", "the lobe stands on the view instead of the mirrored one",

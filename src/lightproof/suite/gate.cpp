@@ -50,6 +50,10 @@ Yardstick yardstick_of(const Problem& problem, const Expectation& expectation, s
   return {expectation, samples, draw_uniformly(expectation, stream, samples)};
 }
 
+void append(std::vector<Measured>& tests, std::vector<Measured> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(tests));
+}
+
 Slot run_first(const Configuration& configuration, const Yardstick& yardstick) {
   const Expectation& expectation = yardstick.expectation;
   const BoundSampler sampler = configuration.candidate->bind();
@@ -58,8 +62,8 @@ Slot run_first(const Configuration& configuration, const Yardstick& yardstick) {
       draw_samples(sampler, expectation, configuration.stream("draws"), {0, yardstick.samples});
   Slot slot{test_draws(configuration, expectation, own, draws, yardstick.uniform), std::nullopt,
             own};
-  auto exact = test_exactly(configuration, expectation, sampler, own, draws);
-  std::move(exact.begin(), exact.end(), std::back_inserter(slot.tests));
+  append(slot.tests, test_against_twin(configuration, expectation, draws, "twin"));
+  append(slot.tests, test_exactly(configuration, expectation, sampler, own, draws));
   const bool clean = std::all_of(slot.tests.begin(), slot.tests.end(), [](const Measured& test) {
     const TestRecord& r = test.record;
     return r.log10_p ? *r.log10_p >= std::log10(kSuspicious) : r.outcome == Outcome::accept;
@@ -81,7 +85,8 @@ void run_again(const Configuration& configuration, const Yardstick& yardstick, d
   const BoundSampler sampler = configuration.candidate->bind();
   const Draws draws = draw_samples(sampler, expectation, configuration.stream("draws again"),
                                    {0, yardstick.samples});
-  const auto again = test_draws(configuration, expectation, slot.own, draws, yardstick.uniform);
+  auto again = test_draws(configuration, expectation, slot.own, draws, yardstick.uniform);
+  append(again, test_against_twin(configuration, expectation, draws, "twin again"));
   for (Measured& test : slot.tests) {
     if (!is_suspicious(test, at_once)) continue;
     const auto same = std::find_if(again.begin(), again.end(), [&](const Measured& other) {
