@@ -17,8 +17,14 @@ struct TexelIntegrals {
   std::array<double, 4> plain = {};     ///< k^m
   std::array<double, 4> sine = {};      ///< k^m sin^(m-1)(theta)
   std::array<double, 4> material = {};  ///< k^m / pdf^(m-1)
+  double largest = 0.0;                 ///< k
+  double largest_sine = 0.0;            ///< k sin(theta)
+  double largest_ratio = 0.0;           ///< k / pdf
 
   void add(const KernelValue& value, const Node& node) {
+    largest = std::max(largest, value.k);
+    largest_sine = std::max(largest_sine, value.k * node.sin_theta);
+    if (value.pdf > 0.0) largest_ratio = std::max(largest_ratio, value.k / value.pdf);
     double p = value.k * node.solid_angle;
     double q = p;
     double r = p;
@@ -54,6 +60,13 @@ Totals totals_of(const Grid<double>& radiance) {
 void accumulate(LightMoments& moments, double radiance, const Totals& totals,
                 const TexelIntegrals& texel) {
   const double a = 2.0 * kPi * kPi * totals.mean;
+  const auto raise = [](EstimatorMoments& m, double x) { m.largest = std::max(m.largest, x); };
+  raise(moments.uniform, kSphere * radiance * texel.largest);
+  raise(moments.material, radiance * texel.largest_ratio);
+  if (radiance > 0.0) {
+    raise(moments.environment_a, a * texel.largest_sine);
+    raise(moments.environment_b, totals.solid_angle_sum * texel.largest);
+  }
   double uniform = radiance;
   double material = radiance;
   double environment_a = radiance;
@@ -72,15 +85,12 @@ void accumulate(LightMoments& moments, double radiance, const Totals& totals,
 
 void merge(EstimatorMoments& into, const EstimatorMoments& from) {
   for (std::size_t m = 0; m < into.raw.size(); ++m) into.raw[m] += from.raw[m];
+  into.largest = std::max(into.largest, from.largest);
 }
 
 }  // namespace
 
 double EstimatorMoments::variance() const { return std::max(0.0, raw[1] - raw[0] * raw[0]); }
-
-double EstimatorMoments::third_central() const {
-  return raw[2] - 3.0 * raw[0] * raw[1] + 2.0 * raw[0] * raw[0] * raw[0];
-}
 
 double EstimatorMoments::fourth_central() const {
   const double m = raw[0];

@@ -30,8 +30,7 @@ double at_least(std::uint64_t count, std::uint64_t trials, double rate) {
 }
 
 TEST(Calibration, CoversEveryTestThatHasAPValue) {
-  // Welch's test needs more samples: tests/stats calibrates it.
-  EXPECT_EQ(calibration().tests.size(), 16U);
+  EXPECT_EQ(calibration().tests.size(), 18U);
   for (const CalibrationRecord& record : calibration().tests) {
     EXPECT_EQ(record.replicates, 10000U) << record.test;
   }
@@ -65,10 +64,12 @@ TEST(Calibration, RunsAreWrongAsRarelyAsTheyPromise) {
     EXPECT_GT(at_least(family.rejected, family.runs, family.family_alpha), kAlpha)
         << family.procedure << ": " << family.rejected << " of " << family.runs;
   }
-  // Holm over one stage is not far below its bound: half of it, for tests that depend on each
-  // other.
-  const FamilyRecord& one_stage = calibration().families[0];
-  EXPECT_GT(at_most(one_stage.rejected, one_stage.runs, 0.5 * one_stage.family_alpha), kAlpha);
+  // And not far below its bound, although tests depend on each other: above a fifth of it, with an
+  // error probability of one in a hundred.
+  for (const FamilyRecord& family : calibration().families) {
+    EXPECT_LT(at_least(family.rejected, family.runs, 0.2 * family.family_alpha), 0.01)
+        << family.procedure << ": " << family.rejected << " of " << family.runs;
+  }
 }
 
 }  // namespace

@@ -187,7 +187,6 @@ TEST(GateSequential, StopsBeforeAllSamplesAndSaysHowToRunItAgain) {
   EXPECT_EQ(gate.exit_code, 1);
   EXPECT_THAT(gate.out, AllOf(HasSubstr("grey squared"), HasSubstr("--sequential")));
   const json results = json_of(folder / "g.json");
-  ASSERT_EQ(results.at("tests").size(), 1U);
   EXPECT_EQ(results.at("tests")[0].at("test"), "sequential");
   EXPECT_LT(results.at("tests")[0].at("samples"), 1 << 20);
 }

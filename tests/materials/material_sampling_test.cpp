@@ -140,8 +140,8 @@ TEST_P(EveryCase, EstimatorOfTheAlbedoHasItsMeanAndVariance) {
   }
   const double fourth =
       raw[4] - 4.0 * raw[1] * raw[3] + 6.0 * raw[1] * raw[1] * raw[2] - 3.0 * std::pow(raw[1], 4);
-  EXPECT_GT(mean_test(weights, raw[1], variance).log10_p, kLog10Alpha);
-  EXPECT_GT(variance_test(weights, variance, fourth).log10_p, kLog10Alpha);
+  EXPECT_GT(mean_test(weights, {raw[1], variance}).log10_p, kLog10Alpha);
+  EXPECT_GT(variance_test(weights, {raw[1], variance}, fourth).log10_p, kLog10Alpha);
 }
 
 TEST_P(EveryCase, EdgesOfTheSquareGiveDirections) {

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "lightproof/image/synthetic.h"
 #include "lightproof/mutants/direction_mutant.h"
 #include "lightproof/mutants/kill_matrix.h"
 #include "lightproof/mutants/mutant.h"
@@ -131,6 +132,51 @@ TEST(KillMatrix, EveryMutantIsKilledByItsOracleAndNamed) {
     EXPECT_THAT(oracles, Contains(record.oracle)) << record.mutant;
     EXPECT_EQ(record.looks_like, record.expected_diagnosis) << record.mutant;
   }
+}
+
+// A map and a billion times as bright a one are the same map, to the gate and to its diagnosis. Not
+// to the mutant with an absolute threshold, which is why it is one.
+TEST(Mutants, AreJudgedAlikeAtAnyExposure) {
+  std::vector<Subject> subjects;
+  for (const Mutant& mutant : mutants()) {
+    if (mutant.name != "rows-below-threshold") {
+      subjects.push_back(subject_of(mutant, Weighting::B));
+    }
+  }
+  const auto verdicts_at = [&](float scale) {
+    EnvironmentMap map = hostile_map();
+    for (Rgb& rgb : map.radiance.values()) rgb *= scale;
+    const GateResult result = run_gate({&map, 1}, subjects, {.samples = 1U << 16U});
+    std::vector<std::string> verdicts;
+    for (const Rejection& rejection : result.rejections) {
+      verdicts.push_back(rejection.sampler + ": " + rejection.looks_like);
+    }
+    return verdicts;
+  };
+  const std::vector<std::string> verdicts = verdicts_at(1.0F);
+  EXPECT_GT(verdicts.size(), subjects.size() / 2);
+  EXPECT_EQ(verdicts_at(0x1p-30F), verdicts);
+  EXPECT_EQ(verdicts_at(0x1p30F), verdicts);
+}
+
+// On maps that were not made for it the gate names what it rejects rightly four times out of five.
+TEST(Mutants, AreNamedRightlyOnOtherMapsToo) {
+  std::vector<EnvironmentMap> maps;
+  for (const char* name : {"sun-sky", "gradient"}) {
+    maps.push_back(make_synthetic_map(name, {128, 64}));
+  }
+  std::vector<Subject> subjects;
+  for (const Mutant& mutant : mutants()) subjects.push_back(subject_of(mutant, Weighting::A));
+  const GateResult result = run_gate(maps, subjects, {.samples = 1U << 18U});
+  std::size_t right = 0;
+  for (const Rejection& rejection : result.rejections) {
+    const auto all = mutants();
+    const auto mutant = std::find_if(all.begin(), all.end(),
+                                     [&](const Mutant& m) { return m.name == rejection.sampler; });
+    right += mutant->diagnosis == rejection.looks_like ? 1 : 0;
+  }
+  EXPECT_GE(result.rejections.size(), subjects.size());
+  EXPECT_GE(10 * right, 8 * result.rejections.size());
 }
 
 TEST(Mutants, HaveNamesOfTheirOwn) {

@@ -93,7 +93,7 @@ TEST_P(Unoccluded, EveryStrategyAgreesWithQuadrature) {
           EXPECT_NEAR(measured.mean() / moments.mean(), 1.0, 1e-6) << name;
           continue;
         }
-        const ZTest test = mean_test(measured, moments.mean(), moments.variance());
+        const ZTest test = mean_test(measured, {moments.mean(), moments.variance()});
         EXPECT_GT(test.log10_p, log10_level) << name << ": z = " << test.z;
       }
     }

@@ -48,13 +48,14 @@ std::vector<double> p_values(const char* name, const std::function<ZTest(const P
 // distribution function, and in the variance, whose skewness is of order N^-1/2, to 1e-2: the
 // bound of the test is 0.06.
 TEST(MeanTestCalibration, PValuesAreUniform) {
-  expect_uniform(p_values("MeanTestCalibration.PValuesAreUniform",
-                          [](const Pair& p) { return mean_test(p.first, kMean, kVariance); }));
+  expect_uniform(p_values("MeanTestCalibration.PValuesAreUniform", [](const Pair& p) {
+    return mean_test(p.first, {kMean, kVariance});
+  }));
 }
 
 TEST(VarianceTestCalibration, PValuesAreUniform) {
   expect_uniform(p_values("VarianceTestCalibration.PValuesAreUniform", [](const Pair& p) {
-    return variance_test(p.first, kVariance, kFourth);
+    return variance_test(p.first, {kMean, kVariance}, kFourth);
   }));
 }
 
@@ -68,7 +69,7 @@ TEST(MeanTestPower, DetectsAShiftOfTenStandardErrors) {
   // At 4.9 standard errors the test rejects; a deviate below -5.1 has a probability of 2e-7, so
   // that a miss among 2000 has 3e-4 and two have 1e-7.
   int missed = 0;
-  const auto test = [](const Pair& p) { return mean_test(p.first, kMean, kVariance); };
+  const auto test = [](const Pair& p) { return mean_test(p.first, {kMean, kVariance}); };
   for (const double log10_p :
        p_values("MeanTestPower.DetectsAShiftOfTenStandardErrors", test, shift)) {
     if (log10_p > -6.0) ++missed;

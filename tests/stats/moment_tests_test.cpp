@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "lightproof/stats/tails.h"
@@ -28,7 +29,7 @@ constexpr double kRounding = 1e-13;
 
 TEST(MeanTest, OfAHandComputedSample) {
   // Mean 11 of 100 against 10 with variance 25: standard error 0.5.
-  const ZTest test = mean_test(two_values(100, 11.0, 3.0), 10.0, 25.0);
+  const ZTest test = mean_test(two_values(100, 11.0, 3.0), {10.0, 25.0});
   EXPECT_NEAR(test.z, 2.0, kRounding);
   EXPECT_NEAR(test.effect, 0.1, kRounding);
   EXPECT_EQ(test.log10_p, log10_normal_tails(test.z));
@@ -37,16 +38,16 @@ TEST(MeanTest, OfAHandComputedSample) {
 }
 
 TEST(MeanTest, UsesTheExactVarianceAndKeepsTheSign) {
-  const ZTest wide = mean_test(two_values(100, 9.0, 1000.0), 10.0, 25.0);
+  const ZTest wide = mean_test(two_values(100, 9.0, 1000.0), {10.0, 25.0});
   EXPECT_NEAR(wide.z, -2.0, 1e-11) << "cancellation of 1000s";
   EXPECT_NEAR(wide.effect, -0.1, 1e-12);
 }
 
 TEST(MeanTest, DoesNotDependOnTheScale) {
-  const ZTest unit = mean_test(two_values(100, 11.0, 3.0), 10.0, 25.0);
+  const ZTest unit = mean_test(two_values(100, 11.0, 3.0), {10.0, 25.0});
   for (const double scale : {0x1p-60, 0x1p60}) {
     const ZTest scaled =
-        mean_test(two_values(100, 11.0 * scale, 3.0 * scale), 10.0 * scale, 25.0 * scale * scale);
+        mean_test(two_values(100, 11.0 * scale, 3.0 * scale), {10.0 * scale, 25.0 * scale * scale});
     EXPECT_EQ(scaled.z, unit.z);
     EXPECT_EQ(scaled.log10_p, unit.log10_p);
     EXPECT_EQ(scaled.effect, unit.effect);
@@ -55,22 +56,22 @@ TEST(MeanTest, DoesNotDependOnTheScale) {
 
 TEST(MeanTest, RejectsAMeanThatIsOffByTwoOnADimMap) {
   // A floor of 1e-5 under the variance would accept this one.
-  const ZTest test = mean_test(two_values(10000, 2e-6, 1e-6), 1e-6, 1e-12);
+  const ZTest test = mean_test(two_values(10000, 2e-6, 1e-6), {1e-6, 1e-12});
   EXPECT_NEAR(test.z, 100.0, 1e-8);
   EXPECT_LT(test.log10_p, -1000.0);
 }
 
 TEST(VarianceTest, OfAHandComputedSample) {
   // The sample variance of 1, 2, 3, 6 is 14/3; sqrt((mu4 - sigma^4)/N) = sqrt((25 - 9)/4) = 2.
-  const ZTest test = variance_test(moments_of({1, 2, 3, 6}), 3.0, 25.0);
+  const ZTest test = variance_test(moments_of({1, 2, 3, 6}), {2.0, 3.0}, 25.0);
   EXPECT_NEAR(test.z, 5.0 / 6.0, kRounding);
   EXPECT_NEAR(test.effect, 5.0 / 9.0, kRounding);
   EXPECT_EQ(test.log10_p, log10_normal_tails(test.z));
 }
 
 TEST(VarianceTest, AcceptsTheVarianceItself) {
-  EXPECT_EQ(variance_test(moments_of({1, 2, 3}), 1.0, 3.0).z, 0.0);
-  EXPECT_EQ(variance_test(moments_of({1, 2, 3}), 1.0, 3.0).log10_p, 0.0);
+  EXPECT_EQ(variance_test(moments_of({1, 2, 3}), {2.0, 1.0}, 3.0).z, 0.0);
+  EXPECT_EQ(variance_test(moments_of({1, 2, 3}), {2.0, 1.0}, 3.0).log10_p, 0.0);
 }
 
 TEST(WelchTest, OfAHandComputedPair) {
@@ -86,6 +87,50 @@ TEST(WelchTest, OfTwoConstantsSeesOnlyWhetherTheyDiffer) {
   const Moments ones = moments_of({1, 1, 1});
   EXPECT_EQ(welch_test(ones, ones).log10_p, 0.0);
   EXPECT_EQ(welch_test(ones, moments_of({2, 2, 2})).log10_p, -INFINITY);
+}
+
+// One sample in 1e5 is 1e5 times as bright as the mean: X = 1/s with probability s, else 0. A
+// single hit among 1000 is 10 standard errors, and happens once in a hundred runs.
+TEST(TailsOfMean, DoNotTakeARareBrightSampleForADefect) {
+  const double s = 1e-5;
+  const ExactLaw law = {1.0, 1.0 / s - 1.0, 1.0 / s};
+  const double z = (100.0 - 1.0) / std::sqrt(law.variance / 1000.0);
+  EXPECT_GT(z, 9.0);
+  EXPECT_LT(log10_normal_tails(z), -18.0);
+  EXPECT_GT(log10_tails_of_mean(z, 1000.0, law), -2.0);
+}
+
+// Never below the exact tail: counts of the same law are binomial, near enough Poisson. And no
+// farther above it than a bound by exponents must be.
+TEST(TailsOfMean, BoundTheExactTailFromAbove) {
+  const double s = 1e-5;
+  const ExactLaw law = {1.0, 1.0 / s - 1.0, 1.0 / s};
+  for (const double samples : {1e3, 1e5, 1e6, 1e7}) {
+    const double mean = samples * s;
+    for (double count = std::ceil(mean) + 1.0; count < 4.0 * mean + 20.0;
+         count += 1.0 + std::floor(mean / 4.0)) {
+      const double z = (count / mean - 1.0) / std::sqrt(law.variance / samples);
+      const double tail = log10_tails_of_mean(z, samples, law);
+      const double exact = log10_poisson_upper(count, mean);
+      EXPECT_GE(tail, exact - 0.31) << samples << ", " << count;  // a factor of two
+      // Chernoff's bound on a Poisson tail, over the probability of the count itself (Stirling).
+      const double slack = 0.5 * std::log10(2.0 * std::numbers::pi * count) + 0.31;
+      EXPECT_LE(tail, exact + slack + 0.04) << samples << ", " << count;
+    }
+  }
+}
+
+TEST(TailsOfMean, AreNormalWhereSkewnessDoesNotMatter) {
+  const ExactLaw law = {1.0, 1.0, 3.0};
+  EXPECT_EQ(log10_tails_of_mean(6.0, 1e6, law), log10_normal_tails(6.0));
+  EXPECT_EQ(log10_tails_of_mean(6.0, 10.0, {1.0, 1.0}), log10_normal_tails(6.0));
+}
+
+TEST(TwoMeans, OfAHandComputedPair) {
+  // Means 11 and 10 with exact variances 9 and 16 over 100 and 50 samples.
+  const ZTest test = two_mean_test(two_values(100, 11.0, 1.0), {10.0, 9.0},
+                                   two_values(50, 10.0, 2.0), {10.0, 16.0});
+  EXPECT_NEAR(test.z, 1.0 / std::sqrt(0.09 + 0.32), 1e-12);
 }
 
 }  // namespace

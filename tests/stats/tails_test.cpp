@@ -135,7 +135,7 @@ TEST(NormalTails, FollowTheAsymptoticSeriesFarOut) {
 }
 
 TEST(Detectable, NoncentralityIsThatOfTheTable) {
-  // design: alpha = 1e-6 at power .99; half a unit of the last digit printed.
+  // alpha = 1e-6 at power .99; half a unit of the last digit printed.
   struct Row {
     double dof;
     double lambda;

@@ -231,9 +231,11 @@ TEST(Expectation, RoundingEffectIsThatOfRoundedSums) {
       if (p > 0.0) square += (q - p) * (q - p) / p;
     }
   }
-  std::printf("w = %.3g of %.3g\n", std::sqrt(square), expectation.rounding_effect * kStep);
+  std::printf("w = %.3g of %.3g\n", std::sqrt(square),
+              rounding_effect(expectation, std::uint64_t{1} << 60U) * kStep);
   // An average over places of 8192 knots.
-  EXPECT_NEAR(std::sqrt(square) / (expectation.rounding_effect * kStep), 1.0, 0.2);
+  EXPECT_NEAR(std::sqrt(square) / (rounding_effect(expectation, std::uint64_t{1} << 60U) * kStep),
+              1.0, 0.2);
 }
 
 TEST(Gate, TooFewSamplesAreInconclusive) {

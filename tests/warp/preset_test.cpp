@@ -116,7 +116,7 @@ struct Known {
   SquarePoint image;  ///< t from the bottom
 };
 
-// By hand from maths.md A; directions in the world with z up.
+// By hand from the renderers' documentation; directions in the world with z up.
 const Known kKnown[] = {
     {Preset::z_up, {1, 0, 0}, {0.5, 0.5}},
     {Preset::z_up, {0, 1, 0}, {0.25, 0.5}},

@@ -1,4 +1,4 @@
-// The mappings of maths.md A as their renderers print them: u from the left, v from the top.
+// The mappings as their renderers print them: u from the left, v from the top.
 // Slow and separate from warp/preset.cpp, which they check.
 #pragma once
 

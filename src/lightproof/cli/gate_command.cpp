@@ -169,8 +169,9 @@ void add_gate(CLI::App& app, int& exit_code) {
           "date for the seed unless --seed is given")
       ->check(CLI::IsMember({"quick", "full", "nightly"}))
       ->excludes(samples);
-  command->add_flag("--sequential", options->sequential,
-                    "stop drawing as soon as a sampler is known to be wrong; tests counts only");
+  command->add_flag(
+      "--sequential", options->sequential,
+      "stop drawing as soon as a sampler is known to be wrong; tests counts and exact checks only");
   add_path(*command, "--json", options->json, "write every test to this file");
   add_path(*command, "--junit", options->junit, "the same as JUnit XML, one case a test");
   add_path(*command, "--markdown", options->markdown, "a summary for a pull request");

@@ -48,7 +48,9 @@ void add_kills(KillRecord& record, const GateResult& result) {
     const std::string name = test.oracle + "/" + test.test;
     const bool known = std::any_of(record.kills.begin(), record.kills.end(),
                                    [&](const KillRecord::Kill& kill) { return kill.test == name; });
-    if (!known) record.kills.push_back({name, result.samples});
+    // The second stage comes on top of the first.
+    const std::uint64_t samples = test.samples + (test.stage == 2 ? result.samples : 0);
+    if (!known) record.kills.push_back({name, samples});
   }
   if (!result.rejections.empty()) record.looks_like = result.rejections[0].looks_like;
 }

@@ -198,6 +198,14 @@ std::string gate_annotations(const GateResult& gate, bool count_known_defects) {
     text += fmt::format("::error title=lightproof::and {} more rejected tests\n",
                         rejected.size() - kAnnotations);
   }
+  const auto inconclusive =
+      std::count_if(gate.tests.begin(), gate.tests.end(), [&](const TestRecord& test) {
+        return counts(test, count_known_defects) && test.outcome == Outcome::inconclusive;
+      });
+  if (inconclusive > 0) {
+    text += fmt::format("::error title=lightproof::{} could not be judged\n",
+                        counted(static_cast<std::size_t>(inconclusive), "test"));
+  }
   return text;
 }
 

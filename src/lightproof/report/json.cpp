@@ -49,6 +49,10 @@ Json json_of(const GrowthFit& fit);
 Json json_of(const StepTime& step);
 Json json_of(const MapRecord& r);
 Json json_of(const RenderRecord& r);
+Json json_of(const CalibrationRecord& r);
+Json json_of(const FamilyRecord& r);
+Json json_of(const PowerRecord& r);
+Json json_of(const KillRecord& r);
 
 template <class Record>
 Json list_of(const std::vector<Record>& records) {
@@ -163,6 +167,54 @@ Json renders_json(const std::vector<RenderRecord>& renders) {
   return list;
 }
 
+Json json_of(const CalibrationRecord& r) {
+  return {{"test", r.test},
+          {"is_bound", r.is_bound},
+          {"replicates", r.replicates},
+          {"ks_distance", number(r.ks_distance)},
+          {"log10_p_ks", number(r.log10_p_ks)},
+          {"log10_p_anderson", number(r.log10_p_anderson)},
+          {"below_one_percent", r.below_one_percent},
+          {"quantiles", r.quantiles}};
+}
+
+Json json_of(const FamilyRecord& r) {
+  return {{"procedure", r.procedure},
+          {"family_alpha", number(r.family_alpha)},
+          {"runs", r.runs},
+          {"rejected", r.rejected}};
+}
+
+Json json_of(const PowerRecord& r) {
+  return {{"test", r.test},
+          {"effect", number(r.effect)},
+          {"level", number(r.level)},
+          {"samples", r.samples},
+          {"replicates", r.replicates},
+          {"rejected", r.rejected},
+          {"predicted", number(r.predicted)},
+          {"is_bound", r.is_bound}};
+}
+
+Json json_of(const KillRecord& r) {
+  Json kills = Json::object();
+  for (const auto& [test, samples] : r.kills) kills[test] = samples;
+  return {{"mutant", r.mutant},
+          {"oracle", r.oracle},
+          {"looks_like", r.looks_like},
+          {"expected_diagnosis", r.expected_diagnosis},
+          {"kills", kills},
+          {"sequential", r.sequential ? Json(*r.sequential) : Json(nullptr)}};
+}
+
+Json self_test_json(const std::optional<SelfTestResult>& self_test) {
+  if (!self_test) return nullptr;
+  return {{"calibration", list_of(self_test->calibration.tests)},
+          {"families", list_of(self_test->calibration.families)},
+          {"power", list_of(self_test->power)},
+          {"mutants", list_of(self_test->mutants)}};
+}
+
 std::string text_of(const Json& json) {
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -183,6 +235,7 @@ std::string study_json(const StudyResult& study) {
                   {"seed", study.seed},
                   {"maps", list_of(study.maps)},
                   {"gate", json_of(study.gate, deciding_tally(study.gate).outcome())},
+                  {"self_test", self_test_json(study.self_test)},
                   {"convergence", list_of(study.convergence)},
                   {"throughput", list_of(study.throughput)},
                   {"growth", list_of(study.growth)},

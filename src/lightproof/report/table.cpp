@@ -108,6 +108,17 @@ std::string rejected_lines(const GateResult& gate, Colour colour) {
   return text.empty() ? "" : "\nRejected tests\n" + text;
 }
 
+/// What was accepted, but says less than it seems to.
+std::string limited_lines(const GateResult& gate) {
+  std::string text;
+  for (const TestRecord& test : gate.tests) {
+    if (test.outcome == Outcome::accept && test.detail.starts_with("resolution-limited")) {
+      text += full_text(test);
+    }
+  }
+  return text.empty() ? "" : "\nResolution-limited tests\n" + text;
+}
+
 }  // namespace
 
 std::string gate_table(const GateResult& gate, bool count_known_defects, Colour colour) {
@@ -123,8 +134,8 @@ std::string gate_table(const GateResult& gate, bool count_known_defects, Colour 
     total += fmt::format("\n* kept as published, with known defects: {} of {} rejected",
                          known.rejected, counted(known.tests, "test"));
   }
-  return summary_lines(gate, colour) + rejected_lines(gate, colour) + diagnosis_lines(gate) + "\n" +
-         painted(total, all.outcome(), colour) + "\n";
+  return summary_lines(gate, colour) + rejected_lines(gate, colour) + limited_lines(gate) +
+         diagnosis_lines(gate) + "\n" + painted(total, all.outcome(), colour) + "\n";
 }
 
 }  // namespace lightproof

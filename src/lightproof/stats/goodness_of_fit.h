@@ -35,8 +35,8 @@ struct GoodnessOfFit {
 GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
                            std::span<const double> probability, std::uint64_t samples);
 
-/// Whether two samples are of one law, whatever it is: the same divergence of both from their common
-/// shares, on cells pooled until each sample expects 25. `impossible_hits` stays 0.
+/// Whether two samples are of one law, whatever it is: the same divergence of both from their
+/// common shares, on cells pooled until each sample expects 25. `impossible_hits` stays 0.
 GoodnessOfFit two_sample_fit(std::span<const std::uint64_t> first,
                              std::span<const std::uint64_t> second);
 
@@ -50,9 +50,9 @@ struct WorstCell {
   double log10_p = 0.0;  ///< of a cell as far off as this anywhere (Bonferroni)
 };
 
-/// The exact Poisson tail of the cell with the largest deviance, however small its expectation:
-/// what is never drawn, or one place that is wrong, shows here long before it moves a sum over all
-/// cells.
+/// The Poisson tail (for counts of a fixed total it is a bound) of the cell with the largest
+/// deviance, however small its expectation: what is never drawn, or one place that is wrong, shows
+/// here long before it moves a sum over all cells.
 WorstCell worst_cell(std::span<const std::uint64_t> observed, std::span<const double> probability,
                      std::uint64_t samples);
 

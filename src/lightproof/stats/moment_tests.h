@@ -12,16 +12,33 @@ struct ZTest {
   double effect = 0.0;  ///< relative deviation from the expectation
 };
 
-/// The mean of `measured` against an exact mean and variance (of one sample). An exact variance
-/// of zero is no case for a z-test; see suite/checks.
-ZTest mean_test(const Moments& measured, double expected_mean, double exact_variance);
+/// What is known exactly of the samples whose mean is tested.
+struct ExactLaw {
+  double mean = 0.0;
+  double variance = 0.0;           ///< positive
+  double largest_deviation = 0.0;  ///< of a single sample from the mean; 0 if it is not known
+};
+
+/// log10 P(|mean - exact| >= z standard errors) over so many samples. The normal tail, as long as
+/// skewness, at most largest_deviation / sigma, changes it by less than a factor of two (Cramér's,
+/// exp(skewness z^3 / (6 sqrt N))); farther out Bennett's bound (1962), which holds for any
+/// law so bounded. So a rare, bright sample that turns up a little early proves nothing.
+double log10_tails_of_mean(double z, double samples, const ExactLaw& law);
+
+/// The mean of `measured` against the exact one. An exact variance of zero is no case for a
+/// z-test; see suite/checks.
+ZTest mean_test(const Moments& measured, const ExactLaw& exact);
 
 /// The sample variance against the exact one; its standard error is sqrt((mu4 - sigma^4) / N)
-/// with the exact fourth central moment.
-ZTest variance_test(const Moments& measured, double exact_variance, double exact_fourth_central);
+/// with the exact fourth central moment. It is the mean of the squared deviations.
+ZTest variance_test(const Moments& measured, const ExactLaw& exact, double exact_fourth_central);
 
 /// Two independent samples: Welch 1947, with the normal tail (use N >= 1e4, where the t
 /// distribution's tail is the normal's).
 ZTest welch_test(const Moments& first, const Moments& second);
+
+/// Two independent samples of one mean, whose laws are known: no variance is estimated.
+ZTest two_mean_test(const Moments& first, const ExactLaw& first_law, const Moments& second,
+                    const ExactLaw& second_law);
 
 }  // namespace lightproof

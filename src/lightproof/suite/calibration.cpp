@@ -158,7 +158,8 @@ FamilyRecord family_of_gate(const Trial& trial, const CalibrationOptions& option
                             const Progress& progress) {
   std::vector<char> rejected(options.runs);
   for_each_replicate(options.runs, progress, [&](std::size_t i) {
-    const GateOptions gate{options.run_samples, options.seed + i, options.family_alpha};
+    const GateOptions gate{options.run_samples, options.seed + i, options.family_alpha,
+                           options.suspicious, 1.0};
     const GateResult result = run_gate({&trial.problem, 1}, gate);
     rejected[i] = overall_outcome(result, true) == Outcome::reject ? 1 : 0;
   });

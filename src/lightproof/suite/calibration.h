@@ -17,6 +17,7 @@ struct CalibrationOptions {
   std::uint64_t runs = 1000;         ///< whole runs of the gate
   std::uint64_t run_samples = 4096;
   double family_alpha = 0.05;  ///< scaled up, so that false alarms can be counted
+  double suspicious = 0.3;     ///< likewise: at 1e-3 hardly a run has a second stage
 };
 
 /// Draws from a law whose masses are known to the last bit, by inversion in double, and keeps what

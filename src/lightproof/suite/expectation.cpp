@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "lightproof/stats/goodness_of_fit.h"
 #include "lightproof/warp/lat_long.h"
 #include "reference/texel_masses.h"
 
@@ -29,25 +30,15 @@ reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) 
       if (!expectation.is_bright(x, y)) continue;
       const double mass = expectation.masses(x, y);
       moments.raw[0] += solid_angle;
+      const double flat = 2.0 * kPi * kPi * sin_theta((y + 0.5) / extent.height) /
+                          static_cast<double>(extent.count());
+      moments.largest = std::max(
+          moments.largest, (expectation.weighting == Weighting::A ? flat : solid_angle) / mass);
       moments.raw[1] +=
           expectation.weighting == Weighting::A ? square / mass : solid_angle * solid_angle / mass;
     }
   }
   return moments;
-}
-
-/// A knot that is rounded is off by a variance of 1/12, a share between two knots of 1/6. So
-/// w^2 = sum (q-p)^2 / p has 1/6 sum 1/row from the marginal and, from each row's own sums, 1/6 of
-/// row sum 1/share.
-double rounding_effect(const Grid<double>& masses, const std::vector<double>& rows) {
-  double sum = 0.0;
-  for (int y = 0; y < masses.extent().height; ++y) {
-    const double row = rows[static_cast<std::size_t>(y)];
-    if (row <= 0.0) continue;
-    sum += 1.0 / row;
-    for (const double mass : masses.row(y)) sum += mass > 0.0 ? row * row / mass : 0.0;
-  }
-  return std::sqrt(sum / 6.0);
 }
 
 }  // namespace
@@ -77,8 +68,35 @@ Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
     expectation.uniform[i] = moments[0].uniform;
   }
   expectation.inverse_pdf = inverse_pdf_moments(expectation);
-  expectation.rounding_effect = rounding_effect(expectation.masses, expectation.rows);
+  expectation.is_summed = true;
   return expectation;
+}
+
+// A knot that is rounded is off by a variance of 1/12, a share between two knots of 1/6. So
+// w^2 = sum (q-p)^2 / p has 1/6 sum 1/row from the marginal and, from each row's own sums, 1/6 of
+// row^2 sum 1/pool.
+double rounding_effect(const Expectation& expectation, std::uint64_t samples) {
+  if (!expectation.is_summed) return 0.0;
+  const double least = kPooledExpectation / static_cast<double>(samples);
+  double sum = 0.0;
+  double row_pool = 0.0;
+  for (int y = 0; y < expectation.masses.extent().height; ++y) {
+    const double row = expectation.rows[static_cast<std::size_t>(y)];
+    if (row <= 0.0) continue;
+    row_pool += row;
+    if (row_pool >= least) {
+      sum += 1.0 / row_pool;
+      row_pool = 0.0;
+    }
+    double pool = 0.0;
+    for (const double mass : expectation.masses.row(y)) {
+      pool += mass;
+      if (pool < least) continue;
+      sum += row * row / pool;
+      pool = 0.0;
+    }
+  }
+  return std::sqrt(sum / 6.0);
 }
 
 }  // namespace lightproof

@@ -43,11 +43,14 @@ struct Expectation {
   /// Whether a texel belongs to the part of the map over which 1/p is averaged.
   bool is_bright(int x, int y) const { return grey(x, y) >= 0.1 * mean_grey; }
   double mean_grey = 0.0;
-
-  /// The effect w on the texels that rounding of all sums to steps of 1 would have, on average: it
-  /// grows in proportion to the step. 0 where nothing is summed.
-  double rounding_effect = 0.0;
+  /// Whether samplers of this law add up its masses and search the sums.
+  bool is_summed = false;
 };
+
+/// The effect w on the texels, pooled until `samples` expect 25 of each, that rounding of all sums
+/// to steps of 1 would have on average: it grows in proportion to the step. 0 where nothing is
+/// summed.
+double rounding_effect(const Expectation& expectation, std::uint64_t samples);
 
 /// Throws InputError if the map is black.
 Expectation expectation_of(const EnvironmentMap& map, TargetDensity target);

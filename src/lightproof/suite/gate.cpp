@@ -15,17 +15,13 @@
 namespace lightproof {
 namespace {
 
-/// Below this p-value a test is run again.
-constexpr double kSuspicious = 1e-3;
-/// Below this one it is rejected without.
-constexpr double kAtOnce = 1e-10;
 /// Samples of the second stage, in those of the first.
 constexpr std::uint64_t kSecondStage = 4;
 /// Probability with which an effect as large as `detectable` is seen in each stage.
 constexpr double kStagePower = 0.995;
 
-double level_at_once(double family_alpha, std::size_t tests) {
-  return std::min(kAtOnce, 0.5 * strictest_level(family_alpha, tests));
+double level_at_once(const GateOptions& options, std::size_t tests) {
+  return std::min(options.at_once, 0.5 * strictest_level(options.family_alpha, tests));
 }
 
 /// The records of one configuration, and the draws behind them if they may be needed for a
@@ -54,7 +50,7 @@ void append(std::vector<Measured>& tests, std::vector<Measured> more) {
   std::move(more.begin(), more.end(), std::back_inserter(tests));
 }
 
-Slot run_first(const Configuration& configuration, const Yardstick& yardstick) {
+Slot run_first(const Configuration& configuration, const Yardstick& yardstick, double suspicious) {
   const Expectation& expectation = yardstick.expectation;
   const BoundSampler sampler = configuration.candidate->bind();
   const OwnDensity own = integrate_pdf(sampler, expectation.masses.extent());
@@ -64,23 +60,28 @@ Slot run_first(const Configuration& configuration, const Yardstick& yardstick) {
             own};
   append(slot.tests, test_against_twin(configuration, expectation, draws, "twin"));
   append(slot.tests, test_exactly(configuration, expectation, sampler, own, draws));
-  const bool clean = std::all_of(slot.tests.begin(), slot.tests.end(), [](const Measured& test) {
+  const bool clean = std::all_of(slot.tests.begin(), slot.tests.end(), [&](const Measured& test) {
     const TestRecord& r = test.record;
-    return r.log10_p ? *r.log10_p >= std::log10(kSuspicious) : r.outcome == Outcome::accept;
+    return r.log10_p ? *r.log10_p >= std::log10(suspicious) : r.outcome == Outcome::accept;
   });
   if (!clean) slot.draws = std::move(draws);
   return slot;
 }
 
-/// Whether a test of the first stage is to be run again.
-bool is_suspicious(const Measured& test, double at_once) {
-  const std::optional<double>& log10_p = test.record.log10_p;
-  return log10_p && *log10_p < std::log10(kSuspicious) && *log10_p >= std::log10(at_once);
-}
+/// The p-values of the first stage that are looked at again: in [from, to).
+struct Again {
+  double from;
+  double to;
+
+  bool operator()(const Measured& test) const {
+    const std::optional<double>& log10_p = test.record.log10_p;
+    return log10_p && *log10_p < std::log10(to) && *log10_p >= std::log10(from);
+  }
+};
 
 /// Suspicious tests of a slot get the records of new samples in their place.
-void run_again(const Configuration& configuration, const Yardstick& yardstick, double at_once,
-               Slot& slot) {
+void run_again(const Configuration& configuration, const Yardstick& yardstick,
+               const Again& is_suspicious, Slot& slot) {
   const Expectation& expectation = yardstick.expectation;
   const BoundSampler sampler = configuration.candidate->bind();
   const Draws draws = draw_samples(sampler, expectation, configuration.stream("draws again"),
@@ -88,7 +89,7 @@ void run_again(const Configuration& configuration, const Yardstick& yardstick, d
   auto again = test_draws(configuration, expectation, slot.own, draws, yardstick.uniform);
   append(again, test_against_twin(configuration, expectation, draws, "twin again"));
   for (Measured& test : slot.tests) {
-    if (!is_suspicious(test, at_once)) continue;
+    if (!is_suspicious(test)) continue;
     const auto same = std::find_if(again.begin(), again.end(), [&](const Measured& other) {
       return other.record.oracle == test.record.oracle && other.record.test == test.record.test;
     });
@@ -103,11 +104,12 @@ class Judge {
  public:
   Judge(const GateOptions& options, std::size_t tests)
       : samples_(static_cast<double>(options.samples)),
-        at_once_(level_at_once(options.family_alpha, tests)),
+        suspicious_(options.suspicious),
+        at_once_(level_at_once(options, tests)),
         second_alpha_(0.5 * options.family_alpha),
         second_level_(strictest_level(second_alpha_, tests)) {}
 
-  double at_once() const { return at_once_; }
+  Again again() const { return {at_once_, suspicious_}; }
 
   void operator()(std::span<Measured* const> tests) const {
     std::vector<double> second;
@@ -135,11 +137,12 @@ class Judge {
   /// The effect that both stages see with kStagePower each, a hundredth less together.
   double detectable_effect(const Measured& test) const {
     const double again = static_cast<double>(kSecondStage) * samples_;
-    return std::max(test.detectable(kSuspicious, kStagePower, samples_),
+    return std::max(test.detectable(suspicious_, kStagePower, samples_),
                     test.detectable(second_level_, kStagePower, again));
   }
 
   double samples_;
+  double suspicious_;
   double at_once_;
   double second_alpha_;
   double second_level_;  ///< of Holm's strictest test, if all tests were run again
@@ -160,23 +163,21 @@ class Run {
       const Yardstick yardstick =
           yardstick_of(problems_[i], expectation, options_.seed, options_.samples);
       for_each_candidate(i, [&](const Configuration& configuration, Slot& slot) {
-        slot = run_first(configuration, yardstick);
+        slot = run_first(configuration, yardstick, options_.suspicious);
         show_progress();
       });
     });
     const Judge judge(options_, count_p_values());
     parallel_for(problems_.size(), [&](std::size_t i) {
       const auto is_open = [&](const Slot& slot) {
-        return std::any_of(slot.tests.begin(), slot.tests.end(), [&](const Measured& test) {
-          return is_suspicious(test, judge.at_once());
-        });
+        return std::any_of(slot.tests.begin(), slot.tests.end(), judge.again());
       };
       if (std::none_of(slots_[i].begin(), slots_[i].end(), is_open)) return;
       const Expectation expectation = problems_[i].expectation();
       const Yardstick yardstick =
           yardstick_of(problems_[i], expectation, options_.seed, kSecondStage * options_.samples);
       for_each_candidate(i, [&](const Configuration& configuration, Slot& slot) {
-        if (is_open(slot)) run_again(configuration, yardstick, judge.at_once(), slot);
+        if (is_open(slot)) run_again(configuration, yardstick, judge.again(), slot);
       });
     });
     std::vector<Measured*> tests;
@@ -257,12 +258,14 @@ GateResult run_gate(std::span<const EnvironmentMap> maps, std::span<const Subjec
 
 Outcome overall_outcome(const GateResult& result, bool count_known_defects) {
   Outcome overall = Outcome::accept;
+  std::size_t counted = 0;
   for (const TestRecord& test : result.tests) {
     if (test.known_defect && !count_known_defects) continue;
+    ++counted;
     if (test.outcome == Outcome::reject) return Outcome::reject;
     if (test.outcome == Outcome::inconclusive) overall = Outcome::inconclusive;
   }
-  return overall;
+  return counted > 0 ? overall : Outcome::inconclusive;
 }
 
 }  // namespace lightproof

@@ -17,14 +17,17 @@ struct GateOptions {
   std::uint64_t seed = 1;
   /// Probability that a run over correct samplers rejects anything.
   double family_alpha = 1e-6;
+  /// Below this p-value a test is run again; below `at_once` it is rejected without.
+  double suspicious = 1e-3;
+  double at_once = 1e-10;
 };
 
-/// Runs in two stages. After the first, a test whose p-value is below 1e-10 (or half of
-/// family_alpha shared out among all tests, if that is less) is rejected at once. One below 1e-3 is
-/// suspicious: it runs again with four times the samples and other random numbers, and Holm's
+/// Runs in two stages. After the first, a test whose p-value is below `at_once` (or half of
+/// family_alpha shared out among all tests, if that is less) is rejected at once. One below
+/// `suspicious` runs again with four times the samples and other random numbers, and Holm's
 /// procedure judges those at the other half. Either way a correct sampler is rejected with at most
-/// family_alpha, and small defects have two chances to show. The same bits for any number of
-/// threads.
+/// family_alpha; a small defect must look suspicious first and show with four times the samples
+/// then. The same bits for any number of threads.
 GateResult run_gate(std::span<const Problem> problems, const GateOptions& options,
                     const Progress& progress = {});
 
@@ -32,7 +35,8 @@ GateResult run_gate(std::span<const Problem> problems, const GateOptions& option
 GateResult run_gate(std::span<const EnvironmentMap> maps, std::span<const Subject> subjects,
                     const GateOptions& options, const Progress& progress = {});
 
-/// Reject if any test that counts was rejected, else inconclusive if any was, else accept. Tests
+/// Reject if any test that counts was rejected, else inconclusive if any was or none counts, else
+/// accept. Tests
 /// of samplers with known defects count only where `count_known_defects` says so.
 Outcome overall_outcome(const GateResult& result, bool count_known_defects);
 

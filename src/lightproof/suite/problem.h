@@ -20,7 +20,8 @@ struct Candidate {
   std::function<BoundSampler()> bind;
   /// Step of its sums and random numbers: a float's below 1 unless it is known to be finer.
   double resolution = 0x1p-24;
-  /// Another sampler whose texels it claims to return, point for point; empty if none.
+  /// Another sampler whose texels it claims to return, point for point, and whose law so must be
+  /// its own; empty if none.
   std::function<BoundSampler()> twin = {};
 };
 

@@ -50,7 +50,7 @@ struct Rejection {
   std::string looks_like;              ///< the most likely defect, by name
   std::string diagnosis;               ///< the same in words
   Grid<double> residual;               ///< (O - E) / sqrt(E) of the 16x32 bins
-  std::vector<double> row_divergence;  ///< cumulative over the rows of texels, from t = 0
+  std::vector<double> row_divergence;  ///< of the marginal of rows, cumulative from t = 0
 };
 
 struct GateResult {

@@ -55,7 +55,7 @@ class Evidence {
 };
 
 struct Finding {
-  TestRecord record;
+  std::vector<TestRecord> records;
   std::optional<Rejection> rejection;
 };
 
@@ -75,22 +75,30 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
     draws.merge(more);
     log10_e = evidence.log10_e(draws);
   }
-  Finding finding;
-  TestRecord& record = finding.record;
-  record = record_of(configuration, "reference", "sequential", draws.samples);
+  TestRecord record = record_of(configuration, "reference", "sequential", draws.samples);
   record.statistic = log10_e;
   record.log10_p = std::min(0.0, -log10_e);
   record.outcome = log10_e >= enough ? Outcome::reject : Outcome::accept;
   record.effect =
       cressie_read(serpentine(draws.bins), serpentine(expectation.bins), draws.samples).effect;
-  if (record.outcome == Outcome::accept) return finding;
-  record.detail =
-      std::isinf(log10_e)
-          ? fmt::format("one of {} samples lies where none can", draws.samples)
-          : fmt::format("known after {} samples: evidence 10^{:.3g}, 10^{:.3g} is enough",
-                        draws.samples, log10_e, enough);
+  if (std::isinf(log10_e)) {
+    record.detail = fmt::format("one of {} samples lies where none can", draws.samples);
+  } else if (record.outcome == Outcome::reject) {
+    record.detail = fmt::format("known after {} samples: evidence 10^{:.3g}, 10^{:.3g} is enough",
+                                draws.samples, log10_e, enough);
+  }
   const OwnDensity own = integrate_pdf(sampler, expectation.masses.extent());
-  finding.rejection = diagnose(*configuration.problem, expectation, {{&record, 1}, &draws, &own});
+  Finding finding{{record}, {}};
+  for (const Measured& test : test_exactly(configuration, expectation, sampler, own, draws)) {
+    finding.records.push_back(test.record);
+  }
+  const bool rejected =
+      std::any_of(finding.records.begin(), finding.records.end(),
+                  [](const TestRecord& r) { return r.outcome == Outcome::reject; });
+  if (rejected) {
+    finding.rejection =
+        diagnose(*configuration.problem, expectation, {finding.records, &draws, &own});
+  }
   return finding;
 }
 
@@ -120,7 +128,7 @@ GateResult run_sequential_gate(std::span<const Problem> problems, const GateOpti
   GateResult result{options.family_alpha, options.samples, options.seed, {}, {}};
   for (auto& of_problem : findings) {
     for (Finding& finding : of_problem) {
-      result.tests.push_back(std::move(finding.record));
+      std::move(finding.records.begin(), finding.records.end(), std::back_inserter(result.tests));
       if (finding.rejection) result.rejections.push_back(std::move(*finding.rejection));
     }
   }

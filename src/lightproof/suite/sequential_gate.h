@@ -13,8 +13,8 @@ namespace lightproof {
 /// of the bins, the rows, the columns and, where they are not too many, the texels; looked at
 /// whenever the samples have grown by half. A candidate is rejected when it reaches
 /// candidates/family_alpha: over the whole run a correct sampler is rejected with at most
-/// family_alpha, whenever one stops. One record a candidate, of the samples that it took; densities
-/// are not tested.
+/// family_alpha, whenever one stops. One record a candidate, of the samples that it took, and the
+/// exact checks; means and variances are not tested.
 GateResult run_sequential_gate(std::span<const Problem> problems, const GateOptions& options,
                                const Progress& progress = {});
 
