@@ -69,7 +69,7 @@ TEST(Gate, RejectsThePublishedScanWhereTheFirstRowIsBlack) {
   const GateResult result = run_gate({&map, 1}, {&subject, 1}, {.samples = 1U << 16U});
   EXPECT_THAT(rejections(result), testing::Contains("check/edges of u"));
   EXPECT_EQ(overall_outcome(result, true), Outcome::reject);
-  EXPECT_EQ(overall_outcome(result, false), Outcome::accept) << "its defects are known";
+  EXPECT_EQ(overall_outcome(result, false), Outcome::inconclusive) << "nothing else decides";
 }
 
 TEST(Gate, TheGreyWeightsThatASamplerDeclaresAreHeldAgainstIt) {
@@ -257,7 +257,7 @@ TEST(Gate, PValuesOfASoundSamplerAreUniform) {
       if (test.log10_p) p_values[test.oracle + test.test].push_back(std::pow(10.0, *test.log10_p));
     }
   }
-  EXPECT_EQ(p_values.size(), 16U);
+  EXPECT_EQ(p_values.size(), 19U);
   for (auto& [name, values] : p_values) {
     std::sort(values.begin(), values.end());
     double deviation = 0.0;

@@ -76,6 +76,7 @@ int run(Options options) {
   std::vector<EnvironmentMap> maps = load_maps(options);
   prepare(folder);
   StudyResult result = run_study(std::move(maps), options.study, progress_bar(options));
+  result.gate.input_options = input_options(options);
   if (!throughput.empty()) {
     result.growth = growth_of(throughput);
     result.throughput = std::move(throughput);
