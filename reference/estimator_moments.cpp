@@ -39,6 +39,23 @@ struct TexelIntegrals {
   }
 };
 
+/// Texel (x, y) as its parts, which are the cells of the quadrature.
+TexelIntegrals integrate(const Kernel& kernel, const SphereQuadrature& quadrature, Extent parts,
+                         int x, int y) {
+  TexelIntegrals texel;
+  const auto add_node = [&](const Node& node) {
+    const KernelValue value = kernel.at(node.direction);
+    if (value.k > 0.0) texel.add(value, node);
+  };
+  for (int j = y * parts.height; j < (y + 1) * parts.height; ++j) {
+    for (int i = x * parts.width; i < (x + 1) * parts.width; ++i) {
+      const bool split = kernel.straddles(quadrature.centre(i, j), quadrature.radius());
+      quadrature.visit(i, j, split, add_node);
+    }
+  }
+  return texel;
+}
+
 /// The factors that turn the texel's integrals into moments.
 struct Totals {
   double solid_angle_sum;  ///< G = ∫ L d(omega)
@@ -127,17 +144,7 @@ std::vector<LightMoments> light_moments(const Kernel& kernel,
       const bool dark = std::all_of(radiance.begin(), radiance.end(),
                                     [&](const auto& grid) { return grid(x, y) == 0.0; });
       if (dark) continue;
-      TexelIntegrals texel;
-      const auto add_node = [&](const Node& node) {
-        const KernelValue value = kernel.at(node.direction);
-        if (value.k > 0.0) texel.add(value, node);
-      };
-      for (int j = y * parts.height; j < (y + 1) * parts.height; ++j) {
-        for (int i = x * parts.width; i < (x + 1) * parts.width; ++i) {
-          const bool split = kernel.straddles(quadrature.centre(i, j), quadrature.radius());
-          quadrature.visit(i, j, split, add_node);
-        }
-      }
+      const TexelIntegrals texel = integrate(kernel, quadrature, parts, x, y);
       if (texel.plain[0] == 0.0) continue;
       for (std::size_t map = 0; map < radiance.size(); ++map) {
         if (radiance[map](x, y) == 0.0) continue;  // whatever the powers of 1/pdf are

@@ -91,8 +91,10 @@ std::uint64_t samples_of(const std::string& level) {
 std::uint64_t seed_of_today() {
   const auto today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
   const std::chrono::year_month_day date(today);
-  return static_cast<std::uint64_t>(static_cast<int>(date.year())) * 10000 +
-         static_cast<unsigned>(date.month()) * 100 + static_cast<unsigned>(date.day());
+  const auto year = static_cast<std::uint64_t>(static_cast<int>(date.year()));
+  const std::uint64_t month = static_cast<unsigned>(date.month());
+  const std::uint64_t day = static_cast<unsigned>(date.day());
+  return 10000 * year + 100 * month + day;
 }
 
 void write_outputs(const Options& options, const GateResult& result, Outcome outcome,

@@ -252,6 +252,16 @@ std::vector<PowerRecord> predictions(const Trial& trial, std::uint64_t samples) 
   return records;
 }
 
+void count_rejections(PowerRecord& record, const std::vector<std::vector<Measured>>& replicates) {
+  record.replicates = replicates.size();
+  for (const auto& tests : replicates) {
+    for (const auto& [test, detectable] : tests) {
+      if (name_of(test) != record.test || !test.log10_p) continue;
+      record.rejected += *test.log10_p < std::log10(record.level) ? 1 : 0;
+    }
+  }
+}
+
 }  // namespace
 
 CalibrationResult calibrate(const CalibrationOptions& options, const Progress& progress) {
@@ -293,13 +303,7 @@ std::vector<PowerRecord> measure_power(const PowerOptions& options, const Progre
           replicates[i] = run_once(trial, samples, seed);
         });
     for (PowerRecord record : predictions(trial, samples)) {
-      record.replicates = options.replicates;
-      for (const auto& tests : replicates) {
-        for (const auto& [test, detectable] : tests) {
-          if (name_of(test) != record.test || !test.log10_p) continue;
-          record.rejected += *test.log10_p < std::log10(record.level) ? 1 : 0;
-        }
-      }
+      count_rejections(record, replicates);
       all.push_back(std::move(record));
     }
   }
