@@ -13,7 +13,9 @@ namespace {
 
 std::size_t map_count(const GateResult& gate) {
   std::vector<std::string> maps;
-  for (const TestRecord& test : gate.tests) maps.push_back(test.map);
+  for (const TestRecord& test : gate.tests) {
+    if (test.map != kDirections) maps.push_back(test.map);
+  }
   return unique_names(maps).size();
 }
 
