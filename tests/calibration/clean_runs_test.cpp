@@ -27,10 +27,7 @@ TEST(CleanRuns, NoneOfTwoHundredSeedsRejectsASoundSampler) {
   std::vector<Subject> sound = all_subjects();
   std::erase_if(sound, [](const Subject& subject) { return subject.known_defects; });
   maps.push_back(rarely_lit_map());
-  std::vector<Problem> problems = problems_of(maps, sound);
-  for (Problem& problem : problems_of(direction_samplers())) {
-    problems.push_back(std::move(problem));
-  }
+  std::vector<Problem> problems = problems_of(maps, sound, direction_samplers());
   // The exact side does not depend on the seed: it is made once.
   for (Problem& problem : problems) {
     const auto expectation = std::make_shared<const Expectation>(problem.expectation());

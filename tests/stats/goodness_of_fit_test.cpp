@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "all_counts.h"
 #include "lightproof/stats/tails.h"
 
 namespace lightproof {
@@ -207,21 +208,6 @@ TEST(WorstCell, IsTheOneThatIsOff) {
   EXPECT_EQ(worst_cell(Counts{8, 4, 2, 1, 9}, probability, 24).cell, 4U);
   EXPECT_EQ(worst_cell(Counts{1, 12, 4, 4, 3}, probability, 24).cell, 0U);
   EXPECT_EQ(worst_cell(Counts{6, 6, 12, 0, 0}, probability, 24).cell, 2U);
-}
-
-/// Calls visit(counts) for every way to put `samples` into the cells from `first` on.
-template <class Visitor>
-void for_all_counts(Counts& counts, std::size_t first, std::uint64_t samples,
-                    const Visitor& visit) {
-  if (first + 1 == counts.size()) {
-    counts[first] = samples;
-    visit(counts);
-    return;
-  }
-  for (std::uint64_t n = 0; n <= samples; ++n) {
-    counts[first] = n;
-    for_all_counts(counts, first + 1, samples - n, visit);
-  }
 }
 
 TEST(WorstCell, HasAPValueOfTheRightSizeForEveryOutcome) {

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <vector>
 
+#include "all_counts.h"
 #include "lightproof/core/random.h"
 #include "lightproof/stats/tails.h"
 
@@ -42,21 +43,6 @@ long double log10_by_prediction(const SequentialTest& test, const Probabilities&
     sum += e;
   }
   return std::log10(sum / static_cast<long double>(test.concentrations().size()));
-}
-
-/// Calls visit(counts) for every way to put `samples` into the cells from `first` on.
-template <class Visitor>
-void for_all_counts(Counts& counts, std::size_t first, std::uint64_t samples,
-                    const Visitor& visit) {
-  if (first + 1 == counts.size()) {
-    counts[first] = samples;
-    visit(counts);
-    return;
-  }
-  for (std::uint64_t n = 0; n <= samples; ++n) {
-    counts[first] = n;
-    for_all_counts(counts, first + 1, samples - n, visit);
-  }
 }
 
 double multinomial(const Probabilities& p, const Counts& counts) {

@@ -44,15 +44,23 @@ bool is_near_edge(SquarePoint at) {
   return to_edge(at.s, kGateBins.width) < kMargin || to_edge(at.t, kGateBins.height) < kMargin;
 }
 
-DirectionHistogram histogram_of(std::span<const Direction> directions) {
+/// The histogram takes its directions by component.
+struct Components {
   std::vector<double> x, y, z;
-  for (const Direction& d : directions) {
-    x.push_back(d.x);
-    y.push_back(d.y);
-    z.push_back(d.z);
+
+  explicit Components(std::span<const Direction> directions) {
+    for (const Direction& d : directions) {
+      x.push_back(d.x);
+      y.push_back(d.y);
+      z.push_back(d.z);
+    }
   }
+};
+
+DirectionHistogram histogram_of(std::span<const Direction> directions) {
+  const Components all(directions);
   DirectionHistogram histogram;
-  histogram.add({x, y, z});
+  histogram.add({all.x, all.y, all.z});
   return histogram;
 }
 
@@ -189,14 +197,9 @@ TEST(DirectionHistogram, CountsOnFromCallToCall) {
   std::vector<Direction> directions = random_directions(70'001);
   std::fill_n(directions.begin(), 60'000, Direction{0.6, 0.48, 0.64});
   const Grid<std::uint64_t> once = histogram_of(directions).bins();
-  std::vector<double> x, y, z;
-  for (const Direction& d : directions) {
-    x.push_back(d.x);
-    y.push_back(d.y);
-    z.push_back(d.z);
-  }
+  const Components all(directions);
   DirectionHistogram histogram;
-  for (std::uint64_t i = 0; i < kRepeats; ++i) histogram.add({x, y, z});
+  for (std::uint64_t i = 0; i < kRepeats; ++i) histogram.add({all.x, all.y, all.z});
   const Grid<std::uint64_t> bins = histogram.bins();
   for (std::size_t i = 0; i < once.values().size(); ++i) {
     EXPECT_EQ(bins.values()[i], kRepeats * once.values()[i]);

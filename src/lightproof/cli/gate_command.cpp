@@ -117,10 +117,7 @@ int run(const Options& options) {
   const std::vector<EnvironmentMap> maps = load_maps(options);
   GateOptions gate = options.gate;
   gate.seed = options.seed;
-  std::vector<Problem> problems = problems_of(maps, chosen.of_maps);
-  for (Problem& problem : problems_of(chosen.of_directions)) {
-    problems.push_back(std::move(problem));
-  }
+  const std::vector<Problem> problems = problems_of(maps, chosen.of_maps, chosen.of_directions);
   const Progress progress = progress_bar(options);
   GateResult result = options.sequential ? run_sequential_gate(problems, gate, progress)
                                          : run_gate(problems, gate, progress);

@@ -13,7 +13,7 @@ namespace lightproof {
 namespace {
 
 constexpr std::uint64_t kFirst = std::uint64_t{1} << 12U;
-constexpr std::uint64_t kUsual = std::uint64_t{1} << 20U;
+constexpr std::uint64_t kUsual = std::uint64_t{1} << 18U;
 constexpr std::uint64_t kMost = std::uint64_t{1} << 22U;
 
 /// A mutant's problem, and what is expected of the gate.

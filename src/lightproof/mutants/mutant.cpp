@@ -12,14 +12,18 @@ BoundSampler bind(const Mutant& mutant, TargetDensity target, const EnvironmentM
   Grid<double> masses = reference::texel_masses(map, target);
   if (!mutant.law.empty()) masses = alternative_law(mutant.law).masses({&masses, &map, target});
   const auto sound = std::make_shared<const LawSampler>(std::move(masses), target.weighting);
-  return {[sound, &mutant](std::span<const SquarePoint> points, std::span<TexelSample> samples) {
+  const double factor = mutant.pdf_factor ? mutant.pdf_factor(*sound) : 1.0;
+  return {[sound, &mutant, factor](std::span<const SquarePoint> points,
+                                   std::span<TexelSample> samples) {
             for (std::size_t i = 0; i < points.size(); ++i) {
               samples[i] = sound->sample(mutant.numbers ? mutant.numbers(points, i) : points[i]);
               if (mutant.sample) mutant.sample(samples[i], *sound);
+              samples[i].pdf.value *= factor;
             }
           },
-          [sound, &mutant](SquarePoint at) {
-            return mutant.pdf ? mutant.pdf(*sound, at) : sound->pdf(at);
+          [sound, &mutant, factor](SquarePoint at) {
+            const PerSquare pdf = mutant.pdf ? mutant.pdf(*sound, at) : sound->pdf(at);
+            return PerSquare{factor * pdf.value};
           }};
 }
 

@@ -24,6 +24,8 @@ struct Mutant {
   void (*sample)(TexelSample&, const LawSampler&) = nullptr;
   /// In place of LawSampler::pdf, for the density asked for; returned densities are not touched.
   PerSquare (*pdf)(const LawSampler&, SquarePoint) = nullptr;
+  /// Of all densities, returned and asked for.
+  double (*pdf_factor)(const LawSampler&) = nullptr;
 };
 
 std::span<const Mutant> mutants();

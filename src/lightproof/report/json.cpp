@@ -226,7 +226,7 @@ std::string gate_json(const GateResult& gate, Outcome overall) {
 }
 
 std::string rejection_json(const GateResult& gate, const Rejection& rejection) {
-  return json_of(gate, rejection).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(json_of(gate, rejection));
 }
 
 std::string study_json(const StudyResult& study) {

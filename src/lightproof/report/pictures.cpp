@@ -87,6 +87,13 @@ Grid<Rgb> tone_mapped(const Grid<Rgb>& picture, double scale) {
   return mapped;
 }
 
+Grid<Rgb> grey_picture(const Grid<double>& values) {
+  Grid<Rgb> picture(values.extent());
+  std::transform(values.values().begin(), values.values().end(), picture.values().begin(),
+                 [](double value) { return Rgb(static_cast<float>(value)); });
+  return picture;
+}
+
 Grid<Rgb> shrunk(const Grid<Rgb>& picture, int max_width) {
   const Extent from = picture.extent();
   const int block = (from.width + max_width - 1) / max_width;

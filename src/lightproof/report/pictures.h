@@ -20,6 +20,9 @@ double mean_exposure(const Grid<Rgb>& picture);
 /// (NaN, -inf) or 1 (+inf).
 Grid<Rgb> tone_mapped(const Grid<Rgb>& picture, double scale);
 
+/// The values in all three channels, as numbers rather than colours.
+Grid<Rgb> grey_picture(const Grid<double>& values);
+
 /// Averages whole blocks of pixels until the width is at most `max_width`; never enlarges.
 Grid<Rgb> shrunk(const Grid<Rgb>& picture, int max_width);
 

@@ -28,21 +28,13 @@ Grid<Rgb> enlarged(const Grid<Rgb>& picture, int factor) {
   return large;
 }
 
-Grid<Rgb> as_grey(const Grid<double>& values) {
-  Grid<Rgb> grey(values.extent());
-  for (std::size_t i = 0; i < values.values().size(); ++i) {
-    grey.values()[i] = Rgb(static_cast<float>(values.values()[i]));
-  }
-  return grey;
-}
-
 }  // namespace
 
 void write_rejections(const GateResult& gate, const std::filesystem::path& folder) {
   PendingFolder pending(folder);
   for (const Rejection& rejection : gate.rejections) {
     const std::filesystem::path stem = pending.temporary() / stem_of(rejection);
-    write_exr(stem.string() + "-residual.exr", flip_rows(as_grey(rejection.residual)));
+    write_exr(stem.string() + "-residual.exr", flip_rows(grey_picture(rejection.residual)));
     const Grid<Rgb> colours = flip_rows(diverging_picture(rejection.residual, kFullColour));
     write_png(stem.string() + "-residual.png", enlarged(colours, kPixelsPerBin));
     write_file(stem.string() + ".json", rejection_json(gate, rejection));

@@ -15,13 +15,6 @@ namespace lightproof {
 namespace fs = std::filesystem;
 namespace {
 
-Grid<Rgb> grey(const Grid<double>& values) {
-  Grid<Rgb> picture(values.extent());
-  std::transform(values.values().begin(), values.values().end(), picture.values().begin(),
-                 [](double value) { return Rgb(static_cast<float>(value)); });
-  return picture;
-}
-
 /// Each scene's pictures at one exposure, as in the report; the values themselves as EXR.
 void write_scene(const RenderScene& scene, const std::vector<std::string>& stems,
                  const std::vector<RenderRecord>& renders, const fs::path& folder) {
@@ -32,7 +25,7 @@ void write_scene(const RenderScene& scene, const std::vector<std::string>& stems
   for (const std::size_t i : scene.members) {
     write_exr(folder / (stems[i] + ".exr"), renders[i].picture);
     write_png(folder / (stems[i] + ".png"), tone_mapped(renders[i].picture, exposure));
-    write_exr(folder / (stems[i] + "-error.exr"), grey(renders[i].error));
+    write_exr(folder / (stems[i] + "-error.exr"), grey_picture(renders[i].error));
   }
 }
 

@@ -135,7 +135,7 @@ constexpr std::string_view kIntroduction =
 constexpr std::string_view kKillNote =
     "Columns are the gate's tests, rows the planted defects; a dark frame marks tests of the "
     "oracle "
-    "that has to reject. Where a cell is empty the test does not see the defect with 1,048,576 "
+    "that has to reject. Where a cell is empty the test does not see the defect with 262,144 "
     "samples.";
 constexpr std::string_view kCalibrationNote =
     "One line for each test; dashed lines are the limits. The worst of many cells has a bound in "

@@ -267,4 +267,12 @@ std::vector<Problem> problems_of(std::span<const DirectionSampler> samplers) {
   return problems;
 }
 
+std::vector<Problem> problems_of(std::span<const EnvironmentMap> maps,
+                                 std::span<const Subject> subjects,
+                                 std::span<const DirectionSampler> samplers) {
+  std::vector<Problem> problems = problems_of(maps, subjects);
+  for (Problem& problem : problems_of(samplers)) problems.push_back(std::move(problem));
+  return problems;
+}
+
 }  // namespace lightproof

@@ -9,6 +9,7 @@
 
 #include "lightproof/materials/shading_point.h"
 #include "lightproof/suite/problem.h"
+#include "lightproof/suite/subject.h"
 #include "reference/cosine_lobes.h"
 
 namespace lightproof {
@@ -37,5 +38,10 @@ BoundSampler bound_directions(const DirectionSampler& sampler, Extent cells);
 
 /// One problem for each sampler.
 std::vector<Problem> problems_of(std::span<const DirectionSampler> samplers);
+
+/// Those of the maps, then those of directions.
+std::vector<Problem> problems_of(std::span<const EnvironmentMap> maps,
+                                 std::span<const Subject> subjects,
+                                 std::span<const DirectionSampler> samplers);
 
 }  // namespace lightproof

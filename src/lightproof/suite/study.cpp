@@ -77,11 +77,8 @@ StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& opti
   for (const EnvironmentMap& map : maps) {
     result.maps.push_back(describe_map(map, options.gate.seed));
   }
-  std::vector<Problem> problems = problems_of(maps, all_subjects());
-  for (Problem& problem : problems_of(direction_samplers())) {
-    problems.push_back(std::move(problem));
-  }
-  result.gate = run_gate(problems, options.gate, part_of(progress, gate_start, 0.5));
+  result.gate = run_gate(problems_of(maps, all_subjects(), direction_samplers()), options.gate,
+                         part_of(progress, gate_start, 0.5));
   const std::vector<EnvironmentLight> lights(maps.begin(), maps.end());
   result.convergence = study_convergence(lights, options.convergence, part_of(progress, 0.5, 0.93));
   result.renders = study_renders(lights, options.renders, part_of(progress, 0.93, 1.0));
