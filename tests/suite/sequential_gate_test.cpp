@@ -69,15 +69,19 @@ TEST(SequentialGate, StopsEarlyOnAWrongSamplerAndNamesIt) {
   EXPECT_EQ(result.rejections[0].looks_like, "other-weighting");
 }
 
+// One black texel of a map whose texels are too many for a process of their own.
 TEST(SequentialGate, StopsAtASampleWhereNoneCanLie) {
-  const EnvironmentMap map = make_synthetic_map("black-first-row", kExtent);
+  static constexpr Extent kLarge = {512, 256};
+  EnvironmentMap map = make_synthetic_map("constant", kLarge);
+  map.radiance(300, 100) = Rgb(0.0F);
   Subject subject = subject_of(sampler_by_name("binary_search"), Weighting::B);
   subject.bind = [bind = subject.bind](const EnvironmentMap& m) {
     const BoundSampler sound = bind(m);
     return BoundSampler{[sound](auto points, auto samples) {
                           sound.sample(points, samples);
-                          samples[0].y = 0;
-                          samples[0].at.t = 0.5 / kExtent.height;
+                          samples[0].x = 300;
+                          samples[0].y = 100;
+                          samples[0].at = {300.5 / kLarge.width, 100.5 / kLarge.height};
                         },
                         sound.pdf};
   };
