@@ -9,6 +9,11 @@ target_compile_options(lightproof_settings INTERFACE
   -fno-math-errno -fno-trapping-math  # change no value, but allow vectors
   $<$<BOOL:${LIGHTPROOF_NATIVE}>:-march=native>)
 
+# Beside the settings, where much is compiled and nothing runs long: command line, JSON, HTML. It
+# halves the time of the compiler.
+add_library(lightproof_glue INTERFACE)
+target_compile_options(lightproof_glue INTERFACE $<$<CONFIG:Release>:-O1>)
+
 # lightproof_module(NAME SOURCES … [PUBLIC targets …] [PRIVATE targets …])
 function(lightproof_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})

@@ -57,7 +57,7 @@ TEST(Calibration, OneInAHundredIsBelowOnePercent) {
 }
 
 TEST(Calibration, RunsAreWrongAsRarelyAsTheyPromise) {
-  ASSERT_EQ(calibration().families.size(), 2U);
+  ASSERT_EQ(calibration().families.size(), 3U);
   for (const FamilyRecord& family : calibration().families) {
     EXPECT_GE(family.runs, 1000U);
     EXPECT_EQ(family.family_alpha, 0.05);
@@ -67,6 +67,7 @@ TEST(Calibration, RunsAreWrongAsRarelyAsTheyPromise) {
   // And not far below its bound, although tests depend on each other: above a fifth of it, with an
   // error probability of one in a hundred.
   for (const FamilyRecord& family : calibration().families) {
+    if (family.is_bound) continue;
     EXPECT_LT(at_least(family.rejected, family.runs, 0.2 * family.family_alpha), 0.01)
         << family.procedure << ": " << family.rejected << " of " << family.runs;
   }

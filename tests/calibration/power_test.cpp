@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/binomial.hpp>
+#include <cstdio>
 #include <set>
 #include <string>
 
@@ -25,6 +26,21 @@ TEST(Power, IsThePredictedOne) {
     EXPECT_GT(boost::math::cdf(boost::math::complement(law, count - 1.0)), kAlpha) << what;
   }
   EXPECT_EQ(telling.size(), 6U) << "every test is tried where its power is neither 0 nor 1";
+}
+
+// An effect as large as the gate prints beside an acceptance is found in 99 of 100 runs.
+TEST(Power, OfTheGateForWhatItSaysThatItDetects) {
+  const std::vector<PowerRecord> records = measure_printed_effects({.replicates = 300});
+  EXPECT_EQ(records.size(), 4U);
+  for (const PowerRecord& record : records) {
+    const boost::math::binomial law(static_cast<double>(record.replicates), record.predicted);
+    EXPECT_GT(boost::math::cdf(law, static_cast<double>(record.rejected)), 1e-6)
+        << record.test << ", effect " << record.effect << ": " << record.rejected << " of "
+        << record.replicates;
+    std::printf("%s: effect %.4g found in %llu of %llu runs\n", record.test.c_str(), record.effect,
+                static_cast<unsigned long long>(record.rejected),
+                static_cast<unsigned long long>(record.replicates));
+  }
 }
 
 }  // namespace

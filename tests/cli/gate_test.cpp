@@ -1,4 +1,5 @@
 // lightproof gate: exit codes, table, JSON, and what they depend on.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -208,6 +209,43 @@ TEST(GateRejections, AreWrittenAsFiles) {
   const std::string replay = rejection.at("replay");
   EXPECT_THAT(replay, AllOf(HasSubstr("--sampler squared"), HasSubstr("--size 128x64"),
                             HasSubstr("--samples 65536"), HasSubstr("--seed 1")));
+}
+
+// The command that stands beside a rejection gives the same bits, out of a run over more samplers
+// and with other files, and without what was only for the eyes.
+TEST(GateReplay, ReproducesTheSameBits) {
+  const TemporaryFolder folder;
+  write_map(folder / "a map.exr", {64, 32});
+  const std::string map = (folder / "a map.exr").string();
+  const std::filesystem::path rejected = folder / "rejected";
+  const Finished whole = lightproof(
+      {"gate", map, "--sampler", "binary_search", "--sampler", "t-flipped-in-both", "--sampler",
+       "squared", "--any-aspect", "-n", "65536", "--seed", "77", "-q", "--json",
+       (folder / "whole.json").string(), "--rejections", (folder / "rejected").string()});
+  ASSERT_EQ(whole.exit_code, 1) << whole.err;
+  const json all = json_of(folder / "whole.json");
+  std::size_t replayed = 0;
+  for (const std::string& file : names_in(rejected)) {
+    if (!file.ends_with(".json")) continue;
+    const json rejection = json_of(rejected / file);
+    const std::string replay = rejection.at("replay");
+    const std::string words = replay.substr(std::string_view("lightproof ").size());
+    const std::string script = fmt::format("cd '{}' && '{}' {} -q --json again.json",
+                                           rejected.parent_path().string(), program(), words);
+    const Finished again = Process({{"/bin/sh", "-c", script}}).wait();
+    EXPECT_EQ(again.exit_code, 1) << replay << again.err;
+    std::vector<json> expected;
+    for (const json& test : all.at("tests")) {
+      if (test.at("sampler") == rejection.at("sampler") &&
+          test.at("weighting") == rejection.at("weighting")) {
+        expected.push_back(test);
+      }
+    }
+    EXPECT_GT(expected.size(), 10U);
+    EXPECT_EQ(json_of(folder / "again.json").at("tests"), json(expected)) << replay;
+    ++replayed;
+  }
+  EXPECT_EQ(replayed, 4U);
 }
 
 // Without --seed it is the date, in eight digits.

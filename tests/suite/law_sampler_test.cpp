@@ -44,13 +44,14 @@ TEST(LawSampler, DrawsTheTexelsOfTheDeclaredLaw) {
 
 TEST(AlternativeLaws, SumToOneAndDifferFromTheDeclaredLaw) {
   EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
-  // Colour, and rows around the absolute threshold.
+  // Colour, a texel without light, and rows around the absolute threshold.
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 64; ++x) {
       if (x < 20) map.radiance(x, y) *= Rgb(2.0F, 0.7F, 0.3F);
       map.radiance(x, y) = Rgb(1e-5F * static_cast<float>(y)) + 1e-5F * map.radiance(x, y);
     }
   }
+  map.radiance(30, 20) = Rgb(0.0F);
   for (const Weighting weighting : {Weighting::A, Weighting::B}) {
     const TargetDensity target = {weighting, kRec709};
     const Grid<double> declared = reference::texel_masses(map, target);

@@ -1,8 +1,12 @@
 // Running central moments up to the fourth, in double, without storing the samples.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <span>
 
 namespace lightproof {
 
@@ -20,6 +24,25 @@ class Moments {
     m4_ += term * dn * dn * (n * n - 3.0 * n + 3.0) + 6.0 * dn * dn * m2_ - 4.0 * dn * m3_;
     m3_ += term * dn * (n - 2.0) - 3.0 * dn * m2_;
     m2_ += term;
+  }
+
+  /// Many at once, several times as fast as one by one: their moments about their own mean, in two
+  /// passes, then merged. The same bits for the same division into spans.
+  void add(std::span<const double> values) {
+    if (values.empty()) return;
+    Moments block;
+    block.count_ = values.size();
+    const double count = static_cast<double>(values.size());
+    // The first value as a first guess of the mean: what all values share costs no digits.
+    const double guess = values[0];
+    block.mean_ = guess + sum(values, [guess](double x) { return x - guess; }) / count;
+    const auto power_sum = [&](auto power) {
+      return sum(values, [&](double x) { return power(x - block.mean_); });
+    };
+    block.m2_ = power_sum([](double d) { return d * d; });
+    block.m3_ = power_sum([](double d) { return d * d * d; });
+    block.m4_ = power_sum([](double d) { return d * d * d * d; });
+    merge(block);
   }
 
   void merge(const Moments& other) {
@@ -56,6 +79,19 @@ class Moments {
   }
 
  private:
+  /// In lanes of their own, which become vectors.
+  template <class Term>
+  static double sum(std::span<const double> values, Term term) {
+    constexpr std::size_t kLanes = 8;
+    std::array<double, kLanes> lanes = {};
+    const std::size_t whole = values.size() - values.size() % kLanes;
+    for (std::size_t i = 0; i < whole; i += kLanes) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) lanes[lane] += term(values[i + lane]);
+    }
+    for (std::size_t i = whole; i < values.size(); ++i) lanes[i - whole] += term(values[i]);
+    return std::accumulate(lanes.begin(), lanes.end(), 0.0);
+  }
+
   std::uint64_t count_ = 0;
   double mean_ = 0.0;
   double m2_ = 0.0;  // sums of powers of deviations from the mean

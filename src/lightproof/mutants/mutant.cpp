@@ -16,7 +16,8 @@ BoundSampler bind(const Mutant& mutant, TargetDensity target, const EnvironmentM
   return {[sound, &mutant, factor](std::span<const SquarePoint> points,
                                    std::span<TexelSample> samples) {
             for (std::size_t i = 0; i < points.size(); ++i) {
-              samples[i] = sound->sample(mutant.numbers ? mutant.numbers(points, i) : points[i]);
+              const SquarePoint u = mutant.numbers ? mutant.numbers(points, i) : points[i];
+              samples[i] = mutant.draw ? mutant.draw(*sound, u) : sound->sample(u);
               if (mutant.sample) mutant.sample(samples[i], *sound);
               samples[i].pdf.value *= factor;
             }

@@ -20,6 +20,8 @@ struct Mutant {
   std::string_view law = {};
   /// The random numbers that are used in place of the i-th of a batch.
   SquarePoint (*numbers)(std::span<const SquarePoint> batch, std::size_t i) = nullptr;
+  /// In place of LawSampler::sample.
+  TexelSample (*draw)(const LawSampler&, SquarePoint u) = nullptr;
   /// Applied to what was drawn.
   void (*sample)(TexelSample&, const LawSampler&) = nullptr;
   /// In place of LawSampler::pdf, for the density asked for; returned densities are not touched.

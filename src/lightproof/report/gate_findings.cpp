@@ -42,7 +42,13 @@ SamplerFinding sampler_finding(const GateResult& gate, const std::string& sample
                             ? " (kept as published; its known defects were not seen)"
                             : " (kept as published, with its known defects)";
   }
-  if (finding.outcome == Outcome::accept) return finding;
+  if (finding.outcome == Outcome::resolution_limited) {
+    finding.sentence +=
+        fmt::format(", {} as far as its rounding lets be seen", counted(tally.limited, "test"));
+  }
+  if (finding.outcome == Outcome::accept || finding.outcome == Outcome::resolution_limited) {
+    return finding;
+  }
   for (const GateCell& cell : summarise(gate)) {
     if (cell.sampler != sampler || cell.worst->outcome != finding.outcome) continue;
     finding.sentence += fmt::format("; for example {} {} of {} on {}", cell.worst->oracle,
@@ -73,6 +79,7 @@ std::string headline(const StudyResult& study) {
   const std::string error = "at a family-wise error of " + significant(gate.family_alpha, 2);
   switch (tally.outcome()) {
     case Outcome::accept:
+    case Outcome::resolution_limited:
       return fmt::format("{}, {} draws the right distribution: {} {}", where, subject,
                          tests_of(tally, "rejected"), error);
     case Outcome::reject:

@@ -22,6 +22,8 @@ Cell tally_cell(const GateCell& cell) {
     text += fmt::format(" {}/{}", tally.rejected, tally.tests);
   } else if (tally.inconclusive > 0) {
     text += fmt::format(" {}/{}", tally.inconclusive, tally.tests);
+  } else if (tally.limited > 0) {
+    text += fmt::format(" {}/{}", tally.limited, tally.tests);
   }
   const std::string worst = fmt::format(
       "{}; most suspicious: {}/{}, log10 p {}", counted(tally.tests, "test"), cell.worst->oracle,
@@ -143,6 +145,7 @@ std::string tally_text(const Tally& tally) {
   std::string text = fmt::format("{} of {} rejected", with_thousands(tally.rejected),
                                  counted(tally.tests, "test"));
   if (tally.inconclusive > 0) text += fmt::format(", {} inconclusive", tally.inconclusive);
+  if (tally.limited > 0) text += fmt::format(", {} resolution-limited", tally.limited);
   return text;
 }
 
@@ -181,6 +184,12 @@ std::string failed_tests(const GateResult& gate, const Tally& all) {
     html += "<h4>Inconclusive tests</h4>\n" +
             test_table(gate, "Inconclusive tests",
                        [](const TestRecord& t) { return t.outcome == Outcome::inconclusive; });
+  }
+  if (all.limited > 0) {
+    html += "<h4>Resolution-limited tests</h4>\n" +
+            test_table(gate, "Resolution-limited tests", [](const TestRecord& t) {
+              return t.outcome == Outcome::resolution_limited;
+            });
   }
   return html;
 }

@@ -13,10 +13,12 @@ int severity(Outcome outcome) {
       return 0;
     case Outcome::inconclusive:
       return 1;
-    case Outcome::accept:
+    case Outcome::resolution_limited:
       return 2;
+    case Outcome::accept:
+      return 3;
   }
-  return 2;
+  return 3;
 }
 
 /// Deterministic checks have no probability: among equals they count as the least telling when
@@ -37,11 +39,13 @@ void Tally::add(Outcome outcome) {
   ++tests;
   if (outcome == Outcome::reject) ++rejected;
   if (outcome == Outcome::inconclusive) ++inconclusive;
+  if (outcome == Outcome::resolution_limited) ++limited;
 }
 
 Outcome Tally::outcome() const {
   if (rejected > 0) return Outcome::reject;
-  return inconclusive > 0 || tests == 0 ? Outcome::inconclusive : Outcome::accept;
+  if (inconclusive > 0 || tests == 0) return Outcome::inconclusive;
+  return limited > 0 ? Outcome::resolution_limited : Outcome::accept;
 }
 
 std::string configuration_name(const TestRecord& test) {
@@ -95,6 +99,8 @@ std::string outcome_text(Outcome outcome) {
       return "\u2717 reject";
     case Outcome::inconclusive:
       return "? inconclusive";
+    case Outcome::resolution_limited:
+      return "\u2248 resolution-limited";
   }
   return "";
 }

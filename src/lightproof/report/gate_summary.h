@@ -14,9 +14,11 @@ struct Tally {
   std::size_t tests = 0;
   std::size_t rejected = 0;
   std::size_t inconclusive = 0;
+  std::size_t limited = 0;  ///< by resolution
 
   void add(Outcome outcome);
-  /// Reject if any test rejects, else inconclusive if any is or there are none, else accept.
+  /// Reject if any test rejects, else inconclusive if any is or there are none, else
+  /// resolution-limited if any is, else accept.
   Outcome outcome() const;
 };
 
@@ -62,7 +64,8 @@ struct WorstBin {
 /// The bins that are farthest off, the worst first.
 std::vector<WorstBin> worst_bins(const Rejection& rejection, std::size_t most);
 
-/// "✓ accept", "✗ reject", "? inconclusive": a sign and a word, so that colour is never needed.
+/// "✓ accept", "✗ reject", "? inconclusive", "≈ resolution-limited": a sign and a word, so that
+/// colour is never needed.
 std::string outcome_text(Outcome outcome);
 
 /// The names in order of first appearance, each once.

@@ -56,7 +56,7 @@ std::string detectable_text(const TestRecord& test) {
 }
 
 std::string tally_text(const Tally& tally) {
-  const std::size_t passed = tally.tests - tally.rejected - tally.inconclusive;
+  const std::size_t passed = tally.tests - tally.rejected - tally.inconclusive - tally.limited;
   return fmt::format("{}/{}", passed, tally.tests);
 }
 
@@ -108,13 +108,10 @@ std::string rejected_lines(const GateResult& gate, Colour colour) {
   return text.empty() ? "" : "\nRejected tests\n" + text;
 }
 
-/// What was accepted, but says less than it seems to.
 std::string limited_lines(const GateResult& gate) {
   std::string text;
   for (const TestRecord& test : gate.tests) {
-    if (test.outcome == Outcome::accept && test.detail.starts_with("resolution-limited")) {
-      text += full_text(test);
-    }
+    if (test.outcome == Outcome::resolution_limited) text += full_text(test);
   }
   return text.empty() ? "" : "\nResolution-limited tests\n" + text;
 }

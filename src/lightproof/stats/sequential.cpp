@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "lightproof/stats/saddle_point.h"
+#include "lightproof/stats/tails.h"
 
 namespace lightproof {
 namespace {
@@ -77,6 +78,21 @@ double SequentialTest::log10_e(std::span<const std::uint64_t> counts) const {
   double sum = 0.0;
   for (const double log : logs) sum += std::exp(log - largest);
   return (largest + std::log(sum / static_cast<double>(logs.size()))) / std::numbers::ln10;
+}
+
+double SequentialTest::detectable_effect(double alpha, double power, double samples) const {
+  const auto possible =
+      std::count_if(probability_.begin(), probability_.end(), [](double p) { return p > 0.0; });
+  if (possible < 2) return INFINITY;
+  const auto dof = static_cast<double>(possible - 1);
+  const double log_enough = std::log(static_cast<double>(concentrations_.size()) / alpha);
+  double least = INFINITY;
+  for (const double c : concentrations_) {
+    const double s = samples / (c + 1.0);
+    const double critical = (1.0 + s) / s * (2.0 * log_enough + dof * std::log1p(s));
+    least = std::min(least, noncentrality_beyond(dof, critical, power));
+  }
+  return std::sqrt(least / samples);
 }
 
 bool SequentialTest::rejects(double log10_e, double alpha) { return log10_e >= -std::log10(alpha); }

@@ -35,6 +35,13 @@ class SequentialTest {
   /// Stopping as soon as this holds is a false alarm with a probability of at most alpha.
   static bool rejects(double log10_e, double alpha);
 
+  /// The effect w with which E reaches 1/alpha within so many samples, with this power. Where
+  /// counts are near enough to normal, log E of one concentration is (t X - k' log(1 + s)) / 2 with
+  /// s = N / (c + 1), t = s / (1 + s) and X a non-central chi-square of k' = k - 1 degrees of
+  /// freedom and N w^2; the best one, over their number, bounds the average from below. Infinite
+  /// for a single cell.
+  double detectable_effect(double alpha, double power, double samples) const;
+
   /// Those that E is averaged over, with equal weights: powers of two times the smallest.
   std::span<const double> concentrations() const { return concentrations_; }
 

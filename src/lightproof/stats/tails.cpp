@@ -95,8 +95,13 @@ double log10_normal_tails(double z) {
 
 double detectable_noncentrality(double dof, double alpha, double power) {
   const boost::math::chi_squared central(dof);
-  const double critical = boost::math::quantile(boost::math::complement(central, alpha));
-  return boost::math::non_central_chi_squared::find_non_centrality(dof, critical, 1.0 - power);
+  return noncentrality_beyond(dof, boost::math::quantile(boost::math::complement(central, alpha)),
+                              power);
+}
+
+double noncentrality_beyond(double dof, double critical, double probability) {
+  return boost::math::non_central_chi_squared::find_non_centrality(dof, critical,
+                                                                   1.0 - probability);
 }
 
 double chi_square_power(double dof, double alpha, double noncentrality) {

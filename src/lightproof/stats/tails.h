@@ -22,6 +22,9 @@ double log10_normal_tails(double z);
 /// The non-centrality at which a chi-square test of size alpha rejects with the given power.
 double detectable_noncentrality(double dof, double alpha, double power);
 
+/// The non-centrality at which chi-square exceeds `critical` with the given probability.
+double noncentrality_beyond(double dof, double critical, double probability);
+
 /// P(a chi-square test of size alpha rejects) at this non-centrality.
 double chi_square_power(double dof, double alpha, double noncentrality);
 

@@ -3,7 +3,14 @@
 
 namespace lightproof {
 
-enum class Outcome { accept, reject, inconclusive };
+enum class Outcome {
+  accept,
+  reject,
+  inconclusive,
+  /// Nothing was found, but what would have been is smaller than what the sampler's own rounding
+  /// makes: no reason to fail, and no acceptance of its law to that size either.
+  resolution_limited,
+};
 
 constexpr const char* to_string(Outcome outcome) {
   switch (outcome) {
@@ -13,6 +20,8 @@ constexpr const char* to_string(Outcome outcome) {
       return "reject";
     case Outcome::inconclusive:
       return "inconclusive";
+    case Outcome::resolution_limited:
+      return "resolution-limited";
   }
   return "";
 }

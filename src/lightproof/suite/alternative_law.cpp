@@ -223,6 +223,14 @@ Grid<double> uniform_mixed_in(const DeclaredLaw& declared) {
   });
 }
 
+/// A hundredth of the mean for texels without light: what abs() makes of the values slightly below
+/// zero that filters leave beside bright lamps.
+Grid<double> dark_texels_drawn(const DeclaredLaw& declared) {
+  return moved(declared, [](const Grid<double>& m, int x, int y) {
+    return m(x, y) > 0.0 ? m(x, y) : 0.01 / static_cast<double>(m.extent().count());
+  });
+}
+
 Grid<double> uniform(const DeclaredLaw& declared) {
   return with_grey(declared, [](Rgb) { return 1.0; });
 }
@@ -255,7 +263,7 @@ Grid<double> half_column(const DeclaredLaw& declared) {
   });
 }
 
-constexpr std::array<AlternativeLaw, 27> kLaws = {{
+constexpr std::array<AlternativeLaw, 28> kLaws = {{
     {"other-weighting", "a missing sin(theta) (or one too many): the other weighting",
      other_weighting},
     {"sine-at-edge", "sin(theta) taken at the row's edge, y/H instead of (y+1/2)/H", sine_at_edge},
@@ -284,6 +292,8 @@ constexpr std::array<AlternativeLaw, 27> kLaws = {{
     {"squared", "grey squared", squared},
     {"clamped", "bright values clamped", clamped},
     {"uniform-mixed-in", "some samples drawn uniformly", uniform_mixed_in, false},
+    {"dark-texels-drawn", "texels without light are drawn: abs() of values below zero",
+     dark_texels_drawn, false},
     {"quarter-turn", "the map turned by 90 degrees", quarter_turn, false},
     {"dim-rows-skipped", "rows darker than an absolute threshold are never drawn",
      without_dim_rows},

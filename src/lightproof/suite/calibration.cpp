@@ -17,6 +17,7 @@
 #include "lightproof/suite/configuration.h"
 #include "lightproof/suite/gate.h"
 #include "lightproof/suite/law_sampler.h"
+#include "lightproof/suite/sequential_gate.h"
 #include "lightproof/warp/lat_long.h"
 #include "reference/texel_masses.h"
 
@@ -168,6 +169,19 @@ FamilyRecord family_of_gate(const Trial& trial, const CalibrationOptions& option
           static_cast<std::uint64_t>(count)};
 }
 
+FamilyRecord family_of_sequential_gate(const Trial& trial, const CalibrationOptions& options,
+                                       const Progress& progress) {
+  std::vector<char> rejected(options.runs);
+  for_each_replicate(options.runs, progress, [&](std::size_t i) {
+    const GateOptions gate{options.run_samples, options.seed + i, options.family_alpha};
+    const GateResult result = run_sequential_gate({&trial.problem, 1}, gate);
+    rejected[i] = overall_outcome(result, true) == Outcome::reject ? 1 : 0;
+  });
+  const auto count = std::count(rejected.begin(), rejected.end(), 1);
+  return {"the sequential gate, stopped when it likes", options.family_alpha, options.runs,
+          static_cast<std::uint64_t>(count), true};
+}
+
 /// The declared law with so much of another one, uniform but for two thirds of it on one side, that
 /// the bins are off by `effect`.
 Trial trial_off_by(double effect) {
@@ -191,6 +205,22 @@ Trial trial_off_by(double effect) {
     other.values()[i] = (1.0 - share) * declared.values()[i] + share * other.values()[i];
   }
   return {map, std::move(other)};
+}
+
+/// The declared law, with weights that are too large by these factors, in columns by turns.
+Trial trial_of_weights(double even, double odd) {
+  Trial trial = sound_trial();
+  const BoundSampler sound = trial.problem.candidates[0].bind();
+  trial.problem.candidates[0].bind = [sound, even, odd] {
+    return BoundSampler{[sound, even, odd](auto points, auto samples) {
+                          sound.sample(points, samples);
+                          for (TexelSample& sample : samples) {
+                            sample.pdf.value /= sample.x % 2 == 0 ? even : odd;
+                          }
+                        },
+                        sound.pdf};
+  };
+  return trial;
 }
 
 /// Distances between the laws of a transformed coordinate that is uniform if `declared` is drawn.
@@ -281,8 +311,60 @@ CalibrationResult calibrate(const CalibrationOptions& options, const Progress& p
     result.tests.push_back(record_of_p_values(test, std::move(values)));
   }
   result.families = {family_of_replicates(replicates, options.family_alpha),
-                     family_of_gate(trial, options, part_of(progress, 0.5, 1.0))};
+                     family_of_gate(trial, options, part_of(progress, 0.5, 0.8)),
+                     family_of_sequential_gate(trial, options, part_of(progress, 0.8, 1.0))};
   return result;
+}
+
+std::vector<PowerRecord> measure_printed_effects(const PowerOptions& options,
+                                                 const Progress& progress) {
+  constexpr std::uint64_t kSamples = std::uint64_t{1} << 14U;
+  const Trial sound = sound_trial();
+  const auto run = [&](const Trial& trial, std::uint64_t seed, bool sequential) {
+    const GateOptions gate{kSamples, seed};
+    return sequential ? run_sequential_gate({&trial.problem, 1}, gate)
+                      : run_gate({&trial.problem, 1}, gate);
+  };
+  const auto record_in = [](const GateResult& result, std::string_view test) {
+    return *std::find_if(result.tests.begin(), result.tests.end(),
+                         [&](const TestRecord& r) { return name_of(r) == test; });
+  };
+  struct Plant {
+    std::string test;
+    Trial (*make)(double effect);
+    bool sequential = false;
+  };
+  const std::vector<Plant> plants = {
+      {"reference/bins 16x32", trial_off_by},
+      {"reference/sequential", trial_off_by, true},
+      {"mean/irradiance, normal +x",
+       [](double effect) { return trial_of_weights(1.0 + effect, 1.0 + effect); }},
+      // A variance more by w of weights that are (1 + d) and (1 - d) times the right ones.
+      {"variance/irradiance, normal +x", [](double effect) {
+         const reference::EstimatorMoments exact = sound_trial().expectation->estimators[1];
+         const double d = std::sqrt(effect * exact.variance() / exact.raw[1]);
+         return trial_of_weights(1.0 + d, 1.0 - d);
+       }}};
+  std::vector<PowerRecord> records;
+  for (std::size_t k = 0; k < plants.size(); ++k) {
+    const Plant& plant = plants[k];
+    const double effect =
+        *record_in(run(sound, options.seed, plant.sequential), plant.test).detectable_effect;
+    const Trial trial = plant.make(effect);
+    std::vector<char> rejected(options.replicates);
+    const auto parts = static_cast<double>(plants.size());
+    for_each_replicate(
+        options.replicates,
+        part_of(progress, static_cast<double>(k) / parts, static_cast<double>(k + 1) / parts),
+        [&](std::size_t i) {
+          const GateResult result = run(trial, options.seed + i, plant.sequential);
+          rejected[i] = record_in(result, plant.test).outcome == Outcome::reject ? 1 : 0;
+        });
+    records.push_back({plant.test, effect, GateOptions{}.family_alpha, kSamples, options.replicates,
+                       static_cast<std::uint64_t>(std::count(rejected.begin(), rejected.end(), 1)),
+                       kDetectablePower, true});
+  }
+  return records;
 }
 
 std::vector<PowerRecord> measure_power(const PowerOptions& options, const Progress& progress) {

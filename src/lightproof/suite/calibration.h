@@ -29,6 +29,11 @@ struct PowerOptions {
   std::uint64_t replicates = 1000;  ///< for each point
 };
 
+/// Plants defects as large as the gate says that it detects, and lets it judge them with both of
+/// its stages, or sequentially: how often it rejects, which should be at least kDetectablePower.
+std::vector<PowerRecord> measure_printed_effects(const PowerOptions& options,
+                                                 const Progress& progress = {});
+
 /// Lets a law a little off be judged with several numbers of samples, some too few: how often each
 /// test rejects, and how often it should.
 std::vector<PowerRecord> measure_power(const PowerOptions& options, const Progress& progress = {});

@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<double, 5> kCorners = {0.0, 0x1p-24, 0.5, 1.0 - 0x1p-24, 1.0 - 0x1p-53};
 
 /// The cumulative sums of `masses`, normalised, each with its neighbours on either side, in double
-/// and in steps of 2^-31, where samplers of that precision have their own knots.
+/// and in steps of 2^-31 and 2^-24, where samplers of that precision have their own knots.
 std::vector<double> around_knots(std::span<const double> masses) {
   std::vector<double> values;
   const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
@@ -23,13 +23,26 @@ std::vector<double> around_knots(std::span<const double> masses) {
   for (const double mass : masses) {
     sum += mass;
     const double knot = sum / total;
-    const double coarse = std::round(knot * 0x1p31) * 0x1p-31;
-    for (const double u : {std::nextafter(knot, 0.0), knot, std::nextafter(knot, 1.0),
-                           coarse - 0x1p-31, coarse, coarse + 0x1p-31}) {
+    const auto add = [&](double u) {
       if (u >= 0.0 && u < 1.0) values.push_back(u);
+    };
+    for (const double u : {std::nextafter(knot, 0.0), knot, std::nextafter(knot, 1.0)}) add(u);
+    for (const double step : {0x1p-31, 0x1p-24}) {
+      const double coarse = std::round(knot / step) * step;
+      for (const double u : {coarse - step, coarse, coarse + step}) add(u);
     }
   }
   return values;
+}
+
+/// Points around one knot.
+constexpr int kAroundKnot = 9;
+/// Points around the knots of all rows that are looked at, about.
+constexpr int kKnotPoints = 1 << 18;
+
+/// Not at 0 in the other coordinate, which is an edge of its own.
+bool is_next_to_one(SquarePoint u) {
+  return std::max(u.s, u.t) >= 1.0 - 0x1p-24 && std::min(u.s, u.t) > 0.0;
 }
 
 /// The edges of equal cells and of equal bins over [0,1], each once, ascending.
@@ -112,11 +125,13 @@ CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& 
   return result;
 }
 
-CheckResult check_edges(const BoundSampler& sampler, const Expectation& expectation) {
+namespace {
+
+CheckResult check_points(std::string_view name, const BoundSampler& sampler,
+                         const Expectation& expectation, const std::vector<SquarePoint>& points) {
   const Extent extent = expectation.masses.extent();
-  CheckResult result{"edges of u", true, 0.0, ""};
+  CheckResult result{std::string(name), true, 0.0, ""};
   std::uint64_t failures = 0;
-  const std::vector<SquarePoint> points = edge_points(expectation);
   const std::vector<TexelSample> samples = samples_at(sampler, points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SquarePoint u = points[i];
@@ -140,6 +155,18 @@ CheckResult check_edges(const BoundSampler& sampler, const Expectation& expectat
                     failures, points.size(), result.detail);
   }
   return result;
+}
+
+}  // namespace
+
+std::array<CheckResult, 2> check_edges(const BoundSampler& sampler,
+                                       const Expectation& expectation) {
+  std::vector<SquarePoint> points = edge_points(expectation);
+  const auto last = std::stable_partition(points.begin(), points.end(), is_next_to_one);
+  const std::vector<SquarePoint> others(last, points.end());
+  points.erase(last, points.end());
+  return {check_points("u next to 1", sampler, expectation, points),
+          check_points("edges of u", sampler, expectation, others)};
 }
 
 CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,
@@ -173,13 +200,13 @@ std::vector<SquarePoint> edge_points(const Expectation& expectation) {
   }
   for (const double t : around_knots(expectation.rows)) points.push_back({0.5, t});
 
-  constexpr int kRows = 16;
-  const int height = expectation.masses.extent().height;
+  const auto [width, height] = expectation.masses.extent();
+  const int visits = std::max(16, kKnotPoints / (kAroundKnot * width));
   double below = 0.0;
   int visited = 0;
   for (int y = 0; y < height; ++y) {
     const double mass = expectation.rows[static_cast<std::size_t>(y)];
-    if (mass > 0.0 && y * kRows >= visited * height) {
+    if (mass > 0.0 && y * visits >= visited * height) {
       ++visited;
       for (const double s : around_knots(expectation.masses.row(y))) {
         points.push_back({s, below + 0.5 * mass});

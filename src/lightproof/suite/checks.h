@@ -1,6 +1,7 @@
 // Checks that need no statistics: what a sampler must do for certain points, exactly.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -34,15 +35,16 @@ CheckResult check_pdf_integral(const OwnDensity& own);
 /// pdf(sample(u).at) equals the pdf that sample(u) returned, to 1e-5.
 CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& stream);
 
-/// At edge_points(): the sample stays on the map, inside its texel, and that texel has light.
-CheckResult check_edges(const BoundSampler& sampler, const Expectation& expectation);
+/// At edge_points(): the sample stays on the map, inside its texel, and that texel has light. The
+/// points next to 1 are a check of their own: where sums end too early, they run off.
+std::array<CheckResult, 2> check_edges(const BoundSampler& sampler, const Expectation& expectation);
 
 /// The same texel as another sampler for the same point.
 CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,
                              const Expectation& expectation, const RandomStream& stream);
 
 /// Points at the edges of the random numbers' range and around the knots of the marginal and of
-/// the conditional distributions of up to 16 rows.
+/// the conditional distributions of rows: of all, or of as many as about 2^18 points allow.
 std::vector<SquarePoint> edge_points(const Expectation& expectation);
 
 }  // namespace lightproof

@@ -177,7 +177,9 @@ bool is_one_number(const Draws& draws) {
 }
 
 /// Whether the transformed coordinates take few values only.
-bool is_coarse(const Draws& draws) { return 2 * draws.on_lattice > draws.samples; }
+bool is_coarse(const Draws& draws) {
+  return 2 * std::max(draws.along_on_lattice, draws.across_on_lattice) > draws.samples;
+}
 
 /// Whether a few texels hold most of the divergence.
 bool is_in_one_place(const Expectation& expectation, const Draws& draws) {
@@ -223,14 +225,18 @@ std::string_view name_of_wrong_pdf(const Problem& problem, const Expectation& ex
   if (verdicts.rejected("check", "pdf of the sample")) {
     return returned->effect > 0.5 ? "pdf-of-another-place" : "noisy-pdf";
   }
-  return verdicts.any_rejected("mean") || verdicts.any_rejected("variance") ? "noisy-pdf"
-                                                                            : "unknown";
+  if (!verdicts.any_rejected("mean") && !verdicts.any_rejected("variance")) return "unknown";
+  // A law too near to the declared one for any count may still be the likelier one.
+  const Explanation explanation = best_law(problem, expectation, *evidence.draws);
+  return explanation.law.empty() ? "noisy-pdf" : explanation.law;
 }
 
 std::string_view name_of(const Problem& problem, const Expectation& expectation,
                          const Evidence& evidence) {
   const Verdicts verdicts(evidence.records);
-  if (evidence.draws->lost.count > 0) return "off-the-map";
+  if (evidence.draws->lost.count > 0 || verdicts.rejected("check", "samples stay on the map")) {
+    return "off-the-map";
+  }
   if (is_coarse(*evidence.draws)) return "coarse-numbers";
   if (counts_are_wrong(verdicts)) {
     return name_of_wrong_counts(problem, expectation, evidence, verdicts);
@@ -244,6 +250,7 @@ std::string_view name_of(const Problem& problem, const Expectation& expectation,
   const bool pdf = verdicts.rejected("check", "pdf integrates to 1") ||
                    verdicts.rejected("check", "pdf of the sample") || verdicts.any_rejected("self");
   if (pdf) return name_of_wrong_pdf(problem, expectation, evidence, verdicts);
+  if (verdicts.rejected("check", "u next to 1")) return "off-the-map";
   if (verdicts.any_rejected("check")) return "wrong-at-knots";
   return name_of_wrong_pdf(problem, expectation, evidence, verdicts);
 }

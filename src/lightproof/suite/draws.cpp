@@ -18,27 +18,51 @@ constexpr std::uint64_t kTaskSamples = std::uint64_t{1} << 18U;
 /// Tasks whose results are held at once.
 constexpr std::uint64_t kTasksAtOnce = 16;
 
+/// Adds what was counted, if it was.
 template <class Into, class From>
 void add_counts(Into&& into, const From& from) {
+  if (from.size() == 0) return;
   std::transform(into.begin(), into.end(), from.begin(), into.begin(), std::plus<>());
 }
 
-/// What one task found. Its texels are a list: a grid for every task would not fit a large map.
+/// What one task found. Its texels are a list: a grid for every task would not fit a large map. The
+/// finest counts are of half the size, so that they stay in the cache.
 struct Part {
-  Draws draws{Extent{0, 0}};
+  Draws draws{Extent{0, 0}, 0};
   std::vector<std::uint32_t> texels;
+  std::vector<std::uint32_t> along = std::vector<std::uint32_t>(kUniformCells);
+  std::vector<std::uint32_t> column = std::vector<std::uint32_t>(kUniformCells);
 };
 
-void count_transformed(Draws& draws, const reference::UnitPoint& unit) {
+/// What the estimators say of the samples of one batch.
+struct Estimates {
+  std::array<std::vector<double>, kMeanCaseCount> radiance;
+  std::vector<double> inverse_pdf;
+
+  void clear() {
+    for (std::vector<double>& values : radiance) values.clear();
+    inverse_pdf.clear();
+  }
+};
+
+/// Whether a number is all but a multiple of 2^-20, and not 0.
+bool is_on_lattice(double u) {
+  const double scaled = u * 0x1p20;
+  return u > 0.0 && std::abs(scaled - std::round(scaled)) < 0x1p-8;
+}
+
+void count_transformed(Part& part, const reference::UnitPoint& unit) {
   constexpr auto kCells = static_cast<int>(kUniformCells);
-  ++draws.along[static_cast<std::size_t>(cell_of(unit.along, kCells))];
-  ++draws.column[static_cast<std::size_t>(cell_of(unit.column, kCells))];
-  const double scaled = unit.along * 0x1p20;
-  if (unit.along > 0.0 && std::abs(scaled - std::round(scaled)) < 0x1p-8) ++draws.on_lattice;
+  Draws& draws = part.draws;
+  ++part.along[static_cast<std::size_t>(cell_of(unit.along, kCells))];
+  ++part.column[static_cast<std::size_t>(cell_of(unit.column, kCells))];
+  draws.along_on_lattice += is_on_lattice(unit.along) ? 1 : 0;
+  draws.across_on_lattice += is_on_lattice(unit.across) ? 1 : 0;
   ++draws.pairs(cell_of(unit.across, kPairBins.width), cell_of(unit.along, kPairBins.height));
 }
 
-void count(Part& part, const Expectation& expectation, SquarePoint u, const TexelSample& sample) {
+void count(Part& part, Estimates& estimates, const Expectation& expectation, SquarePoint u,
+           const TexelSample& sample) {
   const Extent map = expectation.masses.extent();
   Draws& draws = part.draws;
   if (!is_on_map(sample, map)) return draws.lost.add(u, sample);
@@ -48,7 +72,7 @@ void count(Part& part, const Expectation& expectation, SquarePoint u, const Texe
                         static_cast<std::uint32_t>(sample.x));
   ++draws.bins(cell_of(sample.at.s, kGateBins.width), cell_of(sample.at.t, kGateBins.height));
   if (expectation.transform) {
-    count_transformed(draws, expectation.transform(sample.at, sample.x, sample.y));
+    count_transformed(part, expectation.transform(sample.at, sample.x, sample.y));
   }
   // 2 pi^2 sin(theta) / p(s,t)
   const double inverse_pdf = 1.0 / to_solid_angle(sample.pdf, sample.at).value;
@@ -56,9 +80,9 @@ void count(Part& part, const Expectation& expectation, SquarePoint u, const Texe
   const double radiance = expectation.grey(sample.x, sample.y);
   for (std::size_t k = 0; k < kMeanCaseCount; ++k) {
     const double cosine = std::max(0.0, glm::dot(kMeanCases[k].normal, direction));
-    draws.estimators[k].add(radiance * cosine * inverse_pdf);
+    estimates.radiance[k].push_back(radiance * cosine * inverse_pdf);
   }
-  draws.inverse_pdf.add(expectation.is_bright(sample.x, sample.y) ? inverse_pdf : 0.0);
+  estimates.inverse_pdf.push_back(expectation.is_bright(sample.x, sample.y) ? inverse_pdf : 0.0);
 }
 
 Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
@@ -68,11 +92,19 @@ Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
   part.texels.reserve(range.count);
   std::vector<SquarePoint> points(kBatch);
   std::vector<TexelSample> samples(kBatch);
+  Estimates estimates;
   for (std::uint64_t done = 0; done < range.count; done += kBatch) {
     const auto size = static_cast<std::size_t>(std::min(kBatch, range.count - done));
     for (std::size_t i = 0; i < size; ++i) points[i] = stream.point(range.first + done + i);
     sampler.sample(std::span(points).first(size), std::span(samples).first(size));
-    for (std::size_t i = 0; i < size; ++i) count(part, expectation, points[i], samples[i]);
+    estimates.clear();
+    for (std::size_t i = 0; i < size; ++i) {
+      count(part, estimates, expectation, points[i], samples[i]);
+    }
+    for (std::size_t k = 0; k < kMeanCaseCount; ++k) {
+      part.draws.estimators[k].add(estimates.radiance[k]);
+    }
+    part.draws.inverse_pdf.add(estimates.inverse_pdf);
   }
   return part;
 }
@@ -96,18 +128,19 @@ void for_each_part(Range range, const Make& make, const Take& take) {
 
 }  // namespace
 
-Draws::Draws(Extent map)
-    : bins(kGateBins), texels(map), along(kUniformCells), column(kUniformCells), pairs(kPairBins) {}
+Draws::Draws(Extent map, std::size_t cells)
+    : bins(kGateBins), texels(map), along(cells), column(cells), pairs(kPairBins) {}
 
 void Draws::merge(const Draws& other) {
   samples += other.samples;
   add_counts(bins.values(), other.bins.values());
-  if (texels.extent() == other.texels.extent()) add_counts(texels.values(), other.texels.values());
+  add_counts(texels.values(), other.texels.values());
   add_counts(along, other.along);
   add_counts(column, other.column);
   add_counts(pairs.values(), other.pairs.values());
   for (std::size_t i = 0; i < kMeanCaseCount; ++i) estimators[i].merge(other.estimators[i]);
-  on_lattice += other.on_lattice;
+  along_on_lattice += other.along_on_lattice;
+  across_on_lattice += other.across_on_lattice;
   inverse_pdf.merge(other.inverse_pdf);
   lost.merge(other.lost);
   dark.merge(other.dark);
@@ -131,7 +164,9 @@ UniformEstimates draw_uniformly(const Expectation& expectation, const RandomStre
         for (std::uint64_t i = range.first; i < range.first + range.count; ++i) {
           const SquarePoint u = stream.point(i);
           const SquarePoint at = {u.s, std::acos(1.0 - 2.0 * u.t) / kPi};
-          const Direction direction = direction_from_square(at);
+          const double sine = 2.0 * std::sqrt(u.t * (1.0 - u.t));
+          const double phi = kPi - 2.0 * kPi * u.s;
+          const Direction direction = {sine * std::cos(phi), sine * std::sin(phi), 2.0 * u.t - 1.0};
           const double radiance =
               expectation.grey(cell_of(at.s, extent.width), cell_of(at.t, extent.height));
           for (std::size_t k = 0; k < kMeanCaseCount; ++k) {
@@ -154,6 +189,8 @@ Draws draw_samples(const BoundSampler& sampler, const Expectation& expectation,
       all_points, [&](Range range) { return draw_part(sampler, expectation, stream, range); },
       [&](const Part& part) {
         all.merge(part.draws);
+        add_counts(all.along, part.along);
+        add_counts(all.column, part.column);
         for (const std::uint32_t texel : part.texels) ++all.texels.values()[texel];
       });
   return all;

@@ -8,6 +8,7 @@
 
 #include "lightproof/core/moments.h"
 #include "lightproof/core/random.h"
+#include "lightproof/stats/uniformity.h"
 #include "lightproof/suite/bound_sampler.h"
 #include "lightproof/suite/expectation.h"
 
@@ -35,7 +36,8 @@ struct Strays {
 
 /// Counts and moments; `merge` in a fixed order gives the same bits however the work was split.
 struct Draws {
-  explicit Draws(Extent map);
+  /// Without texels if the map is empty, without `along` and `column` if `cells` is 0.
+  explicit Draws(Extent map, std::size_t cells = kUniformCells);
 
   std::uint64_t samples = 0;
   Grid<std::uint64_t> bins;
@@ -43,7 +45,9 @@ struct Draws {
   std::vector<std::uint64_t> along;   ///< of reference::UnitPoint, over kUniformCells
   std::vector<std::uint64_t> column;  ///< likewise
   Grid<std::uint64_t> pairs;          ///< of (across, along) over kPairBins
-  std::uint64_t on_lattice = 0;       ///< `along` is all but a multiple of 2^-20
+  /// Samples whose along, or across, is all but a multiple of 2^-20.
+  std::uint64_t along_on_lattice = 0;
+  std::uint64_t across_on_lattice = 0;
   std::array<Moments, kMeanCaseCount> estimators;
   Moments inverse_pdf;
   Strays lost;  ///< beside the map, or without a density

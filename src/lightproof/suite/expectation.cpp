@@ -75,28 +75,29 @@ Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
 // A knot that is rounded is off by a variance of 1/12, a share between two knots of 1/6. So
 // w^2 = sum (q-p)^2 / p has 1/6 sum 1/row from the marginal and, from each row's own sums, 1/6 of
 // row^2 sum 1/pool.
-double rounding_effect(const Expectation& expectation, std::uint64_t samples) {
-  if (!expectation.is_summed) return 0.0;
+RoundingEffect rounding_effect(const Expectation& expectation, std::uint64_t samples) {
+  if (!expectation.is_summed) return {};
   const double least = kPooledExpectation / static_cast<double>(samples);
-  double sum = 0.0;
+  double of_rows = 0.0;
+  double within_rows = 0.0;
   double row_pool = 0.0;
   for (int y = 0; y < expectation.masses.extent().height; ++y) {
     const double row = expectation.rows[static_cast<std::size_t>(y)];
     if (row <= 0.0) continue;
     row_pool += row;
     if (row_pool >= least) {
-      sum += 1.0 / row_pool;
+      of_rows += 1.0 / row_pool;
       row_pool = 0.0;
     }
     double pool = 0.0;
     for (const double mass : expectation.masses.row(y)) {
       pool += mass;
       if (pool < least) continue;
-      sum += row * row / pool;
+      within_rows += row * row / pool;
       pool = 0.0;
     }
   }
-  return std::sqrt(sum / 6.0);
+  return {std::sqrt((of_rows + within_rows) / 6.0), std::sqrt(of_rows / 6.0)};
 }
 
 }  // namespace lightproof

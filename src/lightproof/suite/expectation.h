@@ -47,10 +47,15 @@ struct Expectation {
   bool is_summed = false;
 };
 
-/// The effect w on the texels, pooled until `samples` expect 25 of each, that rounding of all sums
-/// to steps of 1 would have on average: it grows in proportion to the step. 0 where nothing is
-/// summed.
-double rounding_effect(const Expectation& expectation, std::uint64_t samples);
+/// The effect w that rounding of all sums to steps of 1 would have on average: it grows in
+/// proportion to the step. Cells are pooled until `samples` expect 25 of each.
+struct RoundingEffect {
+  double texels = 0.0;
+  double rows = 0.0;
+};
+
+/// 0 where nothing is summed.
+RoundingEffect rounding_effect(const Expectation& expectation, std::uint64_t samples);
 
 /// Throws InputError if the map is black.
 Expectation expectation_of(const EnvironmentMap& map, TargetDensity target);

@@ -18,7 +18,7 @@ namespace {
 /// Samples of the second stage, in those of the first.
 constexpr std::uint64_t kSecondStage = 4;
 /// Probability with which an effect as large as `detectable` is seen in each stage.
-constexpr double kStagePower = 0.995;
+constexpr double kStagePower = 0.5 * (1.0 + kDetectablePower);
 
 double level_at_once(const GateOptions& options, std::size_t tests) {
   return std::min(options.at_once, 0.5 * strictest_level(options.family_alpha, tests));
@@ -79,13 +79,14 @@ struct Again {
   }
 };
 
-/// Suspicious tests of a slot get the records of new samples in their place.
+/// Suspicious tests of a slot get the records of new samples in their place. A diagnosis rests on
+/// these: they are more.
 void run_again(const Configuration& configuration, const Yardstick& yardstick,
                const Again& is_suspicious, Slot& slot) {
   const Expectation& expectation = yardstick.expectation;
   const BoundSampler sampler = configuration.candidate->bind();
-  const Draws draws = draw_samples(sampler, expectation, configuration.stream("draws again"),
-                                   {0, yardstick.samples});
+  Draws draws = draw_samples(sampler, expectation, configuration.stream("draws again"),
+                             {0, yardstick.samples});
   auto again = test_draws(configuration, expectation, slot.own, draws, yardstick.uniform);
   append(again, test_against_twin(configuration, expectation, draws, "twin again"));
   for (Measured& test : slot.tests) {
@@ -97,6 +98,7 @@ void run_again(const Configuration& configuration, const Yardstick& yardstick,
     test = *same;
     test.record.stage = 2;
   }
+  slot.draws = std::move(draws);
 }
 
 /// Turns p-values into outcomes, and says what would have been found.
@@ -126,15 +128,16 @@ class Judge {
           record.stage == 2 ? rejected[next++] : !(*record.log10_p >= std::log10(at_once_));
       record.outcome = reject ? Outcome::reject : Outcome::accept;
       if (!reject && record.resolution_floor.value_or(0.0) > *record.detectable_effect) {
-        record.detail =
-            fmt::format("resolution-limited: the sampler's own rounding makes an effect of {:.3g}",
-                        *record.resolution_floor);
+        record.outcome = Outcome::resolution_limited;
+        record.detail = fmt::format("the sampler's own rounding makes an effect of {:.3g}",
+                                    *record.resolution_floor);
       }
     }
   }
 
  private:
-  /// The effect that both stages see with kStagePower each, a hundredth less together.
+  /// The effect that both stages see with kStagePower each, and so together with
+  /// kDetectablePower.
   double detectable_effect(const Measured& test) const {
     const double again = static_cast<double>(kSecondStage) * samples_;
     return std::max(test.detectable(suspicious_, kStagePower, samples_),
@@ -264,6 +267,9 @@ Outcome overall_outcome(const GateResult& result, bool count_known_defects) {
     ++counted;
     if (test.outcome == Outcome::reject) return Outcome::reject;
     if (test.outcome == Outcome::inconclusive) overall = Outcome::inconclusive;
+    if (test.outcome == Outcome::resolution_limited && overall == Outcome::accept) {
+      overall = Outcome::resolution_limited;
+    }
   }
   return counted > 0 ? overall : Outcome::inconclusive;
 }

@@ -36,8 +36,8 @@ GateResult run_gate(std::span<const EnvironmentMap> maps, std::span<const Subjec
                     const GateOptions& options, const Progress& progress = {});
 
 /// Reject if any test that counts was rejected, else inconclusive if any was or none counts, else
-/// accept. Tests
-/// of samplers with known defects count only where `count_known_defects` says so.
+/// resolution-limited if any was, else accept. Tests of samplers with known defects count only
+/// where `count_known_defects` says so.
 Outcome overall_outcome(const GateResult& result, bool count_known_defects);
 
 }  // namespace lightproof

@@ -24,6 +24,8 @@ class LawSampler {
   const TexelSample& median() const { return median_; }
   /// Mass below every row's upper edge; the last is 1.
   const std::vector<double>& rows() const { return rows_; }
+  /// Inside each row, mass below every texel's upper edge, over the row's; 0 in a dark row.
+  const Grid<double>& columns() const { return columns_; }
 
  private:
   Grid<double> masses_;
@@ -31,7 +33,7 @@ class LawSampler {
   SolidAngleRows solid_angle_rows_;
   std::vector<double> rows_;
   TexelSample median_;
-  Grid<double> columns_;  ///< inside each row, below the texel's upper edge; the last is 1
+  Grid<double> columns_;
 };
 
 }  // namespace lightproof

@@ -19,6 +19,9 @@ namespace lightproof {
 /// Stands where the map's name would in records of laws that need no map.
 inline constexpr std::string_view kDirections = "directions";
 
+/// Probability with which the detectable effect of a test is found.
+inline constexpr double kDetectablePower = 0.99;
+
 /// One test of one configuration.
 struct TestRecord {
   std::string sampler;
@@ -31,7 +34,7 @@ struct TestRecord {
   double dof = 0.0;                         ///< 0 where it has no meaning
   std::optional<double> log10_p;            ///< none for a deterministic check
   double effect = 0.0;                      ///< size of the deviation that was seen
-  std::optional<double> detectable_effect;  ///< seen with power 0.99 at this run's alpha
+  std::optional<double> detectable_effect;  ///< seen with kDetectablePower at this run's alpha
   Outcome outcome = Outcome::inconclusive;
   std::string detail;         ///< why, in words; empty if there is nothing to say
   std::uint64_t seed = 0;     ///< base seed of the samples
@@ -158,6 +161,7 @@ struct FamilyRecord {
   double family_alpha = 0.0;
   std::uint64_t runs = 0;
   std::uint64_t rejected = 0;
+  bool is_bound = false;  ///< far from reached, by construction
 };
 
 struct CalibrationResult {

@@ -47,6 +47,13 @@ class Evidence {
     return log10_average(all);
   }
 
+  /// The effect on the bins that would be known for wrong after so many samples.
+  double detectable_effect(double log10_enough, std::uint64_t samples) const {
+    const double processes = texels_ ? 4.0 : 3.0;
+    return bins_.detectable_effect(std::pow(10.0, -log10_enough) / processes, kDetectablePower,
+                                   static_cast<double>(samples));
+  }
+
  private:
   SequentialTest bins_;
   SequentialTest rows_;
@@ -79,6 +86,8 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
   record.statistic = log10_e;
   record.log10_p = std::min(0.0, -log10_e);
   record.outcome = log10_e >= enough ? Outcome::reject : Outcome::accept;
+  const double detectable = evidence.detectable_effect(enough, options.samples);
+  if (std::isfinite(detectable)) record.detectable_effect = detectable;
   record.effect =
       cressie_read(serpentine(draws.bins), serpentine(expectation.bins), draws.samples).effect;
   if (std::isinf(log10_e)) {
