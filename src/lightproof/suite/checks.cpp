@@ -12,6 +12,8 @@
 namespace lightproof {
 namespace {
 
+/// Of the Gauss-Legendre rule with two nodes on [0,1].
+constexpr double kNodes[2] = {0.21132486540518712, 0.78867513459481288};
 constexpr std::array<double, 5> kCorners = {0.0, 0x1p-24, 0.5, 1.0 - 0x1p-24, 1.0 - 0x1p-53};
 
 /// The cumulative sums of `masses`, normalised, each with its neighbours on either side, in double
@@ -74,7 +76,6 @@ std::vector<TexelSample> samples_at(const BoundSampler& sampler,
 }  // namespace
 
 OwnDensity integrate_pdf(const BoundSampler& sampler, Extent map) {
-  constexpr double kNodes[2] = {0.21132486540518712, 0.78867513459481288};
   // Rows higher than 1/256 of the square are split: the rule is then exact to 1e-9 for sin(theta).
   const std::vector<double> across = edges(map.width, kGateBins.width);
   const std::vector<double> along =
