@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "lightproof/samplers/sampler.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
+#include "lightproof/samplers/sampler.h"
 #include "lightproof/stats/uniformity.h"
 
 namespace lightproof {
