@@ -213,15 +213,24 @@ TEST(GateRejections, AreWrittenAsFiles) {
 
 // The command that stands beside a rejection gives the same bits, out of a run over more samplers
 // and with other files, and without what was only for the eyes.
-TEST(GateReplay, ReproducesTheSameBits) {
+class GateReplay : public testing::TestWithParam<bool> {};
+
+TEST_P(GateReplay, ReproducesTheSameBits) {
   const TemporaryFolder folder;
   write_map(folder / "a map.exr", {64, 32});
   const std::string map = (folder / "a map.exr").string();
   const std::filesystem::path rejected = folder / "rejected";
-  const Finished whole = lightproof(
-      {"gate", map, "--sampler", "binary_search", "--sampler", "t-flipped-in-both", "--sampler",
-       "squared", "--any-aspect", "-n", "65536", "--seed", "77", "-q", "--json",
-       (folder / "whole.json").string(), "--rejections", (folder / "rejected").string()});
+  Words gate = {"gate",         map,
+                "--sampler",    "binary_search",
+                "--sampler",    "t-flipped-in-both",
+                "--sampler",    "squared",
+                "--any-aspect", "-n",
+                "65536",        "--seed",
+                "77",           "-q",
+                "--json",       (folder / "whole.json").string(),
+                "--rejections", rejected.string()};
+  if (GetParam()) gate.emplace_back("--sequential");
+  const Finished whole = lightproof(gate);
   ASSERT_EQ(whole.exit_code, 1) << whole.err;
   const json all = json_of(folder / "whole.json");
   std::size_t replayed = 0;
@@ -241,12 +250,17 @@ TEST(GateReplay, ReproducesTheSameBits) {
         expected.push_back(test);
       }
     }
-    EXPECT_GT(expected.size(), 10U);
+    EXPECT_GT(expected.size(), GetParam() ? 5U : 10U);
     EXPECT_EQ(json_of(folder / "again.json").at("tests"), json(expected)) << replay;
     ++replayed;
   }
   EXPECT_EQ(replayed, 4U);
 }
+
+INSTANTIATE_TEST_SUITE_P(Whole, GateReplay, testing::Values(false, true),
+                         [](const auto& param_info) {
+                           return param_info.param ? "sequential" : "fixed";
+                         });
 
 // Without --seed it is the date, in eight digits.
 TEST(GateLevel, OfTheNightHasAnotherSeedEveryDay) {

@@ -125,6 +125,29 @@ TEST(Moments, MergeAgreesWithAdd) {
   }
 }
 
+TEST(Moments, ManyAtOnceAgreeWithOneByOne) {
+  const std::vector<double> values = skewed_values();
+  for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{7}, std::size_t{8},
+                                  std::size_t{9}, std::size_t{1023}, kCount}) {
+    const auto some = std::span(values).first(count);
+    Moments at_once;
+    at_once.add(some);
+    EXPECT_EQ(at_once.count(), count);
+    if (count > 1) expect_near(at_once, TwoPass({some.begin(), some.end()}), kSumError);
+    if (count == 1) {
+      EXPECT_EQ(bits(at_once), bits(moments_of(some)));
+    }
+    // With what comes before and after: the third moment shows in the fourth of the whole.
+    Moments parts = moments_of(some);
+    parts.add(std::span(values).subspan(count));
+    EXPECT_EQ(parts.count(), kCount);
+    expect_near(parts, TwoPass(values), kSumError);
+  }
+  Moments none;
+  none.add(std::span<const double>());
+  EXPECT_EQ(bits(none), bits(Moments()));
+}
+
 TEST(Moments, MergeWithNothingChangesNoBit) {
   const Moments some = moments_of(std::array{0.1, 0.7, 1e3});
   Moments left = some;

@@ -6,10 +6,13 @@
 #include <string>
 
 #include "fixture.h"
+#include "lightproof/report/findings.h"
+#include "lightproof/report/table.h"
 
 namespace lightproof {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -59,6 +62,31 @@ TEST(Junit, SkipsKnownDefectsUnlessTheyCount) {
   gate.tests[1].known_defect = true;
   EXPECT_THAT(gate_junit(gate, false), HasSubstr("failures=\"0\" errors=\"0\" skipped=\"1\""));
   EXPECT_THAT(gate_junit(gate, true), HasSubstr("failures=\"1\" errors=\"0\" skipped=\"0\""));
+}
+
+TEST(Outputs, SayWhatIsLimitedByResolution) {
+  GateResult gate = gate_with(0);
+  gate.tests[0].outcome = Outcome::resolution_limited;
+  EXPECT_THAT(gate_junit(gate, true), AllOf(HasSubstr("failures=\"0\" errors=\"0\" skipped=\"1\""),
+                                            HasSubstr("<skipped message=\"resolution-limited: ")));
+  EXPECT_THAT(gate_markdown(gate, true),
+              AllOf(HasSubstr("\u2248 resolution-limited"), HasSubstr(", 1 resolution-limited;")));
+  EXPECT_THAT(gate_annotations(gate, true),
+              AllOf(HasSubstr("::warning "), HasSubstr("1 test limited"), Not(HasSubstr("error"))));
+  EXPECT_THAT(gate_table(gate, true),
+              AllOf(HasSubstr("\u2248 resolution-limited"), HasSubstr("Resolution-limited tests")));
+  StudyResult study;
+  study.gate = gate;
+  EXPECT_THAT(headline(study), HasSubstr("as far as its rounding lets be seen"));
+}
+
+// The exit code does not count a published sampler's open tests, and nor does a CI server.
+TEST(Junit, CountsNoOpenTestOfASamplerWithKnownDefects) {
+  GateResult gate = gate_with(0);
+  gate.tests[0].outcome = Outcome::inconclusive;
+  gate.tests[0].known_defect = true;
+  EXPECT_THAT(gate_junit(gate, false), HasSubstr("failures=\"0\" errors=\"0\" skipped=\"1\""));
+  EXPECT_THAT(gate_junit(gate, true), HasSubstr("failures=\"0\" errors=\"1\" skipped=\"0\""));
 }
 
 TEST(Markdown, NamesTheWorstFirstAndStaysBelowItsLimit) {

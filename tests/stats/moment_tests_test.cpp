@@ -100,6 +100,41 @@ TEST(TailsOfMean, DoNotTakeARareBrightSampleForADefect) {
   EXPECT_GT(log10_tails_of_mean(z, 1000.0, law), -2.0);
 }
 
+TEST(TailsOfMean, FallWithTheDeviation) {
+  const ExactLaw law = {1.0, 1e5 - 1.0, 1e5};
+  for (const double samples : {1e5, 1e7, 1e8, 1e10}) {
+    double last = 0.0;
+    for (int i = 1; i < 2000; ++i) {
+      const double tail = log10_tails_of_mean(0.01 * i, samples, law);
+      ASSERT_LE(tail, last) << samples << ", z = " << 0.01 * i;
+      last = tail;
+    }
+  }
+}
+
+TEST(DetectableFactor, IsSeenWithTheStatedPowerHoweverSkewedTheLaw) {
+  // Rare samples of 1/s, else 0: their number is Poisson, near enough.
+  const double s = 1e-5;
+  const ExactLaw law = {1.0, 1.0 / s - 1.0, 1.0 / s};
+  for (const double samples : {2e6, 1e7, 1e8, 1e10}) {
+    const double factor = detectable_factor(1e-6, 0.99, samples, law, 1.0);
+    ASSERT_TRUE(std::isfinite(factor)) << samples;
+    const double mean = samples * s;
+    const auto is_rejected = [&](double count) {
+      const double z = (factor * count / mean - 1.0) / std::sqrt(law.variance / samples);
+      return log10_tails_of_mean(z, samples, law) < -6.0;
+    };
+    // The fewest that are rejected as too many: all from there on are.
+    double fewest = std::floor(mean);
+    while (fewest > 0.0 && is_rejected(fewest - 1.0) && factor * (fewest - 1.0) > mean) --fewest;
+    while (!is_rejected(fewest)) ++fewest;
+    const double missed = std::pow(10.0, log10_poisson_lower(fewest - 1.0, mean));
+    EXPECT_LT(missed, 0.01 * 1.1) << samples << " samples, factor " << factor;
+    EXPECT_GT(missed, 0.001) << samples << " samples, factor " << factor;
+  }
+  EXPECT_TRUE(std::isinf(detectable_factor(1e-6, 0.99, 1e5, law, 1.0)));
+}
+
 // Never below the exact tail: counts of the same law are binomial, near enough Poisson. And no
 // farther above it than a bound by exponents must be.
 TEST(TailsOfMean, BoundTheExactTailFromAbove) {

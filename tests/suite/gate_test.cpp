@@ -204,6 +204,28 @@ TEST(Gate, SaysWhereTheResolutionOfTheSamplerIsTheLimit) {
   EXPECT_EQ(coarse.outcome, Outcome::resolution_limited);
 }
 
+// A sampler is bound once for each stage: this one loses samples in the second only.
+TEST(Gate, FailsForStraysOfTheSecondStageToo) {
+  const EnvironmentMap map = make_synthetic_map("gradient", kExtent);
+  Subject subject = subject_of(sampler_by_name("binary_search"), Weighting::B);
+  subject.inverts_shared_cdf = false;
+  const auto bound = std::make_shared<int>(0);
+  subject.bind = [bound, bind = subject.bind](const EnvironmentMap& m) {
+    BoundSampler sampler = bind(m);
+    if (++*bound < 2) return sampler;
+    return BoundSampler{[sampler](auto points, auto samples) {
+                          sampler.sample(points, samples);
+                          samples[0].x = -1;
+                        },
+                        sampler.pdf};
+  };
+  const GateResult result =
+      run_gate({&map, 1}, {&subject, 1}, {.samples = 1U << 14U, .suspicious = 1.0});
+  EXPECT_THAT(rejections(result), testing::Contains("check/samples stay on the map"));
+  ASSERT_EQ(result.rejections.size(), 1U);
+  EXPECT_EQ(result.rejections[0].looks_like, "off-the-map");
+}
+
 // The effect that rounding makes, against sums that are in fact rounded: to a float's step below 1,
 // on a 128 x 64 map with a sun.
 TEST(Expectation, RoundingEffectIsThatOfRoundedSums) {

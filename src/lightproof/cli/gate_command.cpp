@@ -178,6 +178,10 @@ void add_gate(CLI::App& app, int& exit_code) {
   command->add_flag(
       "--sequential", options->sequential,
       "stop drawing as soon as a sampler is known to be wrong; tests counts and exact checks only");
+  add_number(
+      *command, "--family", options->gate.family, 0, std::uint64_t{1} << 53U,
+      "p-values (with --sequential: samplers) that share the error probability, if more than "
+      "this run has: to judge a part of a run as the whole did");
   add_path(*command, "--json", options->json, "write every test to this file");
   add_path(*command, "--junit", options->junit, "the same as JUnit XML, one case a test");
   add_path(*command, "--markdown", options->markdown, "a summary for a pull request");
@@ -187,7 +191,7 @@ void add_gate(CLI::App& app, int& exit_code) {
   command->add_flag("--github", options->github, "print annotations for GitHub Actions");
   command->footer(
       "Without MAP the samplers are tested on every built-in map, and the warps and materials\n"
-      "as well. Exit codes: 0 all accepted, 1 rejected, 2 usage or input, 3 inconclusive.\n"
+      "as well. Exit codes: 0 none rejected, 1 rejected, 2 usage or input, 3 inconclusive.\n"
       "Samplers with known defects are shown, but decide the exit code only if named by\n"
       "--sampler.");
   const CLI::Option* seed = command->get_option("--seed");

@@ -50,7 +50,9 @@ std::vector<Entry> sampler_entries() {
 std::vector<Entry> mutant_entries() {
   std::vector<Entry> entries;
   for (const Mutant& mutant : mutants()) {
-    entries.push_back({std::string(mutant.name), std::string(mutant.defect)});
+    const std::string needs =
+        mutant.needs.empty() ? "" : fmt::format(" (shows on maps with {})", mutant.needs);
+    entries.push_back({std::string(mutant.name), std::string(mutant.defect) + needs});
   }
   for (const DirectionMutant& mutant : direction_mutants()) {
     entries.push_back({mutant.sampler.name, mutant.sampler.description});

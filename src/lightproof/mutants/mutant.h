@@ -16,6 +16,8 @@ struct Mutant {
   std::string_view defect;     ///< what was done, in words
   std::string_view diagnosis;  ///< what the gate should say that it looks like
   std::string_view oracle;     ///< the oracle that must reject it
+  /// What a map must have for the defect to do harm; empty: nothing that real maps lack.
+  std::string_view needs = {};
   /// An alternative law that is drawn, its density returned; empty: the declared one.
   std::string_view law = {};
   /// The random numbers that are used in place of the i-th of a batch.

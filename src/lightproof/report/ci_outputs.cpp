@@ -77,9 +77,11 @@ std::string junit_case(const GateResult& gate, const TestRecord& test, bool coun
   if (test.outcome == Outcome::reject && counts(test, count_known_defects)) {
     xml += fmt::format("      <failure message=\"{}\">{}\n{}</failure>\n", message, message,
                        escaped(replay_command(gate, test)));
-  } else if (test.outcome == Outcome::inconclusive) {
+  } else if (test.outcome == Outcome::resolution_limited) {
+    xml += fmt::format("      <skipped message=\"resolution-limited: {}\"/>\n", message);
+  } else if (test.outcome == Outcome::inconclusive && counts(test, count_known_defects)) {
     xml += fmt::format("      <error message=\"inconclusive: {}\"/>\n", message);
-  } else if (test.outcome == Outcome::reject) {
+  } else if (test.outcome != Outcome::accept) {
     xml += fmt::format("      <skipped message=\"known defect: {}\"/>\n", message);
   }
   return xml + "    </testcase>\n";
@@ -132,11 +134,13 @@ std::string command_text(const std::string& text) {
 std::string replay_command(const GateResult& gate, const TestRecord& test) {
   // Laws over directions have no weighting and need no map.
   const bool of_map = !test.weighting.empty();
+  std::string options = gate.sequential ? " --sequential" : "";
+  if (gate.family > 0) options += fmt::format(" --family {}", gate.family);
   const std::string map = shell_quoted(test.source.empty() ? test.map : test.source);
   return fmt::format("lightproof gate{} --sampler {}{} --samples {} --seed {}{}",
                      of_map ? " " + map : "", shell_quoted(test.sampler),
                      of_map ? " --weighting " + test.weighting + gate.input_options : "",
-                     gate.samples, gate.seed, test.test == "sequential" ? " --sequential" : "");
+                     gate.samples, gate.seed, options);
 }
 
 std::string replay_command(const GateResult& gate, const Rejection& rejection) {
@@ -153,9 +157,11 @@ std::string gate_junit(const GateResult& gate, bool count_known_defects) {
   std::size_t skipped = 0;
   std::string cases;
   for (const TestRecord& test : gate.tests) {
-    if (test.outcome == Outcome::inconclusive) ++errors;
-    if (test.outcome == Outcome::reject) {
-      ++(counts(test, count_known_defects) ? failures : skipped);
+    if (test.outcome == Outcome::resolution_limited) {
+      ++skipped;
+    } else if (test.outcome != Outcome::accept) {
+      const bool rejected = test.outcome == Outcome::reject;
+      ++(!counts(test, count_known_defects) ? skipped : rejected ? failures : errors);
     }
     cases += junit_case(gate, test, count_known_defects);
   }
@@ -170,10 +176,11 @@ std::string gate_markdown(const GateResult& gate, bool count_known_defects) {
   const Tally tally =
       tally_of(gate, [&](const TestRecord& test) { return counts(test, count_known_defects); });
   std::string text = fmt::format(
-      "### Lightproof gate: {}\n\n{}, {} rejected, {} inconclusive; family-wise error {}, {} "
+      "### Lightproof gate: {}\n\n{}, {} rejected, {} inconclusive{}; family-wise error {}, {} "
       "samples per configuration, seed {}.\n",
       outcome_text(tally.outcome()), counted(tally.tests, "test"), tally.rejected,
-      tally.inconclusive, significant(gate.family_alpha), with_thousands(gate.samples), gate.seed);
+      tally.inconclusive, limited_text(tally), significant(gate.family_alpha),
+      with_thousands(gate.samples), gate.seed);
   const auto rejected = worst_rejections(gate, count_known_defects);
   if (rejected.empty()) return text;
   text += "\n| sampler | map | test | p | effect | looks like |\n|---|---|---|---|---|---|\n";
@@ -205,6 +212,12 @@ std::string gate_annotations(const GateResult& gate, bool count_known_defects) {
   if (inconclusive > 0) {
     text += fmt::format("::error title=lightproof::{} could not be judged\n",
                         counted(static_cast<std::size_t>(inconclusive), "test"));
+  }
+  const Tally tally =
+      tally_of(gate, [&](const TestRecord& test) { return counts(test, count_known_defects); });
+  if (tally.limited > 0) {
+    text += fmt::format("::warning title=lightproof::{} limited by the sampler's own resolution\n",
+                        counted(tally.limited, "test"));
   }
   return text;
 }

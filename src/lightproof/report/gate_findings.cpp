@@ -38,9 +38,10 @@ SamplerFinding sampler_finding(const GateResult& gate, const std::string& sample
     return t.sampler == sampler && t.known_defect;
   });
   if (known) {
-    finding.sentence += finding.outcome == Outcome::accept
-                            ? " (kept as published; its known defects were not seen)"
-                            : " (kept as published, with its known defects)";
+    finding.sentence +=
+        finding.outcome == Outcome::accept || finding.outcome == Outcome::resolution_limited
+            ? " (kept as published; its known defects were not seen)"
+            : " (kept as published, with its known defects)";
   }
   if (finding.outcome == Outcome::resolution_limited) {
     finding.sentence +=
@@ -80,7 +81,8 @@ std::string headline(const StudyResult& study) {
   switch (tally.outcome()) {
     case Outcome::accept:
     case Outcome::resolution_limited:
-      return fmt::format("{}, {} draws the right distribution: {} {}", where, subject,
+      return fmt::format("{}, {} draws the right distribution{}: {} {}", where, subject,
+                         tally.limited > 0 ? " as far as its rounding lets be seen" : "",
                          tests_of(tally, "rejected"), error);
     case Outcome::reject:
       return fmt::format("{}, {} does not draw the right distribution: {} {}", where, subject,

@@ -145,8 +145,7 @@ std::string tally_text(const Tally& tally) {
   std::string text = fmt::format("{} of {} rejected", with_thousands(tally.rejected),
                                  counted(tally.tests, "test"));
   if (tally.inconclusive > 0) text += fmt::format(", {} inconclusive", tally.inconclusive);
-  if (tally.limited > 0) text += fmt::format(", {} resolution-limited", tally.limited);
-  return text;
+  return text + limited_text(tally);
 }
 
 std::string gate_title(const GateResult& gate) {

@@ -1,5 +1,7 @@
 #include "lightproof/report/gate_summary.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -46,6 +48,10 @@ Outcome Tally::outcome() const {
   if (rejected > 0) return Outcome::reject;
   if (inconclusive > 0 || tests == 0) return Outcome::inconclusive;
   return limited > 0 ? Outcome::resolution_limited : Outcome::accept;
+}
+
+std::string limited_text(const Tally& tally) {
+  return tally.limited > 0 ? fmt::format(", {} resolution-limited", tally.limited) : "";
 }
 
 std::string configuration_name(const TestRecord& test) {

@@ -48,6 +48,9 @@ Tally tally_of(const GateResult& gate, const Selected& selected) {
   return tally;
 }
 
+/// ", 3 resolution-limited", or nothing.
+std::string limited_text(const Tally& tally);
+
 /// The tests that decide: those of samplers without known defects.
 Tally deciding_tally(const GateResult& gate);
 

@@ -123,10 +123,10 @@ std::string gate_table(const GateResult& gate, bool count_known_defects, Colour 
                                         : deciding_tally(gate);
   const Tally known = count_known_defects ? Tally{} : known_defect_tally(gate);
   std::string total = fmt::format(
-      "{}: {}, {} rejected, {} inconclusive; family-wise error {}, {} samples per "
+      "{}: {}, {} rejected, {} inconclusive{}; family-wise error {}, {} samples per "
       "configuration, seed {}",
       outcome_text(all.outcome()), counted(all.tests, "test"), all.rejected, all.inconclusive,
-      significant(gate.family_alpha), with_thousands(gate.samples), gate.seed);
+      limited_text(all), significant(gate.family_alpha), with_thousands(gate.samples), gate.seed);
   if (known.tests > 0) {
     total += fmt::format("\n* kept as published, with known defects: {} of {} rejected",
                          known.rejected, counted(known.tests, "test"));

@@ -20,13 +20,39 @@ double log10_tails_of_mean(double z, double samples, const ExactLaw& law) {
   const double normal = log10_normal_tails(z);
   const double skewness = law.largest_deviation / std::sqrt(law.variance);
   const double deviation = std::abs(z);
-  const double cramer = skewness * deviation * deviation * deviation / (6.0 * std::sqrt(samples));
-  if (cramer <= std::numbers::ln2) return normal;
+  // Where skewness z^3 / (6 sqrt n) is log 2.
+  const double last_normal = std::cbrt(6.0 * std::numbers::ln2 * std::sqrt(samples) / skewness);
+  if (skewness == 0.0 || deviation <= last_normal) return normal;
   // 2 exp(-n/r^2 h(r z / sqrt n)) with r = largest deviation / sigma, h(u) = (1+u) log(1+u) - u.
   const double u = skewness * deviation / std::sqrt(samples);
   const double exponent = samples / (skewness * skewness) * ((1.0 + u) * std::log1p(u) - u);
   const double bound = (std::numbers::ln2 - exponent) * std::numbers::log10e;
-  return std::min(0.0, std::max(normal, bound));
+  // A tail is no longer than one that begins nearer.
+  return std::min({0.0, std::max(normal, bound), log10_normal_tails(last_normal)});
+}
+
+double detectable_factor(double level, double power, double samples, const ExactLaw& law,
+                         double exact) {
+  double low = 0.0;
+  double high = 1.0;
+  while (log10_tails_of_mean(high, samples, law) > std::log10(level)) high *= 2.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (log10_tails_of_mean(middle, samples, law) > std::log10(level) ? low : high) = middle;
+  }
+  const double error = std::sqrt(law.variance / samples) / exact;
+  const double least = 1.0 - normal_quantile(power) * error;
+  return least > 0.0 ? (1.0 + high * error) / least : HUGE_VAL;
+}
+
+ExactLaw law_of_squares(const ExactLaw& law, double fourth_central) {
+  return {law.variance, fourth_central - law.variance * law.variance,
+          law.largest_deviation * law.largest_deviation};
+}
+
+ExactLaw law_of_difference(const ExactLaw& first, const ExactLaw& second, double ratio) {
+  return {first.mean, first.variance + ratio * second.variance,
+          std::max(first.largest_deviation, ratio * second.largest_deviation)};
 }
 
 ZTest mean_test(const Moments& measured, const ExactLaw& exact) {
@@ -39,10 +65,8 @@ ZTest mean_test(const Moments& measured, const ExactLaw& exact) {
 ZTest variance_test(const Moments& measured, const ExactLaw& exact, double exact_fourth_central) {
   const auto n = static_cast<double>(measured.count());
   const double deviation = measured.variance() - exact.variance;
-  const double spread = exact_fourth_central - exact.variance * exact.variance;
-  const double z = deviation == 0.0 ? 0.0 : deviation / std::sqrt(spread / n);
-  const ExactLaw squares = {exact.variance, spread,
-                            exact.largest_deviation * exact.largest_deviation};
+  const ExactLaw squares = law_of_squares(exact, exact_fourth_central);
+  const double z = deviation == 0.0 ? 0.0 : deviation / std::sqrt(squares.variance / n);
   return {z, log10_tails_of_mean(z, n, squares), deviation / exact.variance};
 }
 
@@ -51,10 +75,7 @@ ZTest two_mean_test(const Moments& first, const ExactLaw& first_law, const Momen
   const auto n = static_cast<double>(first.count());
   const double ratio = n / static_cast<double>(second.count());
   const double deviation = first.mean() - second.mean();
-  // One sample of the first and `ratio` of the second, n times.
-  const ExactLaw both = {
-      first_law.mean, first_law.variance + ratio * second_law.variance,
-      std::max(first_law.largest_deviation, ratio * second_law.largest_deviation)};
+  const ExactLaw both = law_of_difference(first_law, second_law, ratio);
   const double z = deviation == 0.0 ? 0.0 : deviation / std::sqrt(both.variance / n);
   return {z, log10_tails_of_mean(z, n, both), deviation / second_law.mean};
 }

@@ -22,8 +22,22 @@ struct ExactLaw {
 /// log10 P(|mean - exact| >= z standard errors) over so many samples. The normal tail, as long as
 /// skewness, at most largest_deviation / sigma, changes it by less than a factor of two (Cramér's,
 /// exp(skewness z^3 / (6 sqrt N))); farther out Bennett's bound (1962), which holds for any
-/// law so bounded. So a rare, bright sample that turns up a little early proves nothing.
+/// law so bounded, or the normal tail from where it last held. So a rare, bright sample that turns
+/// up a little early proves nothing.
 double log10_tails_of_mean(double z, double samples, const ExactLaw& law);
+
+/// The factor 1 + effect on samples, all of them, at which such a test of size `level` rejects with
+/// this power; `exact` is what is estimated. Their scatter grows by the factor too. The threshold
+/// is that of the test's own bound; below its mean a skewed law scatters less than a normal one.
+/// Infinite if the samples are too few for any factor.
+double detectable_factor(double level, double power, double samples, const ExactLaw& law,
+                         double exact);
+
+/// Of the squared deviations from the mean, whose mean is the variance.
+ExactLaw law_of_squares(const ExactLaw& law, double fourth_central);
+
+/// Of a sample of the first less `ratio` samples of the second.
+ExactLaw law_of_difference(const ExactLaw& first, const ExactLaw& second, double ratio);
 
 /// The mean of `measured` against the exact one. An exact variance of zero is no case for a
 /// z-test; see suite/checks.

@@ -114,6 +114,10 @@ double chi_square_power(double dof, double alpha, double noncentrality) {
 
 double normal_cdf(double z) { return boost::math::cdf(boost::math::normal(), z); }
 
+double normal_quantile(double probability) {
+  return boost::math::quantile(boost::math::normal(), probability);
+}
+
 double detectable_z(double alpha, double power) {
   const boost::math::normal standard;
   return boost::math::quantile(boost::math::complement(standard, 0.5 * alpha)) +

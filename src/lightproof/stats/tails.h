@@ -31,6 +31,9 @@ double chi_square_power(double dof, double alpha, double noncentrality);
 /// P(standard normal <= z).
 double normal_cdf(double z);
 
+/// The z with P(standard normal <= z) = probability.
+double normal_quantile(double probability);
+
 /// The deviation of a mean in standard errors at which a two-sided z-test of size alpha rejects
 /// with the given power.
 double detectable_z(double alpha, double power);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -182,12 +183,41 @@ FamilyRecord family_of_sequential_gate(const Trial& trial, const CalibrationOpti
           static_cast<std::uint64_t>(count), true};
 }
 
+/// The effect w of a law on cells that are tested for another one.
+double effect_on(std::span<const double> declared, std::span<const double> drawn) {
+  double square = 0.0;
+  for (std::size_t i = 0; i < declared.size(); ++i) {
+    square += (drawn[i] - declared[i]) * (drawn[i] - declared[i]) / declared[i];
+  }
+  return std::sqrt(square);
+}
+
+/// How far a law is from the declared one, in the terms of some test; in proportion to the share
+/// that is mixed in.
+using LawDistance = double (*)(const Grid<double>& declared, const Grid<double>& drawn);
+
+double distance_of_bins(const Grid<double>& declared, const Grid<double>& drawn) {
+  return effect_on(reference::bin_masses(declared, kTarget.weighting, kGateBins).values(),
+                   reference::bin_masses(drawn, kTarget.weighting, kGateBins).values());
+}
+
+double distance_of_texels(const Grid<double>& declared, const Grid<double>& drawn) {
+  return effect_on(declared.values(), drawn.values());
+}
+
+double distance_of_rows(const Grid<double>& declared, const Grid<double>& drawn) {
+  return effect_on(reference::row_marginal(declared), reference::row_marginal(drawn));
+}
+
+double distance_of_columns(const Grid<double>& declared, const Grid<double>& drawn) {
+  return effect_on(reference::column_marginal(declared), reference::column_marginal(drawn));
+}
+
 /// The declared law with so much of another one, uniform but for two thirds of it on one side, that
-/// the bins are off by `effect`.
-Trial trial_off_by(double effect) {
+/// it is off by `effect`.
+Trial trial_off_by(double effect, LawDistance distance) {
   const EnvironmentMap map = calibration_map();
   const Grid<double> declared = reference::texel_masses(map, kTarget);
-  const Grid<double> bins = reference::bin_masses(declared, kTarget.weighting, kGateBins);
   Grid<double> other(declared.extent());
   for (int y = 0; y < other.extent().height; ++y) {
     for (int x = 0; x < other.extent().width; ++x) {
@@ -195,12 +225,7 @@ Trial trial_off_by(double effect) {
       other(x, y) = side * texel_solid_angle(other.extent(), y) / kSphere;
     }
   }
-  const Grid<double> other_bins = reference::bin_masses(other, kTarget.weighting, kGateBins);
-  double square = 0.0;
-  for (std::size_t i = 0; i < bins.values().size(); ++i) {
-    square += std::pow(other_bins.values()[i] - bins.values()[i], 2) / bins.values()[i];
-  }
-  const double share = effect / std::sqrt(square);
+  const double share = effect / distance(declared, other);
   for (std::size_t i = 0; i < other.values().size(); ++i) {
     other.values()[i] = (1.0 - share) * declared.values()[i] + share * other.values()[i];
   }
@@ -253,6 +278,17 @@ TransformedDistance transformed_distance(std::span<const double> declared,
   return {above + below, std::sqrt(square)};
 }
 
+double distance_of_phi(const Grid<double>& declared, const Grid<double>& drawn) {
+  return transformed_distance(reference::column_marginal(declared),
+                              reference::column_marginal(drawn))
+      .kuiper;
+}
+
+double distance_of_theta(const Grid<double>& declared, const Grid<double>& drawn) {
+  return transformed_distance(reference::row_marginal(declared), reference::row_marginal(drawn))
+      .anderson;
+}
+
 constexpr double kPowerLevel = 1e-3;
 
 /// What the tests of a trial's counts should reject, and how far the law is off in their terms.
@@ -263,9 +299,7 @@ std::vector<PowerRecord> predictions(const Trial& trial, std::uint64_t samples) 
   const auto bins = reference::bin_masses(trial.drawn, kTarget.weighting, kGateBins);
   std::vector<PowerRecord> records;
   const auto add_fit = [&](std::string test, std::span<const double> p, std::span<const double> q) {
-    double square = 0.0;
-    for (std::size_t i = 0; i < p.size(); ++i) square += (q[i] - p[i]) * (q[i] - p[i]) / p[i];
-    records.push_back({std::move(test), std::sqrt(square), kPowerLevel, samples, 0, 0,
+    records.push_back({std::move(test), effect_on(p, q), kPowerLevel, samples, 0, 0,
                        fit_power(p, q, kPowerLevel, samples), false});
   };
   add_fit("reference/bins 16x32", serpentine(declared.bins), serpentine(bins));
@@ -331,20 +365,30 @@ std::vector<PowerRecord> measure_printed_effects(const PowerOptions& options,
   };
   struct Plant {
     std::string test;
-    Trial (*make)(double effect);
+    std::function<Trial(double effect)> make;
     bool sequential = false;
   };
+  const auto off_by = [](LawDistance distance) {
+    return [distance](double effect) { return trial_off_by(effect, distance); };
+  };
+  const auto scaled = [](double effect) { return trial_of_weights(1.0 + effect, 1.0 + effect); };
+  // A variance more by w of weights that are (1 + d) and (1 - d) times the right ones.
+  const auto noisy = [&](double effect) {
+    const reference::EstimatorMoments& exact = sound.expectation->estimators[1];
+    const double d = std::sqrt(effect * exact.variance() / exact.raw[1]);
+    return trial_of_weights(1.0 + d, 1.0 - d);
+  };
   const std::vector<Plant> plants = {
-      {"reference/bins 16x32", trial_off_by},
-      {"reference/sequential", trial_off_by, true},
-      {"mean/irradiance, normal +x",
-       [](double effect) { return trial_of_weights(1.0 + effect, 1.0 + effect); }},
-      // A variance more by w of weights that are (1 + d) and (1 - d) times the right ones.
-      {"variance/irradiance, normal +x", [](double effect) {
-         const reference::EstimatorMoments exact = sound_trial().expectation->estimators[1];
-         const double d = std::sqrt(effect * exact.variance() / exact.raw[1]);
-         return trial_of_weights(1.0 + d, 1.0 - d);
-       }}};
+      {"reference/bins 16x32", off_by(distance_of_bins)},
+      {"reference/texels", off_by(distance_of_texels)},
+      {"reference/rows", off_by(distance_of_rows)},
+      {"reference/columns", off_by(distance_of_columns)},
+      {"reference/phi (Kuiper)", off_by(distance_of_phi)},
+      {"reference/theta (Anderson-Darling)", off_by(distance_of_theta)},
+      {"reference/sequential", off_by(distance_of_bins), true},
+      {"mean/irradiance, normal +x", scaled},
+      {"mean/irradiance, normal +x, against uniform", scaled},
+      {"variance/irradiance, normal +x", noisy}};
   std::vector<PowerRecord> records;
   for (std::size_t k = 0; k < plants.size(); ++k) {
     const Plant& plant = plants[k];
@@ -370,7 +414,7 @@ std::vector<PowerRecord> measure_printed_effects(const PowerOptions& options,
 std::vector<PowerRecord> measure_power(const PowerOptions& options, const Progress& progress) {
   constexpr double kEffect = 0.15;
   const std::vector<std::uint64_t> ladder = {512, 1024, 2048, 3072, 4096, 6144, 8192};
-  const Trial trial = trial_off_by(kEffect);
+  const Trial trial = trial_off_by(kEffect, distance_of_bins);
   std::vector<PowerRecord> all;
   for (std::size_t step = 0; step < ladder.size(); ++step) {
     const std::uint64_t samples = ladder[step];

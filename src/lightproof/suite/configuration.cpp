@@ -85,11 +85,12 @@ class Records {
                                 worst.observed, worst.expected);
   }
 
-  /// `deviation`: of one sample, relative to what is estimated.
-  void add_z(std::string_view oracle, std::string_view test, const ZTest& z, double deviation) {
+  /// `law`: of one sample of what is estimated, `exact` in the end.
+  void add_z(std::string_view oracle, std::string_view test, const ZTest& z, const ExactLaw& law,
+             double exact) {
     auto& [record, detectable] = add(oracle, test);
-    detectable = [deviation](double level, double power, double samples) {
-      return detectable_z(level, power) * deviation / std::sqrt(samples);
+    detectable = [law, exact](double level, double power, double samples) {
+      return detectable_factor(level, power, samples, law, exact) - 1.0;
     };
     record.statistic = z.z;
     record.log10_p = z.log10_p;
@@ -154,12 +155,11 @@ void add_moments(Records& records, std::string_view oracle, std::string_view tes
     records.add_check({std::string(test) + " is constant", error <= 1e-6, error, ""});
     return;
   }
-  records.add_z(oracle, test, mean_test(measured, law_of(exact)),
-                std::sqrt(exact.variance()) / exact.mean());
+  const ExactLaw law = law_of(exact);
+  records.add_z(oracle, test, mean_test(measured, law), law, exact.mean());
   if (oracle != "mean" || exact.variance() <= kTestableVariance * exact.raw[1]) return;
-  records.add_z(
-      "variance", test, variance_test(measured, law_of(exact), exact.fourth_central()),
-      std::sqrt(exact.fourth_central() - exact.variance() * exact.variance()) / exact.variance());
+  records.add_z("variance", test, variance_test(measured, law, exact.fourth_central()),
+                law_of_squares(law, exact.fourth_central()), exact.variance());
 }
 
 /// The sampler's estimate against that of uniform directions, which has errors of its own.
@@ -167,12 +167,11 @@ void add_against_uniform(Records& records, std::string_view test, const Moments&
                          const reference::EstimatorMoments& exact, const Moments& uniform,
                          const reference::EstimatorMoments& exact_uniform) {
   if (exact.mean() <= 0.0 || sampled.count() < 2 || exact_uniform.variance() <= 0.0) return;
-  const auto relative_variance = [](const reference::EstimatorMoments& m) {
-    return m.variance() / (m.mean() * m.mean());
-  };
+  const ExactLaw law = law_of(exact);
+  const ExactLaw uniform_law = law_of(exact_uniform);
   records.add_z("mean", fmt::format("{}, against uniform", test),
-                two_mean_test(sampled, law_of(exact), uniform, law_of(exact_uniform)),
-                std::sqrt(relative_variance(exact) + relative_variance(exact_uniform)));
+                two_mean_test(sampled, law, uniform, uniform_law),
+                law_of_difference(law, uniform_law, 1.0), exact_uniform.mean());
 }
 
 /// More than half of the samples on a lattice of 2^-20 is no chance: one in 128 is expected.
@@ -251,6 +250,13 @@ std::vector<Measured> test_draws(const Configuration& configuration, const Expec
   return records.take();
 }
 
+std::vector<Measured> test_strays(const Configuration& configuration, const Draws& draws) {
+  Records records(configuration, draws.samples);
+  records.add_strays("samples stay on the map", "left the map", draws.lost);
+  records.add_strays("no dark texel is drawn", "lie in texels without light", draws.dark);
+  return records.take();
+}
+
 std::vector<Measured> test_against_twin(const Configuration& configuration,
                                         const Expectation& expectation, const Draws& draws,
                                         std::string_view purpose) {
@@ -270,8 +276,6 @@ std::vector<Measured> test_exactly(const Configuration& configuration,
                                    const Expectation& expectation, const BoundSampler& sampler,
                                    const OwnDensity& own, const Draws& draws) {
   Records records(configuration, draws.samples);
-  records.add_strays("samples stay on the map", "left the map", draws.lost);
-  records.add_strays("no dark texel is drawn", "lie in texels without light", draws.dark);
   if (expectation.transform) records.add_check(check_resolution(draws));
   const RandomStream stream = configuration.stream("checks");
   records.add_check(check_pdf_integral(own));

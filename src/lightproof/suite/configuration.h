@@ -46,6 +46,9 @@ std::vector<Measured> test_against_twin(const Configuration& configuration,
                                         const Expectation& expectation, const Draws& draws,
                                         std::string_view purpose);
 
+/// Of all samples drawn: does each lie where it may?
+std::vector<Measured> test_strays(const Configuration& configuration, const Draws& draws);
+
 /// The checks that need no statistics.
 std::vector<Measured> test_exactly(const Configuration& configuration,
                                    const Expectation& expectation, const BoundSampler& sampler,

@@ -52,11 +52,6 @@ class Verdicts {
     });
     return found == records_.end() ? nullptr : &*found;
   }
-  /// Statistic per degree of freedom: 1 on average where all is right.
-  double dispersion(std::string_view test) const {
-    const TestRecord* record = find("reference", test);
-    return record == nullptr || record->dof <= 0.0 ? 1.0 : record->statistic / record->dof;
-  }
 
  private:
   std::span<const TestRecord> records_;
@@ -145,15 +140,23 @@ std::string_view law_of_pdf(const Problem& problem, const Expectation& expectati
   return best;
 }
 
+/// Divergence per degree of freedom: 1 on average where all is right.
+double dispersion(const Grid<std::uint64_t>& counts, const Grid<double>& masses,
+                  std::uint64_t samples) {
+  const GoodnessOfFit fit = cressie_read(serpentine(counts), serpentine(masses), samples);
+  return fit.dof <= 0.0 ? 1.0 : fit.statistic / fit.dof;
+}
+
 /// Whether counts scatter by the same factor at every scale: nothing but the numbers is wrong.
-bool scatters_everywhere(const Verdicts& verdicts) {
-  const double bins = verdicts.dispersion("bins 16x32");
-  const double texels = verdicts.dispersion("texels");
+bool scatters_everywhere(const Expectation& expectation, const Draws& draws) {
+  const double bins = dispersion(draws.bins, expectation.bins, draws.samples);
+  const double texels = dispersion(draws.texels, expectation.masses, draws.samples);
   return bins > 1.3 && texels > 1.3 && bins < 1.5 * texels && texels < 1.5 * bins;
 }
 
-bool too_even(const Verdicts& verdicts) {
-  return verdicts.dispersion("bins 16x32") < 0.7 && verdicts.rejected("reference", "bins 16x32");
+bool too_even(const Expectation& expectation, const Draws& draws, const Verdicts& verdicts) {
+  return verdicts.rejected("reference", "bins 16x32") &&
+         dispersion(draws.bins, expectation.bins, draws.samples) < 0.7;
 }
 
 /// Whether one transformed coordinate follows from the other: each takes many values, but most
@@ -200,11 +203,11 @@ bool is_in_one_place(const Expectation& expectation, const Draws& draws) {
 
 std::string_view name_of_wrong_counts(const Problem& problem, const Expectation& expectation,
                                       const Evidence& evidence, const Verdicts& verdicts) {
-  if (too_even(verdicts)) return "stratified";
+  if (too_even(expectation, *evidence.draws, verdicts)) return "stratified";
   if (is_one_number(*evidence.draws)) return "same-number";
   const Explanation explanation = best_law(problem, expectation, *evidence.draws);
   if (!explanation.law.empty() && explanation.share > 0.8) return explanation.law;
-  if (scatters_everywhere(verdicts)) return "repeated-numbers";
+  if (scatters_everywhere(expectation, *evidence.draws)) return "repeated-numbers";
   if (is_in_one_place(expectation, *evidence.draws)) return "one-place";
   if (!explanation.law.empty() && explanation.share > 0.3) return explanation.law;
   return "clumped";

@@ -21,7 +21,9 @@ constexpr std::uint64_t kSecondStage = 4;
 constexpr double kStagePower = 0.5 * (1.0 + kDetectablePower);
 
 double level_at_once(const GateOptions& options, std::size_t tests) {
-  return std::min(options.at_once, 0.5 * strictest_level(options.family_alpha, tests));
+  // What rejects at once is suspicious as well.
+  return std::min(
+      {options.at_once, options.suspicious, 0.5 * strictest_level(options.family_alpha, tests)});
 }
 
 /// The records of one configuration, and the draws behind them if they may be needed for a
@@ -59,6 +61,7 @@ Slot run_first(const Configuration& configuration, const Yardstick& yardstick, d
   Slot slot{test_draws(configuration, expectation, own, draws, yardstick.uniform), std::nullopt,
             own};
   append(slot.tests, test_against_twin(configuration, expectation, draws, "twin"));
+  append(slot.tests, test_strays(configuration, draws));
   append(slot.tests, test_exactly(configuration, expectation, sampler, own, draws));
   const bool clean = std::all_of(slot.tests.begin(), slot.tests.end(), [&](const Measured& test) {
     const TestRecord& r = test.record;
@@ -79,8 +82,8 @@ struct Again {
   }
 };
 
-/// Suspicious tests of a slot get the records of new samples in their place. A diagnosis rests on
-/// these: they are more.
+/// Suspicious tests of a slot get the records of new samples in their place, and so do strays, if
+/// there are any. A diagnosis counts these samples: they are more.
 void run_again(const Configuration& configuration, const Yardstick& yardstick,
                const Again& is_suspicious, Slot& slot) {
   const Expectation& expectation = yardstick.expectation;
@@ -89,12 +92,13 @@ void run_again(const Configuration& configuration, const Yardstick& yardstick,
                              {0, yardstick.samples});
   auto again = test_draws(configuration, expectation, slot.own, draws, yardstick.uniform);
   append(again, test_against_twin(configuration, expectation, draws, "twin again"));
+  append(again, test_strays(configuration, draws));
   for (Measured& test : slot.tests) {
-    if (!is_suspicious(test)) continue;
     const auto same = std::find_if(again.begin(), again.end(), [&](const Measured& other) {
       return other.record.oracle == test.record.oracle && other.record.test == test.record.test;
     });
     if (same == again.end()) continue;
+    if (!is_suspicious(test) && same->record.outcome != Outcome::reject) continue;
     test = *same;
     test.record.stage = 2;
   }
@@ -116,18 +120,23 @@ class Judge {
   void operator()(std::span<Measured* const> tests) const {
     std::vector<double> second;
     for (const Measured* test : tests) {
-      if (test->record.stage == 2) second.push_back(*test->record.log10_p);
+      const TestRecord& record = test->record;
+      if (record.stage == 2 && record.log10_p) second.push_back(*record.log10_p);
     }
     const std::vector<bool> rejected = holm_rejections(second, second_alpha_);
     std::size_t next = 0;
     for (Measured* test : tests) {
       TestRecord& record = test->record;
-      if (test->detectable) record.detectable_effect = detectable_effect(*test);
+      if (test->detectable) {
+        const double effect = detectable_effect(*test);
+        if (std::isfinite(effect)) record.detectable_effect = effect;
+      }
       if (!record.log10_p) continue;
       const bool reject =
           record.stage == 2 ? rejected[next++] : !(*record.log10_p >= std::log10(at_once_));
       record.outcome = reject ? Outcome::reject : Outcome::accept;
-      if (!reject && record.resolution_floor.value_or(0.0) > *record.detectable_effect) {
+      if (!reject && record.detectable_effect &&
+          record.resolution_floor.value_or(0.0) > *record.detectable_effect) {
         record.outcome = Outcome::resolution_limited;
         record.detail = fmt::format("the sampler's own rounding makes an effect of {:.3g}",
                                     *record.resolution_floor);
@@ -170,7 +179,8 @@ class Run {
         show_progress();
       });
     });
-    const Judge judge(options_, count_p_values());
+    const std::size_t family = std::max<std::size_t>(count_p_values(), options_.family);
+    const Judge judge(options_, family);
     parallel_for(problems_.size(), [&](std::size_t i) {
       const auto is_open = [&](const Slot& slot) {
         return std::any_of(slot.tests.begin(), slot.tests.end(), judge.again());
@@ -186,7 +196,9 @@ class Run {
     std::vector<Measured*> tests;
     for_each_test([&](Measured& test) { tests.push_back(&test); });
     judge(tests);
-    return collect();
+    GateResult result = collect();
+    result.family = family;
+    return result;
   }
 
  private:

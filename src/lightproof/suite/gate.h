@@ -20,6 +20,9 @@ struct GateOptions {
   /// Below this p-value a test is run again; below `at_once` it is rejected without.
   double suspicious = 1e-3;
   double at_once = 1e-10;
+  /// The p-values (with run_sequential_gate: candidates) that share family_alpha, if they are more
+  /// than this run has: the part of a run that is done again then judges as the whole did.
+  std::uint64_t family = 0;
 };
 
 /// Runs in two stages. After the first, a test whose p-value is below `at_once` (or half of

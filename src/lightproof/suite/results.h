@@ -41,7 +41,8 @@ struct TestRecord {
   std::string source = {};    ///< of the map, as it was given; empty: its name
   int stage = 1;              ///< 2: run again, with more samples, because it looked suspicious
   bool known_defect = false;  ///< of a sampler kept as published, to show what the gate finds
-  /// Below this effect the sampler's own rounding shows; none where it does not matter.
+  /// Below this effect the sampler's own rounding shows; for texels and rows of laws that are
+  /// added up.
   std::optional<double> resolution_floor = {};
 };
 
@@ -63,6 +64,8 @@ struct GateResult {
   std::vector<TestRecord> tests;
   std::vector<Rejection> rejections = {};
   std::string input_options = {};  ///< of the command line, with which the maps were read
+  std::uint64_t family = 0;        ///< p-values, or candidates if sequential, that share the error
+  bool sequential = false;
 };
 
 /// The error of an estimator at one number of samples.

@@ -98,8 +98,9 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
   }
   const OwnDensity own = integrate_pdf(sampler, expectation.masses.extent());
   Finding finding{{record}, {}};
-  for (const Measured& test : test_exactly(configuration, expectation, sampler, own, draws)) {
-    finding.records.push_back(test.record);
+  for (const auto& tests : {test_strays(configuration, draws),
+                            test_exactly(configuration, expectation, sampler, own, draws)}) {
+    for (const Measured& test : tests) finding.records.push_back(test.record);
   }
   const bool rejected =
       std::any_of(finding.records.begin(), finding.records.end(),
@@ -118,7 +119,8 @@ GateResult run_sequential_gate(std::span<const Problem> problems, const GateOpti
   if (progress) progress("gate", 0.0);
   std::size_t candidates = 0;
   for (const Problem& problem : problems) candidates += problem.candidates.size();
-  const double enough = -std::log10(options.family_alpha / static_cast<double>(candidates));
+  const std::size_t family = std::max<std::size_t>(candidates, options.family);
+  const double enough = -std::log10(options.family_alpha / static_cast<double>(family));
   std::vector<std::vector<Finding>> findings(problems.size());
   std::mutex mutex;
   std::size_t done = 0;
@@ -135,6 +137,8 @@ GateResult run_sequential_gate(std::span<const Problem> problems, const GateOpti
     });
   });
   GateResult result{options.family_alpha, options.samples, options.seed, {}, {}};
+  result.family = family;
+  result.sequential = true;
   for (auto& of_problem : findings) {
     for (Finding& finding : of_problem) {
       std::move(finding.records.begin(), finding.records.end(), std::back_inserter(result.tests));
