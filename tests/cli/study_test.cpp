@@ -130,6 +130,16 @@ std::vector<json> verdicts_on_maps(const json& gate) {
   return tests;
 }
 
+/// Likewise: a replay names the number of all tests.
+std::vector<json> rejections_of(const json& gate) {
+  std::vector<json> rejections;
+  for (json rejection : gate.at("rejections")) {
+    rejection.erase("replay");
+    rejections.push_back(std::move(rejection));
+  }
+  return rejections;
+}
+
 TEST_F(Study, FindsTheSameAsTheGate) {
   const json gate = json_of(path("results.json")).at("gate");
   const TemporaryFolder folder;
@@ -137,7 +147,7 @@ TEST_F(Study, FindsTheSameAsTheGate) {
               (folder / "g.json").string()});
   const json alone = json_of(folder / "g.json");
   EXPECT_TRUE(verdicts_on_maps(gate) == verdicts_on_maps(alone));
-  EXPECT_EQ(gate.at("rejections"), alone.at("rejections"));
+  EXPECT_EQ(rejections_of(gate), rejections_of(alone));
   EXPECT_GT(gate.at("tests").size(), alone.at("tests").size());
 }
 

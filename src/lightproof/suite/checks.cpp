@@ -57,12 +57,10 @@ std::vector<double> edges(int cells, int bins) {
   return all;
 }
 
-/// The number of random points in a check over points.
-constexpr std::uint64_t kCheckPoints = std::uint64_t{1} << 16U;
-
-std::vector<SquarePoint> random_points(const RandomStream& stream) {
+std::vector<SquarePoint> random_points(const RandomStream& stream, std::uint64_t count) {
   std::vector<SquarePoint> points;
-  for (std::uint64_t i = 0; i < kCheckPoints; ++i) points.push_back(stream.point(i));
+  points.reserve(count);
+  for (std::uint64_t i = 0; i < count; ++i) points.push_back(stream.point(i));
   return points;
 }
 
@@ -107,9 +105,10 @@ CheckResult check_pdf_integral(const OwnDensity& own) {
           passed ? "" : fmt::format("the pdf integrates to {:.9g}", own.integral)};
 }
 
-CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& stream) {
+CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& stream,
+                               std::uint64_t count) {
   CheckResult result{"pdf of the sample", true, 0.0, ""};
-  const std::vector<SquarePoint> points = random_points(stream);
+  const std::vector<SquarePoint> points = random_points(stream, count);
   const std::vector<TexelSample> samples = samples_at(sampler, points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SquarePoint u = points[i];
@@ -171,10 +170,11 @@ std::array<CheckResult, 2> check_edges(const BoundSampler& sampler,
 }
 
 CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,
-                             const Expectation& expectation, const RandomStream& stream) {
+                             const Expectation& expectation, const RandomStream& stream,
+                             std::uint64_t count) {
   CheckResult result{"same texel as linear_scan", true, 0.0, ""};
   std::vector<SquarePoint> points = edge_points(expectation);
-  const std::vector<SquarePoint> random = random_points(stream);
+  const std::vector<SquarePoint> random = random_points(stream, count);
   points.insert(points.end(), random.begin(), random.end());
   const std::vector<TexelSample> samples = samples_at(sampler, points);
   const std::vector<TexelSample> expected = samples_at(other, points);

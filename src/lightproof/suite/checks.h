@@ -32,16 +32,21 @@ OwnDensity integrate_pdf(const BoundSampler& sampler, Extent map);
 /// |∫ pdf ds dt - 1| <= 1e-6.
 CheckResult check_pdf_integral(const OwnDensity& own);
 
-/// pdf(sample(u).at) equals the pdf that sample(u) returned, to 1e-5.
-CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& stream);
+/// Random points of a check beside the draws: as many, but no more than this.
+inline constexpr std::uint64_t kMostCheckPoints = std::uint64_t{1} << 16U;
+
+/// pdf(sample(u).at) equals the pdf that sample(u) returned, to 1e-5, at so many points.
+CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& stream,
+                               std::uint64_t count);
 
 /// At edge_points(): the sample stays on the map, inside its texel, and that texel has light. The
 /// points next to 1 are a check of their own: where sums end too early, they run off.
 std::array<CheckResult, 2> check_edges(const BoundSampler& sampler, const Expectation& expectation);
 
-/// The same texel as another sampler for the same point.
+/// The same texel as another sampler for the same point: edge_points(), and so many random ones.
 CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,
-                             const Expectation& expectation, const RandomStream& stream);
+                             const Expectation& expectation, const RandomStream& stream,
+                             std::uint64_t count);
 
 /// Points at the edges of the random numbers' range and around the knots of the marginal and of
 /// the conditional distributions of rows: of all, or of as many as about 2^18 points allow.

@@ -279,11 +279,12 @@ std::vector<Measured> test_exactly(const Configuration& configuration,
   if (expectation.transform) records.add_check(check_resolution(draws));
   const RandomStream stream = configuration.stream("checks");
   records.add_check(check_pdf_integral(own));
-  records.add_check(check_returned_pdf(sampler, stream));
+  const std::uint64_t points = std::min(draws.samples, kMostCheckPoints);
+  records.add_check(check_returned_pdf(sampler, stream, points));
   for (const CheckResult& check : check_edges(sampler, expectation)) records.add_check(check);
   if (configuration.candidate->twin) {
     records.add_check(
-        check_same_texel(sampler, configuration.candidate->twin(), expectation, stream));
+        check_same_texel(sampler, configuration.candidate->twin(), expectation, stream, points));
   }
   return records.take();
 }
