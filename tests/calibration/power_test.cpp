@@ -30,7 +30,7 @@ TEST(Power, IsThePredictedOne) {
 
 // An effect as large as the gate prints beside an acceptance is found in 99 of 100 runs.
 TEST(Power, OfTheGateForWhatItSaysThatItDetects) {
-  const std::vector<PowerRecord> records = measure_printed_effects({.replicates = 200});
+  const std::vector<PowerRecord> records = measure_printed_effects({.replicates = 100});
   EXPECT_EQ(records.size(), 10U);
   for (const PowerRecord& record : records) {
     const boost::math::binomial law(static_cast<double>(record.replicates), record.predicted);

@@ -160,7 +160,7 @@ TEST(Mutants, AreNamedRightlyOnOtherMapsToo) {
   }
   std::vector<Subject> subjects;
   for (const Mutant& mutant : mutants()) subjects.push_back(subject_of(mutant, Weighting::A));
-  const GateResult result = run_gate(maps, subjects, {.samples = 1U << 20U});
+  const GateResult result = run_gate(maps, subjects, {.samples = 1U << 19U});
   for (const Mutant& mutant : mutants()) {
     if (!mutant.needs.empty()) continue;
     EXPECT_THAT(result.rejections, Contains(Field(&Rejection::sampler, mutant.name)))
