@@ -211,6 +211,14 @@ TEST(GateRejections, AreWrittenAsFiles) {
                             HasSubstr("--samples 65536"), HasSubstr("--seed 1")));
 }
 
+TEST(Gate, LeavesOutKnownDefectsIfToldTo) {
+  const json gate = gate_results({"constant", "--sound-only"});
+  EXPECT_THAT(values_of(gate, "sampler"), ElementsAre("linear_scan", "binary_search"));
+  const Finished both = lightproof({"gate", "--sound-only", "--sampler", "linear_scan_published"});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_THAT(both.err, AllOf(HasSubstr("--sound-only"), HasSubstr("--sampler")));
+}
+
 // The command that stands beside a rejection gives the same bits, out of a run over more samplers
 // and with other files, and without what was only for the eyes.
 class GateReplay : public testing::TestWithParam<bool> {};

@@ -226,25 +226,29 @@ TEST(Gate, FailsForStraysOfTheSecondStageToo) {
   EXPECT_EQ(result.rejections[0].looks_like, "off-the-map");
 }
 
+constexpr double kStep = 0x1p-24;
+constexpr std::uint64_t kNoPools = std::uint64_t{1} << 60U;  // so many samples pool no cells
+
+/// The shares of cells whose sums are rounded to kStep.
+std::vector<double> rounded_shares(std::span<const double> masses) {
+  const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
+  std::vector<double> shares;
+  double sum = 0.0;
+  double below = 0.0;
+  for (const double mass : masses) {
+    sum += mass;
+    const double knot = std::round(sum / total / kStep) * kStep;
+    shares.push_back(knot - below);
+    below = knot;
+  }
+  return shares;
+}
+
 // The effect that rounding makes, against sums that are in fact rounded: to a float's step below 1,
 // on a 128 x 64 map with a sun.
 TEST(Expectation, RoundingEffectIsThatOfRoundedSums) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", kExtent);
   const Expectation expectation = expectation_of(map, {Weighting::B, kRec709});
-  constexpr double kStep = 0x1p-24;
-  const auto rounded_shares = [](std::span<const double> masses) {
-    const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
-    std::vector<double> shares;
-    double sum = 0.0;
-    double below = 0.0;
-    for (const double mass : masses) {
-      sum += mass;
-      const double knot = std::round(sum / total / kStep) * kStep;
-      shares.push_back(knot - below);
-      below = knot;
-    }
-    return shares;
-  };
   const std::vector<double> rows = rounded_shares(expectation.rows);
   double square = 0.0;
   for (int y = 0; y < kExtent.height; ++y) {
@@ -255,17 +259,33 @@ TEST(Expectation, RoundingEffectIsThatOfRoundedSums) {
       if (p > 0.0) square += (q - p) * (q - p) / p;
     }
   }
-  double row_square = 0.0;
-  for (std::size_t y = 0; y < rows.size(); ++y) {
-    const double error = rows[y] - expectation.rows[y];
-    row_square += error * error / expectation.rows[y];
-  }
-  const RoundingEffect expected = rounding_effect(expectation, std::uint64_t{1} << 60U);
-  // An average over the places of 8192 knots; of 64 knots the sum of squares scatters by
-  // sqrt(0.8 * 64 / 64^2) of itself (the law of a difference of two uniforms has kurtosis 2.4, and
-  // neighbours share a knot), most of it from the darkest rows.
+  // An average over the places of 8192 knots.
+  const RoundingEffect expected = rounding_effect(expectation, kNoPools);
   EXPECT_NEAR(std::sqrt(square) / (expected.texels * kStep), 1.0, 0.2);
-  EXPECT_NEAR(std::sqrt(row_square) / (expected.rows * kStep), 1.0, 0.5);
+}
+
+// Of 2048 rows. A row's error is the difference of two that are uniform: its square has a relative
+// variance of 1.4, and neighbours, which share a knot, a relative covariance of 0.2.
+TEST(Expectation, RoundingEffectOfRowsIsThatOfRoundedSums) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {8, 2048});
+  const Expectation expectation = expectation_of(map, {Weighting::A, kRec709});
+  const std::vector<double> rows = rounded_shares(expectation.rows);
+  double square = 0.0;
+  double sum = 0.0;
+  double variance = 0.0;
+  double before = 0.0;
+  for (std::size_t y = 0; y < rows.size(); ++y) {
+    const double weight = 1.0 / expectation.rows[y];
+    const double error = (rows[y] - expectation.rows[y]) / kStep;
+    square += error * error * weight;
+    sum += weight / 6.0;
+    variance += (1.4 * weight + 2.0 * 0.2 * before) * weight / 36.0;
+    before = weight;
+  }
+  const double expected = std::pow(rounding_effect(expectation, kNoPools).rows, 2);
+  EXPECT_NEAR(expected, sum, 1e-9 * sum);
+  EXPECT_NEAR(square, sum, 5.0 * std::sqrt(variance));  // 6e-7, were it random
+  EXPECT_LT(5.0 * std::sqrt(variance), 0.7 * sum) << "or it would say little";
 }
 
 TEST(Gate, TooFewSamplesAreInconclusive) {

@@ -155,13 +155,15 @@ void add_gate(CLI::App& app, int& exit_code) {
   add_common_options(*command, *options);
   auto* samples = add_number(*command, "-n,--samples", options->gate.samples, 1024, kMostSamples,
                              "samples per sampler and map");
+  CLI::Option* sampler = command
+                             ->add_option("--sampler", options->samplers,
+                                          "test only this one (may be repeated; see `lightproof "
+                                          "list samplers` and `list mutants`)")
+                             ->allow_extra_args(false);
   command
-      ->add_option(
-          "--sampler", options->samplers,
-          "test only this one (may be repeated; see `lightproof list samplers` and `list mutants`)")
-      ->allow_extra_args(false);
-  command->add_flag("--sound-only", options->sound_only,
-                    "leave out samplers that are kept with known defects");
+      ->add_flag("--sound-only", options->sound_only,
+                 "leave out samplers that are kept with known defects")
+      ->excludes(sampler);
   command->add_option("--weighting", options->weighting, "test only this weighting")
       ->check(CLI::IsMember({"A", "B"}));
   command

@@ -182,7 +182,8 @@ Json json_of(const FamilyRecord& r) {
   return {{"procedure", r.procedure},
           {"family_alpha", number(r.family_alpha)},
           {"runs", r.runs},
-          {"rejected", r.rejected}};
+          {"rejected", r.rejected},
+          {"is_bound", r.is_bound}};
 }
 
 Json json_of(const PowerRecord& r) {

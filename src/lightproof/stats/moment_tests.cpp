@@ -1,6 +1,7 @@
 #include "lightproof/stats/moment_tests.h"
 
 #include <algorithm>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -33,13 +34,14 @@ double log10_tails_of_mean(double z, double samples, const ExactLaw& law) {
 
 double detectable_factor(double level, double power, double samples, const ExactLaw& law,
                          double exact) {
-  double low = 0.0;
-  double high = 1.0;
-  while (log10_tails_of_mean(high, samples, law) > std::log10(level)) high *= 2.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (log10_tails_of_mean(middle, samples, law) > std::log10(level) ? low : high) = middle;
-  }
+  const auto excess = [&](double z) {
+    return log10_tails_of_mean(z, samples, law) > std::log10(level) ? 1.0 : -1.0;
+  };
+  double beyond = 1.0;
+  while (excess(beyond) > 0.0) beyond *= 2.0;
+  const double high =
+      boost::math::tools::bisect(excess, 0.0, beyond, boost::math::tools::eps_tolerance<double>(40))
+          .second;
   const double error = std::sqrt(law.variance / samples) / exact;
   const double least = 1.0 - normal_quantile(power) * error;
   return least > 0.0 ? (1.0 + high * error) / least : HUGE_VAL;
