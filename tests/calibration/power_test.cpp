@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "lightproof/suite/calibration.h"
+#include "lightproof/suite/power.h"
 
 namespace lightproof {
 namespace {

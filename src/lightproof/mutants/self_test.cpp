@@ -2,6 +2,7 @@
 
 #include "lightproof/mutants/kill_matrix.h"
 #include "lightproof/suite/calibration.h"
+#include "lightproof/suite/power.h"
 
 namespace lightproof {
 

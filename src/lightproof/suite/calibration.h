@@ -1,5 +1,5 @@
-// The gate, tested on itself: are its p-values what they say, is a whole run wrong as rarely as it
-// promises, and does it see what it says that it would see?
+// The gate, tested on itself: are its p-values what they say, and is a whole run wrong as rarely as
+// it promises?
 #pragma once
 
 #include <cstdint>
@@ -23,19 +23,5 @@ struct CalibrationOptions {
 /// Draws from a law whose masses are known to the last bit, by inversion in double, and keeps what
 /// the gate's tests make of it. The same bits for any number of threads.
 CalibrationResult calibrate(const CalibrationOptions& options, const Progress& progress = {});
-
-struct PowerOptions {
-  std::uint64_t seed = 1;
-  std::uint64_t replicates = 1000;  ///< for each point
-};
-
-/// Plants defects as large as the gate says that it detects, and lets it judge them with both of
-/// its stages, or sequentially: how often it rejects, which should be at least kDetectablePower.
-std::vector<PowerRecord> measure_printed_effects(const PowerOptions& options,
-                                                 const Progress& progress = {});
-
-/// Lets a law a little off be judged with several numbers of samples, some too few: how often each
-/// test rejects, and how often it should.
-std::vector<PowerRecord> measure_power(const PowerOptions& options, const Progress& progress = {});
 
 }  // namespace lightproof

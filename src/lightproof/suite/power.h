@@ -1,0 +1,26 @@
+// The gate, tested on itself: does it see what it says that it would see?
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lightproof/core/progress.h"
+#include "lightproof/suite/results.h"
+
+namespace lightproof {
+
+struct PowerOptions {
+  std::uint64_t seed = 1;
+  std::uint64_t replicates = 1000;  ///< for each point
+};
+
+/// Plants defects as large as the gate says that it detects, and lets it judge them with both of
+/// its stages, or sequentially: how often it rejects, which should be at least kDetectablePower.
+std::vector<PowerRecord> measure_printed_effects(const PowerOptions& options,
+                                                 const Progress& progress = {});
+
+/// Lets a law a little off be judged with several numbers of samples, some too few: how often each
+/// test rejects, and how often it should.
+std::vector<PowerRecord> measure_power(const PowerOptions& options, const Progress& progress = {});
+
+}  // namespace lightproof
