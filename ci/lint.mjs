@@ -16,10 +16,13 @@ const tidy = "clang-tidy-22";
 const isOurs = (path) => path.startsWith(root + sep);
 const isGenerated = (path) => path.startsWith(join(root, "build") + sep);
 
-/** One compile command per source file of the repository. */
+/** One compile command per source file of the repository, without GCC's precompiled headers. */
 function units() {
   const commands = JSON.parse(readFileSync(join(build, "compile_commands.json"), "utf8"));
   const ours = commands.filter(({ file }) => isOurs(file) && !isGenerated(file));
+  for (const unit of ours) {
+    unit.command = unit.command.replace(/-Winvalid-pch|-include \S+cmake_pch\.hxx/g, "");
+  }
   return [...new Map(ours.map((unit) => [unit.file, unit])).values()];
 }
 
@@ -73,15 +76,18 @@ function stamp(unit, sources) {
 function lint({ file }) {
   const options = { cwd: root, maxBuffer: 2 ** 28 };
   return new Promise((done) => {
-    execFile(tidy, [...checks(file), "-p", build, "--quiet", file], options, (error, out, err) => {
+    execFile(tidy, [...checks(file), "-p", stamps, "--quiet", file], options, (error, out, err) => {
       done(error ? `${relative(root, file)}:\n${out}${out.trim() ? "" : err}` : "");
     });
   });
 }
 
+mkdirSync(stamps, { recursive: true });
 const sources = dependencies();
-const known = existsSync(stamps) ? new Set(readdirSync(stamps)) : new Set();
-const all = units().map((unit) => ({
+const known = new Set(readdirSync(stamps));
+const commands = units();
+writeFileSync(join(stamps, "compile_commands.json"), JSON.stringify(commands));
+const all = commands.map((unit) => ({
   ...unit,
   stamp: stamp(unit, sources.get(unit.file) ?? [unit.file]),
 }));
@@ -104,7 +110,6 @@ async function work() {
   }
 }
 
-mkdirSync(stamps, { recursive: true });
 await Promise.all(cpus().map(work));
 console.log(`${all.length} files, ${linted} checked, ${failures} with findings`);
 process.exitCode = failures > 0 ? 1 : 0;

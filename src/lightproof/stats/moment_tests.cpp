@@ -37,11 +37,13 @@ double detectable_factor(double level, double power, double samples, const Exact
   const auto excess = [&](double z) {
     return log10_tails_of_mean(z, samples, law) > std::log10(level) ? 1.0 : -1.0;
   };
-  double beyond = 1.0;
-  while (excess(beyond) > 0.0) beyond *= 2.0;
-  const double high =
-      boost::math::tools::bisect(excess, 0.0, beyond, boost::math::tools::eps_tolerance<double>(40))
-          .second;
+  double high = 0.0;  // of a level that everything passes
+  if (excess(high) > 0.0) {
+    double beyond = 1.0;
+    while (excess(beyond) > 0.0) beyond *= 2.0;
+    const boost::math::tools::eps_tolerance<double> close(40);
+    high = boost::math::tools::bisect(excess, high, beyond, close).second;
+  }
   const double error = std::sqrt(law.variance / samples) / exact;
   const double least = 1.0 - normal_quantile(power) * error;
   return least > 0.0 ? (1.0 + high * error) / least : HUGE_VAL;

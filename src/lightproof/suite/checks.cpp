@@ -74,10 +74,10 @@ std::vector<TexelSample> samples_at(const BoundSampler& sampler,
 }  // namespace
 
 OwnDensity integrate_pdf(const BoundSampler& sampler, Extent map) {
-  // Rows higher than 1/256 of the square are split: the rule is then exact to 1e-9 for sin(theta).
+  // Rows higher than 1/64 of the square are split: the rule is then exact to 2e-9 for sin(theta).
   const std::vector<double> across = edges(map.width, kGateBins.width);
   const std::vector<double> along =
-      edges(map.height * std::max(1, 256 / map.height), kGateBins.height);
+      edges(map.height * std::max(1, 64 / map.height), kGateBins.height);
   const auto at = [&](std::size_t i, std::size_t j, int u, int v) {
     const double s = across[i] + kNodes[u] * (across[i + 1] - across[i]);
     return sampler.pdf({s, along[j] + kNodes[v] * (along[j + 1] - along[j])}).value;
