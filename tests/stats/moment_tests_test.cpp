@@ -135,6 +135,14 @@ TEST(DetectableFactor, IsSeenWithTheStatedPowerHoweverSkewedTheLaw) {
   EXPECT_TRUE(std::isinf(detectable_factor(1e-6, 0.99, 1e5, law, 1.0)));
 }
 
+// What everything passes is passed without any deviation.
+TEST(DetectableFactor, OfALevelOfOneHoldsPowerAlone) {
+  const ExactLaw law = {1.0, 1.0, 5.0};
+  const double error = 1e-2;
+  EXPECT_NEAR(detectable_factor(1.0, 0.5, 1e4, law, 1.0), 1.0, 1e-9);
+  EXPECT_NEAR(detectable_factor(1.0, 0.99, 1e4, law, 1.0), 1.0 / (1.0 - 2.3263 * error), 1e-6);
+}
+
 // Never below the exact tail: counts of the same law are binomial, near enough Poisson. And no
 // farther above it than a bound by exponents must be.
 TEST(TailsOfMean, BoundTheExactTailFromAbove) {
