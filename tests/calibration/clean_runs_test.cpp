@@ -28,11 +28,7 @@ TEST(CleanRuns, NoneOfTwoHundredSeedsRejectsASoundSampler) {
   std::erase_if(sound, [](const Subject& subject) { return subject.known_defects; });
   maps.push_back(rarely_lit_map());
   std::vector<Problem> problems = problems_of(maps, sound, direction_samplers());
-  // The exact side does not depend on the seed: it is made once.
-  for (Problem& problem : problems) {
-    const auto expectation = std::make_shared<const Expectation>(problem.expectation());
-    problem.expectation = [expectation] { return *expectation; };
-  }
+  for (Problem& problem : problems) problem = made_once(std::move(problem));
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     const GateResult result = run_gate(problems, {.samples = 1U << 12U, .seed = seed});
     for (const TestRecord& test : result.tests) {

@@ -56,8 +56,7 @@ void add_kills(KillRecord& record, const GateResult& result) {
 }
 
 KillRecord kill(Case& one, std::uint64_t seed) {
-  const auto expectation = std::make_shared<const Expectation>(one.problem.expectation());
-  one.problem.expectation = [expectation] { return *expectation; };
+  one.problem = made_once(std::move(one.problem));
   KillRecord record{one.problem.candidates[0].name,
                     std::string(one.oracle),
                     "",

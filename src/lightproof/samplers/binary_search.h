@@ -20,7 +20,7 @@ inline int search_by_bisection(CdfKnots knots, std::uint32_t u) {
   return static_cast<int>(cell - knots.data());
 }
 
-using BinarySearch = CdfInversion<search_by_bisection>;
+using BinarySearch = CdfInversion<SortedKnots<search_by_bisection>>;
 static_assert(EnvSampler<BinarySearch>);
 
 }  // namespace lightproof

@@ -1,60 +1,87 @@
 // Inversion of a CdfTable: first the row, then the column in it. What differs between methods is
-// only how the cell is searched; for the same point all of them return the same texel.
+// only how the cell is found; for the same point all of them return the same texel.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 
 #include "lightproof/samplers/cdf_table.h"
 #include "lightproof/samplers/sampler.h"
+#include "lightproof/samplers/texel_places.h"
 
 namespace lightproof {
 
-/// A search returns the first cell whose upper knot lies above `u`, u < kCdfOne. Cells without
-/// mass are never returned.
-using CellSearch = int (*)(CdfKnots knots, std::uint32_t u);
+/// The cell of a distribution that u lies in: low <= u < high, its knots.
+struct CdfCell {
+  int index;
+  std::uint32_t low;
+  std::uint32_t high;
 
-/// An inversion sampler with the given search. Monotone: it keeps stratification.
-template <CellSearch kSearch>
+  /// Mass in units of 2^-31.
+  double units() const { return static_cast<double>(high - low); }
+  /// Of the way through the cell's mass, in [0,1); u in units of 2^-31.
+  double fraction(double u) const { return (u - low) / units(); }
+};
+
+/// Finds the first cell whose upper knot lies above u, u < kCdfOne, with whatever it keeps beside
+/// the table. Cells without mass are never found.
+template <class T>
+concept CellFinder = requires(const T finder, const CdfTable& table, int y, std::uint32_t u) {
+  T(table);
+  { finder.row(table, u) } -> std::same_as<CdfCell>;
+  { finder.column(table, y, u) } -> std::same_as<CdfCell>;
+  { finder.bytes() } -> std::same_as<std::size_t>;
+};
+
+/// An inversion sampler. Monotone: it keeps stratification.
+template <CellFinder Finder>
 class CdfInversion {
  public:
   CdfInversion(const EnvironmentMap& map, TargetDensity target)
-      : table_(map, target), solid_angle_rows_(table_.extent().height) {}
+      : table_(map, target), finder_(table_), places_(table_.extent(), target.weighting) {}
 
   TexelSample sample(SquarePoint u) const {
-    const Cell row = find(table_.rows(), u.t);
-    const Cell column = find(table_.columns(row.index), u.s);
-    const Extent extent = table_.extent();
-    const double t = table_.weighting() == Weighting::A
-                         ? place_in_cell(row.index, row.fraction, extent.height)
-                         : solid_angle_rows_.place(row.index, row.fraction);
-    const SquarePoint at = {place_in_cell(column.index, column.fraction, extent.width), t};
-    return {at, column.index, row.index, table_.pdf(column.index, row.index, at)};
+    const double scaled_t = u.t * kCdfOne;
+    const double scaled_s = u.s * kCdfOne;
+    const CdfCell row = finder_.row(table_, static_cast<std::uint32_t>(scaled_t));
+    const CdfCell column = finder_.column(table_, row.index, static_cast<std::uint32_t>(scaled_s));
+    return places_.sample(column.index, row.index, column.fraction(scaled_s),
+                          row.fraction(scaled_t), cdf_mass(row.units(), column.units()));
   }
 
   PerSquare pdf(SquarePoint at) const {
-    return table_.pdf(cell_of(at.s, table_.extent().width), cell_of(at.t, table_.extent().height),
-                      at);
+    const int y = cell_of(at.t, table_.extent().height);
+    return places_.pdf(y, table_.mass(cell_of(at.s, table_.extent().width), y), at);
   }
 
   const CdfTable& table() const { return table_; }
-  std::size_t table_bytes() const { return table_.bytes(); }
+  std::size_t table_bytes() const { return table_.bytes() + finder_.bytes() + places_.bytes(); }
 
  private:
-  struct Cell {
-    int index;
-    double fraction;  ///< of the way through the cell's mass, in [0,1)
-  };
-
-  static Cell find(CdfKnots knots, double u) {
-    const double scaled = u * kCdfOne;
-    const int index = kSearch(knots, static_cast<std::uint32_t>(scaled));
-    const std::uint32_t low = knots[static_cast<std::size_t>(index)];
-    const std::uint32_t high = knots[static_cast<std::size_t>(index) + 1];
-    return {index, (scaled - low) / (high - low)};
-  }
-
   CdfTable table_;
-  SolidAngleRows solid_angle_rows_;
+  Finder finder_;
+  TexelPlaces places_;
+};
+
+/// A search of sorted knots, which needs nothing beside them.
+using KnotSearch = int (*)(CdfKnots knots, std::uint32_t u);
+
+template <KnotSearch kSearch>
+class SortedKnots {
+ public:
+  explicit SortedKnots(const CdfTable& /*table*/) {}
+  CdfCell row(const CdfTable& table, std::uint32_t u) const { return find(table.rows(), u); }
+  CdfCell column(const CdfTable& table, int y, std::uint32_t u) const {
+    return find(table.columns(y), u);
+  }
+  std::size_t bytes() const { return 0; }
+
+ private:
+  static CdfCell find(CdfKnots knots, std::uint32_t u) {
+    const int index = kSearch(knots, u);
+    const auto k = static_cast<std::size_t>(index);
+    return {index, knots[k], knots[k + 1]};
+  }
 };
 
 }  // namespace lightproof

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "lightproof/core/grid.h"
-#include "lightproof/core/measure.h"
 #include "lightproof/image/target_density.h"
 
 namespace lightproof {
@@ -21,35 +20,36 @@ namespace lightproof {
 using CdfKnots = std::span<const std::uint32_t>;
 inline constexpr std::uint32_t kCdfOne = 1U << 31U;
 
-/// Writes weights.size() + 1 knots. All zero if every weight is zero.
-void quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> knots);
+/// Probability of a row and of a column in it, both in units of 2^-31.
+inline double cdf_mass(double row, double column) { return 0x1p-62 * row * column; }
+
+/// Writes weights.size() + 1 knots, the last of which is `one`, more than there are weights. All
+/// zero if every weight is zero.
+void quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> knots,
+                  std::uint32_t one = kCdfOne);
 
 /// Marginal over rows and conditional over columns of a map's target density.
 class CdfTable {
  public:
   /// Throws InputError if the map is black.
   CdfTable(const EnvironmentMap& map, TargetDensity target);
+  /// Of any cells; one weight is positive.
+  explicit CdfTable(const Grid<double>& weights);
 
   Extent extent() const { return extent_; }
-  Weighting weighting() const { return weighting_; }
   CdfKnots rows() const { return rows_; }
   CdfKnots columns(int y) const {
     const std::size_t stride = static_cast<std::size_t>(extent_.width) + 1;
     return {columns_.data() + static_cast<std::size_t>(y) * stride, stride};
   }
   /// Probability of texel (x, y) as drawn.
-  double mass(int x, int y) const { return 0x1p-62 * units(rows_, y) * units(columns(y), x); }
-  /// Density over the square at `at`, inside texel (x, y).
-  PerSquare pdf(int x, int y, SquarePoint at) const {
-    const double density = row_density_[static_cast<std::size_t>(y)] * units(columns(y), x);
-    return weighting_ == Weighting::A ? PerSquare{density} : to_square(PerSteradian{density}, at);
-  }
-  std::size_t bytes() const {
-    return (rows_.size() + columns_.size()) * sizeof(std::uint32_t) +
-           row_density_.size() * sizeof(double);
-  }
+  double mass(int x, int y) const { return cdf_mass(units(rows_, y), units(columns(y), x)); }
+  std::size_t bytes() const { return (rows_.size() + columns_.size()) * sizeof(std::uint32_t); }
 
  private:
+  template <class Weigh>
+  void fill(const Weigh& weigh);
+
   /// Mass of a cell in units of 2^-31.
   static double units(CdfKnots knots, int cell) {
     const auto k = static_cast<std::size_t>(cell);
@@ -57,11 +57,8 @@ class CdfTable {
   }
 
   Extent extent_;
-  Weighting weighting_;
   std::vector<std::uint32_t> rows_;
   std::vector<std::uint32_t> columns_;
-  /// Density of one unit in each row: over the square under A, per steradian under B.
-  std::vector<double> row_density_;
 };
 
 }  // namespace lightproof

@@ -14,7 +14,7 @@ inline int search_by_scan(CdfKnots knots, std::uint32_t u) {
   return static_cast<int>(cell);
 }
 
-using LinearScan = CdfInversion<search_by_scan>;
+using LinearScan = CdfInversion<SortedKnots<search_by_scan>>;
 static_assert(EnvSampler<LinearScan>);
 
 }  // namespace lightproof

@@ -1,10 +1,8 @@
 #include "lightproof/samplers/linear_scan_published.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "lightproof/core/error.h"
+#include "lightproof/samplers/texel_weights.h"
 #include "lightproof/warp/lat_long.h"
 
 namespace lightproof {
@@ -51,9 +49,7 @@ LinearScanPublished::LinearScanPublished(const EnvironmentMap& map, TargetDensit
     total += row_average_.back();
   }
   total_average_ = total / static_cast<float>(extent.height);
-  if (!(total_average_ > 0.0F)) {
-    throw InputError(fmt::format("{}: the map is black: there is no light to sample", map.name));
-  }
+  if (!(total_average_ > 0.0F)) refuse_black(map);
 }
 
 float LinearScanPublished::weight(int x, int y) const {

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "lightproof/samplers/sampler.h"
+#include "lightproof/samplers/texel_places.h"
 
 namespace lightproof {
 

@@ -6,14 +6,21 @@
 #include <string_view>
 #include <variant>
 
+#include "lightproof/samplers/alias.h"
+#include "lightproof/samplers/alias_lines.h"
 #include "lightproof/samplers/binary_search.h"
+#include "lightproof/samplers/eytzinger.h"
+#include "lightproof/samplers/guide_lines.h"
+#include "lightproof/samplers/guide_table.h"
 #include "lightproof/samplers/linear_scan.h"
 #include "lightproof/samplers/linear_scan_published.h"
+#include "lightproof/samplers/packed_alias.h"
 
 namespace lightproof {
 
 /// Visit once per batch, outside the loop.
-using AnySampler = std::variant<LinearScanPublished, LinearScan, BinarySearch>;
+using AnySampler = std::variant<LinearScanPublished, LinearScan, BinarySearch, Eytzinger,
+                                GuideTable, GuideLines, Alias, PackedAlias, AliasLines>;
 
 struct SamplerInfo {
   std::string_view name;
@@ -22,6 +29,7 @@ struct SamplerInfo {
   double (*steps)(Extent);  ///< the same as a function
   LuminanceWeights grey;    ///< the grey value that the sampler declares
   double resolution;        ///< step of its sums and of the random numbers that it reads
+  bool monotone;            ///< rows by u.t and columns by u.s, in order: it keeps stratification
   bool known_defects;       ///< kept as published, to show what the gate finds
   bool inverts_shared_cdf;  ///< must return the texel of LinearScan for every point
   /// The map must outlive the sampler. Throws InputError if it is black.

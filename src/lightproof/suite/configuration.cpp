@@ -257,24 +257,27 @@ std::vector<Measured> test_strays(const Configuration& configuration, const Draw
   return records.take();
 }
 
-std::vector<Measured> test_against_twin(const Configuration& configuration,
-                                        const Expectation& expectation, const Draws& draws,
-                                        std::string_view purpose) {
-  if (!configuration.candidate->twin) return {};
-  const std::uint64_t samples = draws.samples / 4;
-  const Draws other = draw_samples(configuration.candidate->twin(), expectation,
-                                   configuration.stream(purpose), {0, samples});
+Twin draw_twin(BoundSampler sampler, const Expectation& expectation, const RandomStream& stream,
+               std::uint64_t samples) {
+  Draws draws = draw_samples(sampler, expectation, stream, {0, samples / 4});
+  return {std::move(sampler), std::move(draws)};
+}
+
+std::vector<Measured> test_against_twin(const Configuration& configuration, const Draws& draws,
+                                        const std::optional<Twin>& twin) {
+  if (!configuration.candidate->has_twin) return {};
+  const auto samples = static_cast<double>(twin->draws.samples);
   Records records(configuration, draws.samples);
-  records.add_two_samples(
-      "two samples with linear_scan",
-      two_sample_fit(serpentine(draws.bins), serpentine(other.bins)),
-      static_cast<double>(samples) / static_cast<double>(samples + draws.samples));
+  records.add_two_samples("two samples with linear_scan",
+                          two_sample_fit(serpentine(draws.bins), serpentine(twin->draws.bins)),
+                          samples / (samples + static_cast<double>(draws.samples)));
   return records.take();
 }
 
 std::vector<Measured> test_exactly(const Configuration& configuration,
                                    const Expectation& expectation, const BoundSampler& sampler,
-                                   const OwnDensity& own, const Draws& draws) {
+                                   const OwnDensity& own, const Draws& draws,
+                                   const BoundSampler* twin) {
   Records records(configuration, draws.samples);
   if (expectation.transform) records.add_check(check_resolution(draws));
   const RandomStream stream = configuration.stream("checks");
@@ -282,9 +285,8 @@ std::vector<Measured> test_exactly(const Configuration& configuration,
   const std::uint64_t points = std::min(draws.samples, kMostCheckPoints);
   records.add_check(check_returned_pdf(sampler, stream, points));
   for (const CheckResult& check : check_edges(sampler, expectation)) records.add_check(check);
-  if (configuration.candidate->twin) {
-    records.add_check(
-        check_same_texel(sampler, configuration.candidate->twin(), expectation, stream, points));
+  if (configuration.candidate->has_twin) {
+    records.add_check(check_same_texel(sampler, *twin, expectation, stream, points));
   }
   return records.take();
 }

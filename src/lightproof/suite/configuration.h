@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "lightproof/suite/checks.h"
@@ -40,18 +41,27 @@ std::vector<Measured> test_draws(const Configuration& configuration, const Expec
                                  const OwnDensity& own, const Draws& draws,
                                  const UniformEstimates& uniform);
 
-/// Both draw their own numbers, the twin a quarter as many: are they of one law? None without a
-/// twin.
-std::vector<Measured> test_against_twin(const Configuration& configuration,
-                                        const Expectation& expectation, const Draws& draws,
-                                        std::string_view purpose);
+/// The sampler that others of the same law claim to equal, and what it drew.
+struct Twin {
+  BoundSampler sampler;
+  Draws draws;
+};
+
+/// It draws a quarter of so many samples.
+Twin draw_twin(BoundSampler sampler, const Expectation& expectation, const RandomStream& stream,
+               std::uint64_t samples);
+
+/// Both drew numbers of their own: are they of one law? None for a candidate without a twin.
+std::vector<Measured> test_against_twin(const Configuration& configuration, const Draws& draws,
+                                        const std::optional<Twin>& twin);
 
 /// Of all samples drawn: does each lie where it may?
 std::vector<Measured> test_strays(const Configuration& configuration, const Draws& draws);
 
-/// The checks that need no statistics.
+/// The checks that need no statistics; `twin` is null if the problem has none.
 std::vector<Measured> test_exactly(const Configuration& configuration,
                                    const Expectation& expectation, const BoundSampler& sampler,
-                                   const OwnDensity& own, const Draws& draws);
+                                   const OwnDensity& own, const Draws& draws,
+                                   const BoundSampler* twin);
 
 }  // namespace lightproof

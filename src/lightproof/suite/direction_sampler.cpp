@@ -134,7 +134,7 @@ Expectation expectation_of(const Lobes& law) {
   expectation.mean_grey = sum / static_cast<double>(cells.count());
   for (int y = 0; y < cells.height; ++y) {
     for (int x = 0; x < cells.width; ++x) {
-      if (!expectation.is_bright(x, y)) expectation.grey(x, y) = 0.0;
+      if (!expectation.is_bright(expectation.grey(x, y))) expectation.grey(x, y) = 0.0;
     }
   }
   add_estimators(expectation, law);

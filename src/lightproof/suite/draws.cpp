@@ -34,15 +34,14 @@ struct Part {
   std::vector<std::uint32_t> column = std::vector<std::uint32_t>(kUniformCells);
 };
 
-/// What the estimators say of the samples of one batch.
-struct Estimates {
-  std::array<std::vector<double>, kMeanCaseCount> radiance;
+/// Samples of one batch, and what the estimators say of them.
+struct Batch {
+  std::vector<SquarePoint> points = std::vector<SquarePoint>(kBatch);
+  std::vector<TexelSample> samples = std::vector<TexelSample>(kBatch);
+  std::size_t size = 0;
+  std::vector<double> radiance = std::vector<double>(kBatch);  ///< of the samples' texels
+  std::array<std::vector<double>, kMeanCaseCount> estimates;
   std::vector<double> inverse_pdf;
-
-  void clear() {
-    for (std::vector<double>& values : radiance) values.clear();
-    inverse_pdf.clear();
-  }
 };
 
 /// Whether a number is all but a multiple of 2^-20, and not 0.
@@ -51,38 +50,65 @@ bool is_on_lattice(double u) {
   return u > 0.0 && std::abs(scaled - std::round(scaled)) < 0x1p-8;
 }
 
-void count_transformed(Part& part, const reference::UnitPoint& unit) {
-  constexpr auto kCells = static_cast<int>(kUniformCells);
-  Draws& draws = part.draws;
-  ++part.along[static_cast<std::size_t>(cell_of(unit.along, kCells))];
-  ++part.column[static_cast<std::size_t>(cell_of(unit.column, kCells))];
-  draws.along_on_lattice += is_on_lattice(unit.along) ? 1 : 0;
-  draws.across_on_lattice += is_on_lattice(unit.across) ? 1 : 0;
-  ++draws.pairs(cell_of(unit.across, kPairBins.width), cell_of(unit.along, kPairBins.height));
+/// Leaves what is on the map.
+void count_lost(Draws& draws, Batch& batch, Extent map) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    if (!is_on_map(batch.samples[i], map)) {
+      draws.lost.add(batch.points[i], batch.samples[i]);
+      continue;
+    }
+    batch.points[kept] = batch.points[i];
+    batch.samples[kept++] = batch.samples[i];
+  }
+  batch.size = kept;
 }
 
-void count(Part& part, Estimates& estimates, const Expectation& expectation, SquarePoint u,
-           const TexelSample& sample) {
-  const Extent map = expectation.masses.extent();
+/// The texels lie anywhere: a loop that does little else waits for many of them at once.
+void count_texels(Part& part, Batch& batch, const Expectation& expectation) {
+  const auto width = static_cast<std::uint32_t>(expectation.masses.extent().width);
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    const TexelSample& sample = batch.samples[i];
+    const double mass = expectation.masses(sample.x, sample.y);
+    batch.radiance[i] = expectation.grey(sample.x, sample.y);
+    part.texels.push_back(static_cast<std::uint32_t>(sample.y) * width +
+                          static_cast<std::uint32_t>(sample.x));
+    if (!(mass > 0.0)) part.draws.dark.add(batch.points[i], sample);
+  }
+}
+
+void count_transformed(Part& part, const Batch& batch, const Expectation& expectation) {
+  constexpr auto kCells = static_cast<int>(kUniformCells);
   Draws& draws = part.draws;
-  if (!is_on_map(sample, map)) return draws.lost.add(u, sample);
-  if (!(expectation.masses(sample.x, sample.y) > 0.0)) draws.dark.add(u, sample);
-  part.texels.push_back(static_cast<std::uint32_t>(sample.y) *
-                            static_cast<std::uint32_t>(map.width) +
-                        static_cast<std::uint32_t>(sample.x));
-  ++draws.bins(cell_of(sample.at.s, kGateBins.width), cell_of(sample.at.t, kGateBins.height));
-  if (expectation.transform) {
-    count_transformed(part, expectation.transform(sample.at, sample.x, sample.y));
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    const TexelSample& sample = batch.samples[i];
+    const reference::UnitPoint unit = expectation.transform(sample.at, sample.x, sample.y);
+    ++part.along[static_cast<std::size_t>(cell_of(unit.along, kCells))];
+    ++part.column[static_cast<std::size_t>(cell_of(unit.column, kCells))];
+    draws.along_on_lattice += is_on_lattice(unit.along) ? 1 : 0;
+    draws.across_on_lattice += is_on_lattice(unit.across) ? 1 : 0;
+    ++draws.pairs(cell_of(unit.across, kPairBins.width), cell_of(unit.along, kPairBins.height));
   }
-  // 2 pi^2 sin(theta) / p(s,t)
-  const double inverse_pdf = 1.0 / to_solid_angle(sample.pdf, sample.at).value;
-  const Direction direction = direction_from_square(sample.at);
-  const double radiance = expectation.grey(sample.x, sample.y);
-  for (std::size_t k = 0; k < kMeanCaseCount; ++k) {
-    const double cosine = std::max(0.0, glm::dot(kMeanCases[k].normal, direction));
-    estimates.radiance[k].push_back(radiance * cosine * inverse_pdf);
+}
+
+void add_estimates(Draws& draws, Batch& batch, const Expectation& expectation) {
+  for (std::vector<double>& estimates : batch.estimates) estimates.clear();
+  batch.inverse_pdf.clear();
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    const TexelSample& sample = batch.samples[i];
+    ++draws.bins(cell_of(sample.at.s, kGateBins.width), cell_of(sample.at.t, kGateBins.height));
+    // 2 pi^2 sin(theta) / p(s,t)
+    const double inverse_pdf = 1.0 / to_solid_angle(sample.pdf, sample.at).value;
+    const Direction direction = direction_from_square(sample.at);
+    const double radiance = batch.radiance[i];
+    for (std::size_t k = 0; k < kMeanCaseCount; ++k) {
+      const double cosine = std::max(0.0, glm::dot(kMeanCases[k].normal, direction));
+      batch.estimates[k].push_back(radiance * cosine * inverse_pdf);
+    }
+    batch.inverse_pdf.push_back(expectation.is_bright(radiance) ? inverse_pdf : 0.0);
   }
-  estimates.inverse_pdf.push_back(expectation.is_bright(sample.x, sample.y) ? inverse_pdf : 0.0);
+  for (std::size_t k = 0; k < kMeanCaseCount; ++k) draws.estimators[k].add(batch.estimates[k]);
+  draws.inverse_pdf.add(batch.inverse_pdf);
 }
 
 Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
@@ -90,21 +116,18 @@ Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
   Part part;
   part.draws.samples = range.count;
   part.texels.reserve(range.count);
-  std::vector<SquarePoint> points(kBatch);
-  std::vector<TexelSample> samples(kBatch);
-  Estimates estimates;
+  Batch batch;
   for (std::uint64_t done = 0; done < range.count; done += kBatch) {
-    const auto size = static_cast<std::size_t>(std::min(kBatch, range.count - done));
-    for (std::size_t i = 0; i < size; ++i) points[i] = stream.point(range.first + done + i);
-    sampler.sample(std::span(points).first(size), std::span(samples).first(size));
-    estimates.clear();
-    for (std::size_t i = 0; i < size; ++i) {
-      count(part, estimates, expectation, points[i], samples[i]);
+    batch.size = static_cast<std::size_t>(std::min(kBatch, range.count - done));
+    for (std::size_t i = 0; i < batch.size; ++i) {
+      batch.points[i] = stream.point(range.first + done + i);
     }
-    for (std::size_t k = 0; k < kMeanCaseCount; ++k) {
-      part.draws.estimators[k].add(estimates.radiance[k]);
-    }
-    part.draws.inverse_pdf.add(estimates.inverse_pdf);
+    sampler.sample(std::span(batch.points).first(batch.size),
+                   std::span(batch.samples).first(batch.size));
+    count_lost(part.draws, batch, expectation.masses.extent());
+    count_texels(part, batch, expectation);
+    if (expectation.transform) count_transformed(part, batch, expectation);
+    add_estimates(part.draws, batch, expectation);
   }
   return part;
 }

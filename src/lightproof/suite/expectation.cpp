@@ -27,7 +27,7 @@ reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) 
     const double square = 4.0 * kPi * kPi * kPi * kPi * squared_sine_area(extent, y) /
                           static_cast<double>(extent.count());
     for (int x = 0; x < extent.width; ++x) {
-      if (!expectation.is_bright(x, y)) continue;
+      if (!expectation.is_bright(expectation.grey(x, y))) continue;
       const double mass = expectation.masses(x, y);
       moments.raw[0] += solid_angle;
       const double flat = 2.0 * kPi * kPi * sin_theta((y + 0.5) / extent.height) /

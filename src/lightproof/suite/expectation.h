@@ -40,8 +40,8 @@ struct Expectation {
   /// 1/p(omega) over the texels at least a tenth as bright as the mean.
   reference::EstimatorMoments inverse_pdf;
 
-  /// Whether a texel belongs to the part of the map over which 1/p is averaged.
-  bool is_bright(int x, int y) const { return grey(x, y) >= 0.1 * mean_grey; }
+  /// Whether a texel of this radiance belongs to the part of the map over which 1/p is averaged.
+  bool is_bright(double radiance) const { return radiance >= 0.1 * mean_grey; }
   double mean_grey = 0.0;
   /// Whether samplers of this law add up its masses and search the sums.
   bool is_summed = false;

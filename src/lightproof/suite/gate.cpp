@@ -39,13 +39,21 @@ struct Yardstick {
   const Expectation& expectation;
   std::uint64_t samples;
   UniformEstimates uniform;
+  std::optional<Twin> twin;
 };
 
 Yardstick yardstick_of(const Problem& problem, const Expectation& expectation, std::uint64_t seed,
                        std::uint64_t samples) {
-  const RandomStream stream(
-      fmt::format("uniform/{}/{}/{}", problem.weighting, problem.map, samples), seed);
-  return {expectation, samples, draw_uniformly(expectation, stream, samples)};
+  const auto stream = [&](std::string_view purpose) {
+    return RandomStream(
+        fmt::format("{}/{}/{}/{}", purpose, problem.weighting, problem.map, samples), seed);
+  };
+  Yardstick yardstick{expectation, samples, draw_uniformly(expectation, stream("uniform"), samples),
+                      std::nullopt};
+  if (problem.twin) {
+    yardstick.twin = draw_twin(problem.twin(), expectation, stream("twin"), samples);
+  }
+  return yardstick;
 }
 
 void append(std::vector<Measured>& tests, std::vector<Measured> more) {
@@ -55,14 +63,15 @@ void append(std::vector<Measured>& tests, std::vector<Measured> more) {
 Slot run_first(const Configuration& configuration, const Yardstick& yardstick, double suspicious) {
   const Expectation& expectation = yardstick.expectation;
   const BoundSampler sampler = configuration.candidate->bind();
-  const OwnDensity own = integrate_pdf(sampler, expectation.masses.extent());
+  const OwnDensity own = configuration.candidate->integrate(sampler, expectation.masses.extent());
   Draws draws =
       draw_samples(sampler, expectation, configuration.stream("draws"), {0, yardstick.samples});
   Slot slot{test_draws(configuration, expectation, own, draws, yardstick.uniform), std::nullopt,
             own};
-  append(slot.tests, test_against_twin(configuration, expectation, draws, "twin"));
+  append(slot.tests, test_against_twin(configuration, draws, yardstick.twin));
   append(slot.tests, test_strays(configuration, draws));
-  append(slot.tests, test_exactly(configuration, expectation, sampler, own, draws));
+  append(slot.tests, test_exactly(configuration, expectation, sampler, own, draws,
+                                  yardstick.twin ? &yardstick.twin->sampler : nullptr));
   const bool clean = std::all_of(slot.tests.begin(), slot.tests.end(), [&](const Measured& test) {
     const TestRecord& r = test.record;
     return r.log10_p ? *r.log10_p >= std::log10(suspicious) : r.outcome == Outcome::accept;
@@ -91,7 +100,7 @@ void run_again(const Configuration& configuration, const Yardstick& yardstick,
   Draws draws = draw_samples(sampler, expectation, configuration.stream("draws again"),
                              {0, yardstick.samples});
   auto again = test_draws(configuration, expectation, slot.own, draws, yardstick.uniform);
-  append(again, test_against_twin(configuration, expectation, draws, "twin again"));
+  append(again, test_against_twin(configuration, draws, yardstick.twin));
   append(again, test_strays(configuration, draws));
   for (Measured& test : slot.tests) {
     const auto same = std::find_if(again.begin(), again.end(), [&](const Measured& other) {

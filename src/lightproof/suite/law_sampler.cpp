@@ -4,8 +4,6 @@
 #include <numeric>
 #include <span>
 
-#include "lightproof/warp/lat_long.h"
-
 namespace lightproof {
 namespace {
 
@@ -23,20 +21,24 @@ struct Cell {
   double fraction;
 };
 
+/// The first cell whose sum lies above u, chosen without branches, as in search_by_bisection.
 Cell find_cell(std::span<const double> sums, double u) {
-  const auto upper = std::upper_bound(sums.begin(), sums.end(), u);
-  const auto index =
-      std::min<std::ptrdiff_t>(upper - sums.begin(), static_cast<std::ptrdiff_t>(sums.size()) - 1);
-  const double low = index == 0 ? 0.0 : sums[static_cast<std::size_t>(index) - 1];
-  return {static_cast<int>(index), (u - low) / (sums[static_cast<std::size_t>(index)] - low)};
+  const double* sum = sums.data();
+  for (std::size_t cells = sums.size(); cells > 1;) {
+    const std::size_t half = cells / 2;
+    sum += sum[half - 1] <= u ? half : 0;
+    cells -= half;
+  }
+  const auto index = static_cast<int>(sum - sums.data());
+  const double low = index == 0 ? 0.0 : sum[-1];
+  return {index, (u - low) / (*sum - low)};
 }
 
 }  // namespace
 
 LawSampler::LawSampler(Grid<double> masses, Weighting weighting)
     : masses_(std::move(masses)),
-      weighting_(weighting),
-      solid_angle_rows_(masses_.extent().height),
+      places_(masses_.extent(), weighting),
       rows_(static_cast<std::size_t>(masses_.extent().height)),
       columns_(masses_.extent()) {
   std::vector<double> row_masses;
@@ -52,18 +54,13 @@ LawSampler::LawSampler(Grid<double> masses, Weighting weighting)
 TexelSample LawSampler::sample(SquarePoint u) const {
   const Cell row = find_cell(rows_, u.t);
   const Cell column = find_cell(columns_.row(row.index), u.s);
-  const double t = weighting_ == Weighting::A
-                       ? place_in_cell(row.index, row.fraction, extent().height)
-                       : solid_angle_rows_.place(row.index, row.fraction);
-  const SquarePoint at = {place_in_cell(column.index, column.fraction, extent().width), t};
-  return {at, column.index, row.index, pdf(at)};
+  return places_.sample(column.index, row.index, column.fraction, row.fraction,
+                        masses_(column.index, row.index));
 }
 
 PerSquare LawSampler::pdf(SquarePoint at) const {
   const int y = cell_of(at.t, extent().height);
-  const double mass = masses_(cell_of(at.s, extent().width), y);
-  if (weighting_ == Weighting::A) return {mass * static_cast<double>(extent().count())};
-  return to_square(PerSteradian{mass / texel_solid_angle(extent(), y)}, at);
+  return places_.pdf(y, masses_(cell_of(at.s, extent().width), y), at);
 }
 
 std::size_t LawSampler::table_bytes() const {

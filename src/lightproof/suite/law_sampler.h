@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lightproof/core/grid.h"
-#include "lightproof/samplers/sampler.h"
+#include "lightproof/samplers/texel_places.h"
 
 namespace lightproof {
 
@@ -18,7 +18,7 @@ class LawSampler {
   std::size_t table_bytes() const;
 
   Extent extent() const { return masses_.extent(); }
-  Weighting weighting() const { return weighting_; }
+  Weighting weighting() const { return places_.weighting(); }
   const Grid<double>& masses() const { return masses_; }
   /// What u = (1/2, 1/2) gives: a texel with light.
   const TexelSample& median() const { return median_; }
@@ -29,8 +29,7 @@ class LawSampler {
 
  private:
   Grid<double> masses_;
-  Weighting weighting_;
-  SolidAngleRows solid_angle_rows_;
+  TexelPlaces places_;
   std::vector<double> rows_;
   TexelSample median_;
   Grid<double> columns_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lightproof/suite/bound_sampler.h"
+#include "lightproof/suite/checks.h"
 #include "lightproof/suite/expectation.h"
 #include "lightproof/suite/results.h"
 
@@ -20,9 +21,10 @@ struct Candidate {
   std::function<BoundSampler()> bind;
   /// Step of its sums and random numbers: a float's below 1 unless it is known to be finer.
   double resolution = 0x1p-24;
-  /// Another sampler whose texels it claims to return, point for point, and whose law so must be
-  /// its own; empty if none.
-  std::function<BoundSampler()> twin = {};
+  /// Whether it claims to return the texels of the problem's twin, point for point.
+  bool has_twin = false;
+  /// The same for every seed.
+  std::function<OwnDensity(const BoundSampler&, Extent)> integrate = integrate_pdf;
 };
 
 /// What could be drawn by mistake.
@@ -41,6 +43,12 @@ struct Problem {
   std::function<Expectation()> expectation;
   std::function<std::vector<Alternative>()> alternatives;
   std::vector<Candidate> candidates;
+  /// A sampler that others are held against; empty if no candidate has a twin.
+  std::function<BoundSampler()> twin = {};
 };
+
+/// The same problem for many runs: the exact side, the samplers and the integrals of their pdfs are
+/// made now, and kept.
+Problem made_once(Problem problem);
 
 }  // namespace lightproof

@@ -96,10 +96,13 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
     record.detail = fmt::format("known after {} samples: evidence 10^{:.3g}, 10^{:.3g} is enough",
                                 draws.samples, log10_e, enough);
   }
-  const OwnDensity own = integrate_pdf(sampler, expectation.masses.extent());
+  const OwnDensity own = configuration.candidate->integrate(sampler, expectation.masses.extent());
+  const std::optional<BoundSampler> twin =
+      configuration.problem->twin ? std::optional(configuration.problem->twin()) : std::nullopt;
   Finding finding{{record}, {}};
-  for (const auto& tests : {test_strays(configuration, draws),
-                            test_exactly(configuration, expectation, sampler, own, draws)}) {
+  for (const auto& tests :
+       {test_strays(configuration, draws),
+        test_exactly(configuration, expectation, sampler, own, draws, twin ? &*twin : nullptr)}) {
     for (const Measured& test : tests) finding.records.push_back(test.record);
   }
   const bool rejected =

@@ -20,12 +20,11 @@ std::vector<Alternative> alternatives_on(const EnvironmentMap& map, TargetDensit
 }
 
 Candidate candidate_of(const Subject& subject, const EnvironmentMap& map) {
-  Candidate candidate{subject.name, subject.known_defects,
-                      [bind = subject.bind, &map] { return bind(map); }, subject.resolution};
-  if (subject.inverts_shared_cdf) {
-    candidate.twin = [&map, target = subject.target] { return bound(LinearScan(map, target)); };
-  }
-  return candidate;
+  return {.name = subject.name,
+          .known_defects = subject.known_defects,
+          .bind = [bind = subject.bind, &map] { return bind(map); },
+          .resolution = subject.resolution,
+          .has_twin = subject.inverts_shared_cdf};
 }
 
 /// The target densities of the subjects, each once.
@@ -75,7 +74,10 @@ std::vector<Problem> problems_of(std::span<const EnvironmentMap> maps,
                       [&map, target] { return alternatives_on(map, target); },
                       {}};
       for (const Subject& subject : subjects) {
-        if (subject.target == target) problem.candidates.push_back(candidate_of(subject, map));
+        if (!(subject.target == target)) continue;
+        problem.candidates.push_back(candidate_of(subject, map));
+        if (!subject.inverts_shared_cdf) continue;
+        problem.twin = [&map, target] { return bound(LinearScan(map, target)); };
       }
       problems.push_back(std::move(problem));
     }

@@ -1,0 +1,42 @@
+// Walker's alias method over all texels at once, 16 bytes a texel: threshold, alias and the
+// probabilities of both cells, so that one look-up draws and knows its density. O(1) a sample; not
+// monotone, so it loses stratification.
+#pragma once
+
+#include "lightproof/samplers/alias_table.h"
+#include "lightproof/samplers/sampler.h"
+#include "lightproof/samplers/texel_places.h"
+
+namespace lightproof {
+
+class Alias {
+ public:
+  /// Throws InputError if the map is black.
+  Alias(const EnvironmentMap& map, TargetDensity target);
+
+  /// u.s names the column and the place across, u.t chooses, and gives the place along.
+  TexelSample sample(SquarePoint u) const {
+    const AliasTable::Drawn drawn = table_.draw(u.s, u.t);
+    const auto width = static_cast<std::uint32_t>(places_.extent().width);
+    return places_.sample(static_cast<int>(drawn.cell % width),
+                          static_cast<int>(drawn.cell / width), drawn.column, drawn.choice,
+                          drawn.mass);
+  }
+
+  PerSquare pdf(SquarePoint at) const {
+    const Extent extent = places_.extent();
+    const int y = cell_of(at.t, extent.height);
+    const auto x = static_cast<std::size_t>(cell_of(at.s, extent.width));
+    const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(extent.width);
+    return places_.pdf(y, table_.mass(row + x), at);
+  }
+
+  std::size_t table_bytes() const { return table_.bytes() + places_.bytes(); }
+
+ private:
+  AliasTable table_;
+  TexelPlaces places_;
+};
+static_assert(EnvSampler<Alias>);
+
+}  // namespace lightproof

@@ -1,0 +1,47 @@
+// Two levels at 2.5 bytes a texel: the alias method chooses among runs of 32 texels, whose 16-bit
+// knots are then compared with what is left of the random number. One line of the cache a sample,
+// of the larger table; not monotone, so it loses stratification.
+#pragma once
+
+#include "lightproof/samplers/alias_table.h"
+#include "lightproof/samplers/cdf_lines.h"
+#include "lightproof/samplers/sampler.h"
+#include "lightproof/samplers/texel_places.h"
+
+namespace lightproof {
+
+class AliasLines {
+ public:
+  /// Throws InputError if the map is black.
+  AliasLines(const EnvironmentMap& map, TargetDensity target);
+
+  /// u.s names the column of the alias table and the place along, u.t chooses the line and what is
+  /// in it.
+  TexelSample sample(SquarePoint u) const {
+    const AliasTable::Drawn drawn = table_.draw(u.s, u.t);
+    const RunTexel found = lines_.find(drawn.cell, drawn.choice);
+    const auto across = static_cast<std::uint32_t>(lines_.extent().width);
+    return places_.sample(static_cast<int>(drawn.cell % across) * kRunTexels + found.index,
+                          static_cast<int>(drawn.cell / across), found.fraction, drawn.column,
+                          drawn.mass * found.mass);
+  }
+
+  PerSquare pdf(SquarePoint at) const {
+    const int y = cell_of(at.t, places_.extent().height);
+    const int x = cell_of(at.s, places_.extent().width);
+    const std::size_t run = lines_.index(x / kRunTexels, y);
+    return places_.pdf(y, table_.mass(run) * lines_.mass(run, x % kRunTexels), at);
+  }
+
+  std::size_t table_bytes() const { return lines_.bytes() + table_.bytes() + places_.bytes(); }
+
+ private:
+  AliasLines(const Grid<double>& weights, Weighting weighting);
+
+  CdfLines lines_;
+  AliasTable table_;
+  TexelPlaces places_;
+};
+static_assert(EnvSampler<AliasLines>);
+
+}  // namespace lightproof

@@ -1,0 +1,49 @@
+// Inversion in three steps at about 2.3 bytes a texel: guide tables find the row and the run of 32
+// texels in it, and the run's 16-bit knots are compared with what is left of the random number.
+// Monotone: it keeps stratification. Of the larger table it reads one line of the cache a sample.
+#pragma once
+
+#include "lightproof/samplers/cdf_lines.h"
+#include "lightproof/samplers/guide_table.h"
+#include "lightproof/samplers/sampler.h"
+#include "lightproof/samplers/texel_places.h"
+
+namespace lightproof {
+
+class GuideLines {
+ public:
+  /// Throws InputError if the map is black.
+  GuideLines(const EnvironmentMap& map, TargetDensity target);
+
+  TexelSample sample(SquarePoint u) const {
+    const double scaled_t = u.t * kCdfOne;
+    const double scaled_s = u.s * kCdfOne;
+    const CdfCell row = guides_.row(table_, static_cast<std::uint32_t>(scaled_t));
+    const CdfCell run = guides_.column(table_, row.index, static_cast<std::uint32_t>(scaled_s));
+    const RunTexel found = lines_.find(lines_.index(run.index, row.index), run.fraction(scaled_s));
+    return places_.sample(run.index * kRunTexels + found.index, row.index, found.fraction,
+                          row.fraction(scaled_t), cdf_mass(row.units(), run.units()) * found.mass);
+  }
+
+  PerSquare pdf(SquarePoint at) const {
+    const int y = cell_of(at.t, places_.extent().height);
+    const int x = cell_of(at.s, places_.extent().width);
+    const double share = lines_.mass(lines_.index(x / kRunTexels, y), x % kRunTexels);
+    return places_.pdf(y, table_.mass(x / kRunTexels, y) * share, at);
+  }
+
+  std::size_t table_bytes() const {
+    return lines_.bytes() + table_.bytes() + guides_.bytes() + places_.bytes();
+  }
+
+ private:
+  GuideLines(const Grid<double>& weights, Weighting weighting);
+
+  CdfLines lines_;
+  CdfTable table_;  ///< of the runs
+  GuidedKnots guides_;
+  TexelPlaces places_;
+};
+static_assert(EnvSampler<GuideLines>);
+
+}  // namespace lightproof

@@ -1,0 +1,43 @@
+#include "lightproof/samplers/guide_table.h"
+
+#include <bit>
+
+#include "lightproof/core/parallel.h"
+
+namespace lightproof {
+namespace {
+
+constexpr unsigned kCdfBits = 31;
+
+unsigned guide_bits(std::size_t cells) { return static_cast<unsigned>(std::bit_width(cells - 1)); }
+
+}  // namespace
+
+Guides::Guides(std::size_t count, std::size_t cells)
+    : shift_(kCdfBits - guide_bits(cells)),
+      parts_((std::size_t{1} << guide_bits(cells)) + 1),
+      first_(count * parts_) {}
+
+void Guides::set(std::size_t guide, CdfKnots knots) {
+  if (knots.back() == 0) return;  // without mass, and so never asked
+  std::size_t cell = 0;
+  for (std::size_t part = 0; part + 1 < parts_; ++part) {
+    const auto u = static_cast<std::uint32_t>(part << shift_);
+    while (knots[cell + 1] <= u) ++cell;
+    first_[guide * parts_ + part] = static_cast<std::uint16_t>(cell);
+  }
+  // The last random number's.
+  while (knots[cell + 1] < kCdfOne) ++cell;
+  first_[guide * parts_ + parts_ - 1] = static_cast<std::uint16_t>(cell);
+}
+
+GuidedKnots::GuidedKnots(const CdfTable& table)
+    : rows_(1, static_cast<std::size_t>(table.extent().height)),
+      columns_(static_cast<std::size_t>(table.extent().height),
+               static_cast<std::size_t>(table.extent().width)) {
+  rows_.set(0, table.rows());
+  parallel_for(static_cast<std::size_t>(table.extent().height),
+               [&](std::size_t y) { columns_.set(y, table.columns(static_cast<int>(y))); });
+}
+
+}  // namespace lightproof

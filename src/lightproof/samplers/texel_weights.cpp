@@ -1,0 +1,34 @@
+#include "lightproof/samplers/texel_weights.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "lightproof/core/error.h"
+#include "lightproof/core/parallel.h"
+#include "lightproof/warp/lat_long.h"
+
+namespace lightproof {
+
+Grid<double> texel_weights(const EnvironmentMap& map, TargetDensity target) {
+  const Extent extent = map.radiance.extent();
+  Grid<double> weights(extent);
+  parallel_for(static_cast<std::size_t>(extent.height), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    const double area = target.weighting == Weighting::B ? texel_solid_angle(extent, y) : 1.0;
+    const auto texels = map.radiance.row(y);
+    std::transform(texels.begin(), texels.end(), weights.row(y).begin(),
+                   [&](Rgb rgb) { return area * luminance(rgb, target.grey); });
+  });
+  const auto values = weights.values();
+  if (std::none_of(values.begin(), values.end(), [](double w) { return w > 0.0; })) {
+    refuse_black(map);
+  }
+  return weights;
+}
+
+void refuse_black(const EnvironmentMap& map) {
+  throw InputError(fmt::format("{}: the map is black: there is no light to sample", map.name));
+}
+
+}  // namespace lightproof

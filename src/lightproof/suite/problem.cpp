@@ -1,0 +1,25 @@
+#include "lightproof/suite/problem.h"
+
+namespace lightproof {
+namespace {
+
+std::function<BoundSampler()> made_once(const std::function<BoundSampler()>& bind) {
+  return [sampler = bind()] { return sampler; };
+}
+
+}  // namespace
+
+Problem made_once(Problem problem) {
+  const auto expectation = std::make_shared<const Expectation>(problem.expectation());
+  problem.expectation = [expectation] { return *expectation; };
+  if (problem.twin) problem.twin = made_once(problem.twin);
+  for (Candidate& candidate : problem.candidates) {
+    candidate.bind = made_once(candidate.bind);
+    candidate.integrate = [own =
+                               candidate.integrate(candidate.bind(), expectation->masses.extent())](
+                              const BoundSampler&, Extent) { return own; };
+  }
+  return problem;
+}
+
+}  // namespace lightproof

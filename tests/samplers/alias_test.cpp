@@ -1,0 +1,187 @@
+// The alias method's tables draw exactly what they say, and that is what they were asked for.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "lightproof/image/synthetic.h"
+#include "lightproof/samplers/registry.h"
+#include "reference/texel_masses.h"
+
+namespace lightproof {
+namespace {
+
+using Masses = std::vector<std::uint64_t>;
+
+std::uint64_t sum_of(const Masses& masses) {
+  return std::accumulate(masses.begin(), masses.end(), std::uint64_t{0});
+}
+
+std::vector<double> weights_of(std::string_view name, Extent extent) {
+  const Grid<double> exact =
+      reference::texel_masses(make_synthetic_map(name, extent), {Weighting::A, kRec709});
+  return {exact.values().begin(), exact.values().end()};
+}
+
+TEST(WholeMasses, AreWithinOneUnitOfTheirSharesAndSumToTheirNumber) {
+  for (const std::string_view name : {"constant", "sun-sky", "gradient", "checker", "one-texel"}) {
+    const std::vector<double> weights = weights_of(name, {64, 32});
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (const unsigned bits : {8U, 13U, 31U}) {
+      const Masses masses = whole_masses(weights, bits);
+      const std::uint64_t whole = weights.size() << bits;
+      EXPECT_EQ(sum_of(masses), whole) << name;
+      const auto largest = static_cast<std::size_t>(
+          std::max_element(weights.begin(), weights.end()) - weights.begin());
+      for (std::size_t i = 0; i < weights.size(); ++i) {
+        EXPECT_EQ(masses[i] > 0, weights[i] > 0.0) << name << ", cell " << i;
+        const double share = static_cast<double>(whole) * weights[i] / total;
+        // The units that all have beforehand come out of everybody's share.
+        const double reserved = 1.0 + share / std::ldexp(1.0, static_cast<int>(bits));
+        if (i == largest) continue;
+        EXPECT_NEAR(static_cast<double>(masses[i]), share, 1.0 + reserved);
+      }
+    }
+  }
+}
+
+TEST(WholeMasses, FaintWeightsKeepAUnitBesideASun) {
+  std::vector<double> weights(1000, 1.0);
+  weights[500] = 1e15;
+  const Masses masses = whole_masses(weights, 13);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (i == 500) continue;
+    EXPECT_GE(masses[i], 1U) << i;
+    EXPECT_LE(masses[i], 2U) << i;
+  }
+  EXPECT_EQ(sum_of(masses), weights.size() << 13U);
+}
+
+TEST(SweepAliases, EveryColumnIsFilledAndEveryCellDrawnByItsMass) {
+  const std::vector<Masses> cases = {{8},           {8, 8},
+                                     {0, 16},       {16, 0},
+                                     {1, 15, 8},    {20, 1, 1, 17, 1, 8},
+                                     {0, 0, 0, 32}, {9, 9, 6},
+                                     {7, 9, 7, 9},  {48, 0, 0, 0, 0, 0}};
+  for (const Masses& masses : cases) {
+    constexpr unsigned kBits = 3;
+    ASSERT_EQ(sum_of(masses), masses.size() << kBits);
+    Masses drawn(masses.size());
+    std::vector<int> visits(masses.size());
+    sweep_aliases(masses, kBits, [&](std::size_t cell, const AliasColumn& column) {
+      ++visits[cell];
+      drawn[cell] += column.threshold;
+      drawn[column.alias] += (1U << kBits) - column.threshold;
+    });
+    EXPECT_EQ(drawn, masses) << testing::PrintToString(masses);
+    EXPECT_EQ(visits, std::vector<int>(masses.size(), 1)) << testing::PrintToString(masses);
+  }
+}
+
+TEST(MassPalette, SmallMapsKeepEveryMass) {
+  const Masses exact = {5, 0, 123456789, 7};
+  const MassPalette palette(exact, 2);
+  ASSERT_EQ(palette.codes.size(), exact.size());
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    EXPECT_EQ(palette.masses[palette.codes[i]], exact[i]);
+  }
+}
+
+TEST(MassPalette, RoundsByLittleAndLosesNothing) {
+  for (const std::string_view name : {"constant", "sun-sky", "gradient", "checker", "one-texel"}) {
+    const std::vector<double> weights = weights_of(name, {256, 128});
+    for (const unsigned bits : {13U, 31U}) {
+      const Masses exact = whole_masses(weights, bits);
+      const MassPalette palette(exact, 13);
+      EXPECT_LE(palette.masses.size(), 1U << 13U);
+      Masses rounded;
+      double worst = 0.0;
+      for (std::size_t i = 0; i < exact.size(); ++i) {
+        rounded.push_back(palette.masses[palette.codes[i]]);
+        EXPECT_EQ(rounded[i] > 0, exact[i] > 0) << name << ", texel " << i;
+        if (exact[i] == 0) continue;
+        worst = std::max(
+            worst, std::abs(static_cast<double>(rounded[i]) / static_cast<double>(exact[i]) - 1.0));
+      }
+      EXPECT_EQ(sum_of(rounded), sum_of(exact)) << name;
+      // A step at nine digits.
+      EXPECT_LT(worst, 1.0 / 256.0) << name << ", " << bits << " bits";
+    }
+  }
+}
+
+// Rounded up and down by turns: no stretch of the map gains or loses more than a step of each
+// brightness, which are half as large from one octave to the next.
+TEST(MassPalette, StretchesKeepTheirMass) {
+  const Masses exact = whole_masses(weights_of("gradient", {256, 128}), 31);
+  const MassPalette palette(exact, 13);
+  std::vector<std::int64_t> steps;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    steps.push_back(static_cast<std::int64_t>(palette.masses[palette.codes[i]] - exact[i]));
+  }
+  const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
+  EXPECT_GT(*most - *least, 0);
+  std::int64_t gained = 0;
+  for (const std::int64_t step : steps) {
+    gained += step;
+    ASSERT_LE(std::abs(gained), 2 * (*most - *least));
+  }
+}
+
+/// What a sampler that reads its first table by u.s, one of so many columns, draws of every texel:
+/// where u.t leads from one texel to another is found by bisection. In a column no texel comes
+/// back.
+template <class Sampler>
+Grid<double> drawn_masses(const Sampler& sampler, Extent extent, std::size_t columns) {
+  Grid<double> masses(extent);
+  for (std::size_t column = 0; column < columns; ++column) {
+    const double s = (static_cast<double>(column) + 0.5) / static_cast<double>(columns);
+    const auto texel = [&](double t) {
+      const TexelSample sample = sampler.sample({s, t});
+      return std::pair(sample.x, sample.y);
+    };
+    for (double start = 0.0; start < 1.0;) {
+      const auto [x, y] = texel(start);
+      double inside = start;
+      double outside = 1.0;
+      while (std::nextafter(inside, 1.0) < outside) {
+        const double middle = 0.5 * (inside + outside);
+        (texel(middle) == std::pair(x, y) ? inside : outside) = middle;
+      }
+      masses(x, y) += (outside - start) / static_cast<double>(columns);
+      start = outside;
+    }
+  }
+  return masses;
+}
+
+template <class Sampler>
+class AliasSamplers : public testing::Test {};
+using All = testing::Types<Alias, PackedAlias, AliasLines>;
+TYPED_TEST_SUITE(AliasSamplers, All);
+
+TYPED_TEST(AliasSamplers, ReturnTheDensityThatTheyDraw) {
+  for (const std::string_view name : {"sun-sky", "gradient", "checker", "one-texel"}) {
+    // Runs of 32 that are cut off at the row's end; more texels than a palette has masses.
+    for (const Extent extent : {Extent{1, 1}, Extent{45, 3}, Extent{130, 65}}) {
+      const EnvironmentMap map = make_synthetic_map(name, extent);
+      const TypeParam sampler(map, {Weighting::A, kRec709});
+      constexpr bool kRuns = std::is_same_v<TypeParam, AliasLines>;
+      const auto runs = static_cast<std::size_t>((extent.width + 31) / 32 * extent.height);
+      const Grid<double> masses = drawn_masses(sampler, extent, kRuns ? runs : extent.count());
+      for (int y = 0; y < extent.height; ++y) {
+        for (int x = 0; x < extent.width; ++x) {
+          const SquarePoint at = {(x + 0.5) / extent.width, (y + 0.5) / extent.height};
+          const double returned = sampler.pdf(at).value / static_cast<double>(extent.count());
+          ASSERT_NEAR(returned, masses(x, y), 0x1p-22 * masses(x, y) + 1e-15)
+              << name << ", texel (" << x << ", " << y << ")";
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lightproof
