@@ -169,6 +169,10 @@ std::array<CheckResult, 2> check_edges(const BoundSampler& sampler,
           check_points("edges of u", sampler, expectation, others)};
 }
 
+Inspection inspect(const BoundSampler& sampler, const Expectation& expectation) {
+  return {integrate_pdf(sampler, expectation.masses.extent()), check_edges(sampler, expectation)};
+}
+
 CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,
                              const Expectation& expectation, const RandomStream& stream,
                              std::uint64_t count) {

@@ -43,6 +43,13 @@ CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& 
 /// points next to 1 are a check of their own: where sums end too early, they run off.
 std::array<CheckResult, 2> check_edges(const BoundSampler& sampler, const Expectation& expectation);
 
+/// What can be said of a sampler whatever the seed.
+struct Inspection {
+  OwnDensity own;
+  std::array<CheckResult, 2> edges;
+};
+Inspection inspect(const BoundSampler& sampler, const Expectation& expectation);
+
 /// The same texel as another sampler for the same point: edge_points(), and so many random ones.
 CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,
                              const Expectation& expectation, const RandomStream& stream,

@@ -276,15 +276,15 @@ std::vector<Measured> test_against_twin(const Configuration& configuration, cons
 
 std::vector<Measured> test_exactly(const Configuration& configuration,
                                    const Expectation& expectation, const BoundSampler& sampler,
-                                   const OwnDensity& own, const Draws& draws,
+                                   const Inspection& inspection, const Draws& draws,
                                    const BoundSampler* twin) {
   Records records(configuration, draws.samples);
   if (expectation.transform) records.add_check(check_resolution(draws));
   const RandomStream stream = configuration.stream("checks");
-  records.add_check(check_pdf_integral(own));
+  records.add_check(check_pdf_integral(inspection.own));
   const std::uint64_t points = std::min(draws.samples, kMostCheckPoints);
   records.add_check(check_returned_pdf(sampler, stream, points));
-  for (const CheckResult& check : check_edges(sampler, expectation)) records.add_check(check);
+  for (const CheckResult& check : inspection.edges) records.add_check(check);
   if (configuration.candidate->has_twin) {
     records.add_check(check_same_texel(sampler, *twin, expectation, stream, points));
   }

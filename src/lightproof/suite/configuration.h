@@ -61,7 +61,7 @@ std::vector<Measured> test_strays(const Configuration& configuration, const Draw
 /// The checks that need no statistics; `twin` is null if the problem has none.
 std::vector<Measured> test_exactly(const Configuration& configuration,
                                    const Expectation& expectation, const BoundSampler& sampler,
-                                   const OwnDensity& own, const Draws& draws,
+                                   const Inspection& inspection, const Draws& draws,
                                    const BoundSampler* twin);
 
 }  // namespace lightproof

@@ -63,14 +63,14 @@ void append(std::vector<Measured>& tests, std::vector<Measured> more) {
 Slot run_first(const Configuration& configuration, const Yardstick& yardstick, double suspicious) {
   const Expectation& expectation = yardstick.expectation;
   const BoundSampler sampler = configuration.candidate->bind();
-  const OwnDensity own = configuration.candidate->integrate(sampler, expectation.masses.extent());
+  const Inspection inspection = configuration.candidate->inspect(sampler, expectation);
   Draws draws =
       draw_samples(sampler, expectation, configuration.stream("draws"), {0, yardstick.samples});
-  Slot slot{test_draws(configuration, expectation, own, draws, yardstick.uniform), std::nullopt,
-            own};
+  Slot slot{test_draws(configuration, expectation, inspection.own, draws, yardstick.uniform),
+            std::nullopt, inspection.own};
   append(slot.tests, test_against_twin(configuration, draws, yardstick.twin));
   append(slot.tests, test_strays(configuration, draws));
-  append(slot.tests, test_exactly(configuration, expectation, sampler, own, draws,
+  append(slot.tests, test_exactly(configuration, expectation, sampler, inspection, draws,
                                   yardstick.twin ? &yardstick.twin->sampler : nullptr));
   const bool clean = std::all_of(slot.tests.begin(), slot.tests.end(), [&](const Measured& test) {
     const TestRecord& r = test.record;

@@ -15,9 +15,8 @@ Problem made_once(Problem problem) {
   if (problem.twin) problem.twin = made_once(problem.twin);
   for (Candidate& candidate : problem.candidates) {
     candidate.bind = made_once(candidate.bind);
-    candidate.integrate = [own =
-                               candidate.integrate(candidate.bind(), expectation->masses.extent())](
-                              const BoundSampler&, Extent) { return own; };
+    candidate.inspect = [inspection = candidate.inspect(candidate.bind(), *expectation)](
+                            const BoundSampler&, const Expectation&) { return inspection; };
   }
   return problem;
 }

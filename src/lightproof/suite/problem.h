@@ -23,8 +23,8 @@ struct Candidate {
   double resolution = 0x1p-24;
   /// Whether it claims to return the texels of the problem's twin, point for point.
   bool has_twin = false;
-  /// The same for every seed.
-  std::function<OwnDensity(const BoundSampler&, Extent)> integrate = integrate_pdf;
+  /// What is found does not depend on the seed.
+  std::function<Inspection(const BoundSampler&, const Expectation&)> inspect = lightproof::inspect;
 };
 
 /// What could be drawn by mistake.
@@ -47,8 +47,8 @@ struct Problem {
   std::function<BoundSampler()> twin = {};
 };
 
-/// The same problem for many runs: the exact side, the samplers and the integrals of their pdfs are
-/// made now, and kept.
+/// The same problem for many runs: the exact side, the samplers and their inspections are made now,
+/// and kept.
 Problem made_once(Problem problem);
 
 }  // namespace lightproof

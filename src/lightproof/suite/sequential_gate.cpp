@@ -96,13 +96,13 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
     record.detail = fmt::format("known after {} samples: evidence 10^{:.3g}, 10^{:.3g} is enough",
                                 draws.samples, log10_e, enough);
   }
-  const OwnDensity own = configuration.candidate->integrate(sampler, expectation.masses.extent());
+  const Inspection inspection = configuration.candidate->inspect(sampler, expectation);
   const std::optional<BoundSampler> twin =
       configuration.problem->twin ? std::optional(configuration.problem->twin()) : std::nullopt;
   Finding finding{{record}, {}};
-  for (const auto& tests :
-       {test_strays(configuration, draws),
-        test_exactly(configuration, expectation, sampler, own, draws, twin ? &*twin : nullptr)}) {
+  for (const auto& tests : {test_strays(configuration, draws),
+                            test_exactly(configuration, expectation, sampler, inspection, draws,
+                                         twin ? &*twin : nullptr)}) {
     for (const Measured& test : tests) finding.records.push_back(test.record);
   }
   const bool rejected =
@@ -110,7 +110,7 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
                   [](const TestRecord& r) { return r.outcome == Outcome::reject; });
   if (rejected) {
     finding.rejection =
-        diagnose(*configuration.problem, expectation, {finding.records, &draws, &own});
+        diagnose(*configuration.problem, expectation, {finding.records, &draws, &inspection.own});
   }
   return finding;
 }
