@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "lightproof/samplers/registry.h"
 #include "tests/cli/program.h"
 
 namespace lightproof::test {
@@ -213,7 +214,11 @@ TEST(GateRejections, AreWrittenAsFiles) {
 
 TEST(Gate, LeavesOutKnownDefectsIfToldTo) {
   const json gate = gate_results({"constant", "--sound-only"});
-  EXPECT_THAT(values_of(gate, "sampler"), ElementsAre("linear_scan", "binary_search"));
+  Words sound;
+  for (const SamplerInfo& sampler : samplers()) {
+    if (!sampler.known_defects) sound.emplace_back(sampler.name);
+  }
+  EXPECT_EQ(values_of(gate, "sampler"), sound);
   const Finished both = lightproof({"gate", "--sound-only", "--sampler", "linear_scan_published"});
   EXPECT_EQ(both.exit_code, 2);
   EXPECT_THAT(both.err, AllOf(HasSubstr("--sound-only"), HasSubstr("--sampler")));

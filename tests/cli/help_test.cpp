@@ -158,9 +158,9 @@ TEST(SizeOfBuiltInMaps, IsCheckedEvenIfNoBuiltInMapUsesIt) {
 }
 
 TEST(UnknownName, OfASamplerListsTheKnownOnes) {
-  const Finished finished = lightproof({"gate", "constant", "--sampler", "alias"});
+  const Finished finished = lightproof({"gate", "constant", "--sampler", "walker"});
   EXPECT_EQ(finished.exit_code, 2);
-  EXPECT_THAT(finished.err, AllOf(HasSubstr("'alias'"), HasSubstr("linear_scan_published"),
+  EXPECT_THAT(finished.err, AllOf(HasSubstr("'walker'"), HasSubstr("linear_scan_published"),
                                   HasSubstr("binary_search")));
 }
 

@@ -38,7 +38,8 @@ std::vector<Entry> sampler_entries() {
   std::vector<Entry> entries;
   for (const SamplerInfo& sampler : samplers()) {
     entries.push_back({std::string(sampler.name),
-                       fmt::format("{}; O({}) a sample{}", sampler.source, sampler.growth,
+                       fmt::format("{}; O({}) a sample{}{}", sampler.source, sampler.growth,
+                                   sampler.monotone ? "; monotone" : "",
                                    sampler.known_defects ? "; with known defects" : "")});
   }
   for (const DirectionSampler& sampler : direction_samplers()) {

@@ -29,16 +29,14 @@ double sum(std::span<const double> weights) {
   return std::accumulate(weights.begin(), weights.end(), 0.0);
 }
 
-template <class Integer, Integer kOne>
-RunKnots<Integer, kOne> knots_of(std::span<const double> weights) {
+template <class Integer, std::uint32_t kOne>
+void set_knots(RunKnots<Integer, kOne>& run, std::span<const double> weights) {
   std::array<std::uint32_t, kRunTexels + 1> knots{};
   quantise_cdf(weights, std::span(knots).first(weights.size() + 1), kOne);
-  RunKnots<Integer, kOne> run;
-  run.upper.fill(kOne);
+  run.upper.fill(run.kLast);
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    run.upper[i] = static_cast<Integer>(knots[i + 1]);
+    run.upper[i] = static_cast<Integer>(std::min<std::uint32_t>(knots[i + 1], run.kLast));
   }
-  return run;
 }
 
 template <class Knots>
@@ -61,16 +59,17 @@ CdfLines::CdfLines(const Grid<double>& weights)
     for (int column = 0; column < extent_.width; ++column) {
       const auto texels = run(weights, column, y);
       Narrow& knots = narrow_[index(column, y)];
-      knots.upper.fill(kNarrowOne);  // as it stays without light: the run itself has no mass then
+      knots.upper.fill(
+          Narrow::kLast);  // as it stays without light: the run itself has no mass then
       if (!(sum(texels) > 0.0)) continue;
-      knots = knots_of<std::uint16_t, kNarrowOne>(texels);
+      set_knots(knots, texels);
       if (!is_close(knots, texels)) wide_in_row[row].push_back(column);
     }
   });
   for (int y = 0; y < extent_.height; ++y) {
     for (const int column : wide_in_row[static_cast<std::size_t>(y)]) {
       const std::size_t at = wide_.size();
-      wide_.push_back(knots_of<std::uint32_t, kWideOne>(run(weights, column, y)));
+      set_knots(wide_.emplace_back(), run(weights, column, y));
       Narrow& knots = narrow_[index(column, y)];
       knots.upper.fill(0);
       knots.upper[0] = static_cast<std::uint16_t>(at);

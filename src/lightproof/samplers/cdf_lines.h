@@ -3,9 +3,11 @@
 // sun, two lines with 32-bit knots.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "lightproof/core/grid.h"
@@ -22,31 +24,34 @@ struct RunTexel {
   double fraction;  ///< of the way through it, in [0,1)
 };
 
-/// Upper knots of a run in units of 1/kOne; from the last texel with mass on they are kOne, which
-/// no scaled random number reaches.
-template <class Integer, Integer kOne>
+/// Upper knots of a run in units of 1/kOne. From the last texel with mass on they are 1, which is
+/// kept as kLast: of kOne, what an Integer holds. That texel has more than one unit, so that no
+/// other knot is kLast.
+template <class Integer, std::uint32_t kOne>
 struct alignas(64) RunKnots {
+  static constexpr Integer kLast =
+      std::min<std::uint32_t>(kOne, std::numeric_limits<Integer>::max());
   std::array<Integer, kRunTexels> upper;
 
   /// The texel that u, in [0,1), lies in: one with mass.
   RunTexel find(double u) const {
     const double scaled = u * kOne;
-    const auto number = static_cast<Integer>(scaled);
+    const std::uint32_t number =
+        std::min<std::uint32_t>(static_cast<std::uint32_t>(scaled), kLast - 1);
     int index = 0;
     for (const Integer knot : upper) index += knot <= number ? 1 : 0;
-    const double below = low(index);
-    const double units = upper[static_cast<std::size_t>(index)] - below;
-    return {index, units / kOne, (scaled - below) / units};
+    const double units = high(index) - low(index);
+    return {index, units / kOne, (scaled - low(index)) / units};
   }
   /// Share of the run's mass.
-  double mass(int index) const {
-    return (upper[static_cast<std::size_t>(index)] - low(index)) / kOne;
-  }
+  double mass(int index) const { return (high(index) - low(index)) / kOne; }
 
  private:
-  double low(int index) const {
-    return index == 0 ? 0.0 : upper[static_cast<std::size_t>(index) - 1];
+  double high(int index) const {
+    const Integer knot = upper[static_cast<std::size_t>(index)];
+    return knot == kLast ? kOne : knot;
   }
+  double low(int index) const { return index == 0 ? 0.0 : high(index - 1); }
 };
 
 /// All runs of a map, row by row; a row's last one may be shorter.
@@ -76,14 +81,12 @@ class CdfLines {
   std::size_t wide_count() const { return wide_.size(); }
 
  private:
-  static constexpr std::uint16_t kNarrowOne = 65535;
-  static constexpr std::uint32_t kWideOne = 1U << 31U;
-  using Narrow = RunKnots<std::uint16_t, kNarrowOne>;
-  using Wide = RunKnots<std::uint32_t, kWideOne>;
+  using Narrow = RunKnots<std::uint16_t, 1U << 16U>;
+  using Wide = RunKnots<std::uint32_t, 1U << 31U>;
 
-  /// The last upper knot of a narrow run is kNarrowOne; of a wide one all that is kept in its place
-  /// is where it is.
-  static bool is_wide(const Narrow& knots) { return knots.upper.back() != kNarrowOne; }
+  /// The last upper knot of a narrow run is 1; of a wide one all that is kept in its place is where
+  /// it is.
+  static bool is_wide(const Narrow& knots) { return knots.upper.back() != Narrow::kLast; }
   static std::size_t wide_index(const Narrow& knots) {
     return knots.upper[0] | std::size_t{knots.upper[1]} << 16U;
   }
