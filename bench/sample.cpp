@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "bench/registration.h"
@@ -110,12 +111,11 @@ std::string misfit(const Sampler& sampler, const SamplerInfo& info, Extent exten
 
 /// An explanation if a texel is not the reference's; empty if all are.
 template <class Sampler>
-std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent extent,
-                         std::span<const SquarePoint> points) {
+std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent extent) {
   if (!info.inverts_shared_cdf && !info.known_defects) return "";
   const auto& reference = reference_of(extent, info.target(kWeighting));
   const double tolerance = knot_tolerance(info, extent);
-  for (const SquarePoint u : points.first(256)) {
+  for (const SquarePoint u : random_points().first(256)) {
     const TexelSample sample = sampler.sample(u);
     if (reference::Texel{sample.x, sample.y} == reference.sample(u)) continue;
     if (reference.near_knot(u, tolerance)) continue;
@@ -125,14 +125,39 @@ std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent
   return "";
 }
 
+/// A sampler that was built and checked: once, though Google Benchmark runs a benchmark several
+/// times.
+struct Prepared {
+  std::optional<AnySampler> sampler;
+  double build_ms = 0.0;
+  std::string why_not;
+};
+
+const Prepared& prepared(const SamplerInfo& info, Extent extent) {
+  static Prepared the_last;
+  static std::string name;
+  static Extent size;
+  if (name == info.name && size == extent) return the_last;
+  the_last = {};
+  const EnvironmentMap& map = map_of(extent);
+  const auto start = std::chrono::steady_clock::now();
+  the_last.sampler.emplace(info.make(map, kWeighting));
+  const std::chrono::duration<double, std::milli> build = std::chrono::steady_clock::now() - start;
+  the_last.build_ms = build.count();
+  std::visit(
+      [&](const auto& sampler) {
+        the_last.why_not = misfit(sampler, info, extent);
+        if (the_last.why_not.empty()) the_last.why_not = disagreement(sampler, info, extent);
+      },
+      *the_last.sampler);
+  name = info.name;
+  size = extent;
+  return the_last;
+}
+
 template <class Sampler>
-void time_sampler(benchmark::State& state, const Sampler& sampler, const SamplerInfo& info,
-                  Extent extent, double build_ms) {
+void time_sampler(benchmark::State& state, const Sampler& sampler) {
   const std::span<const SquarePoint> points = random_points();
-  for (const std::string& why :
-       {misfit(sampler, info, extent), disagreement(sampler, info, extent, points)}) {
-    if (!why.empty()) return disagree(state, why);
-  }
   for (std::size_t i = 0; i < 256; ++i) benchmark::DoNotOptimize(sampler.sample(points[i]));
   std::size_t next = 0;
   const auto start = std::chrono::steady_clock::now();
@@ -145,16 +170,13 @@ void time_sampler(benchmark::State& state, const Sampler& sampler, const Sampler
   state.SetItemsProcessed(state.iterations());
   state.counters["ns_per_sample"] = elapsed.count() / static_cast<double>(state.iterations());
   state.counters["table_bytes"] = static_cast<double>(sampler.table_bytes());
-  state.counters["build_ms"] = build_ms;
 }
 
 void sample_benchmark(benchmark::State& state, const SamplerInfo& info, Extent extent) {
-  const EnvironmentMap& map = map_of(extent);
-  const auto start = std::chrono::steady_clock::now();
-  const AnySampler any = info.make(map, kWeighting);
-  const std::chrono::duration<double, std::milli> build = std::chrono::steady_clock::now() - start;
-  std::visit(
-      [&](const auto& sampler) { time_sampler(state, sampler, info, extent, build.count()); }, any);
+  const Prepared& subject = prepared(info, extent);
+  if (!subject.why_not.empty()) return disagree(state, subject.why_not);
+  std::visit([&](const auto& sampler) { time_sampler(state, sampler); }, *subject.sampler);
+  state.counters["build_ms"] = subject.build_ms;
 }
 
 }  // namespace

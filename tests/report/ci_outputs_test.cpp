@@ -77,7 +77,7 @@ TEST(Outputs, SayWhatIsLimitedByResolution) {
               AllOf(HasSubstr("\u2248 resolution-limited"), HasSubstr("Resolution-limited tests")));
   StudyResult study;
   study.gate = gate;
-  EXPECT_THAT(headline(study), HasSubstr("as far as its rounding lets be seen"));
+  EXPECT_THAT(headline(study), HasSubstr("as far as rounding lets be seen"));
 }
 
 // The exit code does not count a published sampler's open tests, and nor does a CI server.

@@ -42,8 +42,11 @@ Json scale_of(const std::vector<SeriesStyle>& styles, std::string SeriesStyle::*
 std::vector<SeriesStyle> series_styles(const std::vector<std::string>& names) {
   std::vector<SeriesStyle> styles;
   for (const std::string& name : unique_names(names)) {
-    const std::size_t place = styles.size() % kColours.size();
-    styles.push_back({name, kColours[place], kShapes[place]});
+    // Every round of colours goes with other shapes.
+    const std::size_t place = styles.size();
+    const std::size_t round = place / kColours.size();
+    styles.push_back(
+        {name, kColours[place % kColours.size()], kShapes[(place + round) % kShapes.size()]});
   }
   return styles;
 }

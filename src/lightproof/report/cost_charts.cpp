@@ -73,7 +73,7 @@ std::string label_of(const std::string& sampler, const std::vector<GrowthFit>& g
   const auto fit = std::find_if(growth.begin(), growth.end(),
                                 [&](const GrowthFit& g) { return g.sampler == sampler; });
   if (fit == growth.end()) return sampler;
-  return fmt::format("{}, {} steps", sampler, fit->model);
+  return fmt::format("{}, {} step{}", sampler, fit->model, fit->model == "1" ? "" : "s");
 }
 
 int predictor(Extent extent) { return extent.width + extent.height; }

@@ -9,10 +9,7 @@
 
 namespace lightproof {
 
-/// The sampler that the study is about: "binary_search" if it was tested, else the first one.
-std::string subject_of(const GateResult& gate);
-
-/// The headline: the verdict on the subject.
+/// The headline: the verdict on all samplers but those that are kept with known defects.
 std::string headline(const StudyResult& study);
 
 struct SamplerFinding {
@@ -33,8 +30,8 @@ std::string prediction_finding(const std::vector<ConvergenceRecord>& records);
 /// Is the measured variance the predicted one? Judged at 3 standard errors of each ratio.
 std::string variance_finding(const std::vector<ConvergenceRecord>& records);
 
-/// How much faster the subject is than the baseline (the published linear scan where there is one,
-/// else the slowest sampler), and whether that grows with the map.
+/// How much faster the fastest sampler on the largest map is than the baseline (the published
+/// linear scan where there is one, else the slowest sampler), and whether that grows with the map.
 std::string throughput_finding(const StudyResult& study);
 
 /// The sizes at which a sampler's steps are fastest and slowest. The fit has at least one size.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <string_view>
 
 #include "lightproof/report/findings.h"
@@ -22,6 +23,23 @@ std::size_t map_count(const GateResult& gate) {
 std::string tests_of(const Tally& tally, std::string_view what) {
   const std::size_t count = what == "rejected" ? tally.rejected : tally.inconclusive;
   return fmt::format("{} of {} {}", with_thousands(count), counted(tally.tests, "test"), what);
+}
+
+using Judged = std::function<bool(const TestRecord&)>;
+
+std::vector<std::string> samplers_of(const GateResult& gate, const Judged& judged) {
+  std::vector<std::string> names;
+  for (const TestRecord& test : gate.tests) {
+    if (judged(test)) names.push_back(test.sampler);
+  }
+  return unique_names(names);
+}
+
+/// Those of which a test ended so.
+std::vector<std::string> samplers_with(const GateResult& gate, const Judged& judged,
+                                       Outcome outcome) {
+  return samplers_of(
+      gate, [&](const TestRecord& test) { return judged(test) && test.outcome == outcome; });
 }
 
 SamplerFinding sampler_finding(const GateResult& gate, const std::string& sampler) {
@@ -60,37 +78,50 @@ SamplerFinding sampler_finding(const GateResult& gate, const std::string& sample
   return finding;
 }
 
-}  // namespace
-
-std::string subject_of(const GateResult& gate) {
-  const auto known = std::find_if(gate.tests.begin(), gate.tests.end(),
-                                  [](const TestRecord& t) { return t.sampler == "binary_search"; });
-  if (known != gate.tests.end()) return known->sampler;
-  return gate.tests.empty() ? "" : gate.tests.front().sampler;
+/// The verdict on one sampler, or on several of them.
+std::string verdict_on(const GateResult& gate, const Judged& judged, const Tally& tally) {
+  const std::vector<std::string> guilty = samplers_with(gate, judged, tally.outcome());
+  const std::size_t all = samplers_of(gate, judged).size();
+  const std::string who = all == 1 ? guilty.front()
+                          : guilty.size() == 1
+                              ? guilty.front() + " alone"
+                              : fmt::format("{} of {} samplers", guilty.size(), all);
+  if (tally.outcome() == Outcome::inconclusive) {
+    return fmt::format("the verdict on {} is open", all == 1 ? guilty.front() : who);
+  }
+  return fmt::format("{} {} not draw the right distribution", who,
+                     guilty.size() == 1 ? "does" : "do");
 }
+
+}  // namespace
 
 std::string headline(const StudyResult& study) {
   const GateResult& gate = study.gate;
   if (gate.tests.empty()) return "No test was run";
-  const std::string subject = subject_of(gate);
-  const Tally tally =
-      tally_of(gate, [&](const TestRecord& test) { return test.sampler == subject; });
+  const bool any_sound = std::any_of(gate.tests.begin(), gate.tests.end(),
+                                     [](const TestRecord& t) { return !t.known_defect; });
+  const Judged judged = [any_sound](const TestRecord& t) { return !any_sound || !t.known_defect; };
+  const Tally tally = tally_of(gate, judged);
+  const std::vector<std::string> samplers = samplers_of(gate, judged);
   const std::size_t maps = map_count(gate);
   const std::string where = fmt::format("On {} {}", count_word(maps), maps == 1 ? "map" : "maps");
   const std::string error = "at a family-wise error of " + significant(gate.family_alpha, 2);
   switch (tally.outcome()) {
     case Outcome::accept:
     case Outcome::resolution_limited:
-      return fmt::format("{}, {} draws the right distribution{}: {} {}", where, subject,
-                         tally.limited > 0 ? " as far as its rounding lets be seen" : "",
+      return fmt::format("{}, {} the right distribution{}: {} {}", where,
+                         samplers.size() == 1
+                             ? samplers.front() + " draws"
+                             : fmt::format("all {} sound samplers draw", samplers.size()),
+                         tally.limited > 0 ? " as far as rounding lets be seen" : "",
                          tests_of(tally, "rejected"), error);
     case Outcome::reject:
-      return fmt::format("{}, {} does not draw the right distribution: {} {}", where, subject,
+      return fmt::format("{}, {}: {} {}", where, verdict_on(gate, judged, tally),
                          tests_of(tally, "rejected"), error);
     case Outcome::inconclusive:
       break;
   }
-  return fmt::format("{}, the verdict on {} is open: {}, none rejected", where, subject,
+  return fmt::format("{}, {}: {}, none rejected", where, verdict_on(gate, judged, tally),
                      tests_of(tally, "inconclusive"));
 }
 

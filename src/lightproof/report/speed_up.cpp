@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "lightproof/report/findings.h"
 #include "lightproof/report/gate_summary.h"
@@ -34,6 +35,19 @@ const ThroughputRecord* fastest(const std::vector<ThroughputRecord>& records) {
   });
 }
 
+/// The fastest sampler on the largest map.
+std::string subject_name(const StudyResult& study) {
+  const std::vector<ThroughputRecord>& records = study.throughput;
+  return std::max_element(records.begin(), records.end(),
+                          [](const ThroughputRecord& a, const ThroughputRecord& b) {
+                            const auto key = [](const ThroughputRecord& r) {
+                              return std::pair(r.extent.count(), -r.ns_per_sample);
+                            };
+                            return key(a) < key(b);
+                          })
+      ->sampler;
+}
+
 /// The name itself if it is there, else the first one that contains it, else nothing.
 std::string containing(const std::vector<std::string>& names, std::string_view part) {
   if (std::find(names.begin(), names.end(), part) != names.end()) return std::string(part);
@@ -41,12 +55,6 @@ std::string containing(const std::vector<std::string>& names, std::string_view p
     return name.find(part) != std::string::npos;
   });
   return found == names.end() ? "" : *found;
-}
-
-std::string subject_name(const StudyResult& study) {
-  const std::string wanted = study.gate.tests.empty() ? "binary_search" : subject_of(study.gate);
-  const std::string found = containing(samplers_of(study.throughput), wanted);
-  return found.empty() ? fastest(study.throughput)->sampler : found;
 }
 
 std::string baseline_name(const StudyResult& study) {
@@ -108,15 +116,14 @@ StepRange step_range(const GrowthFit& fit) {
 }
 
 std::string growth_finding(const std::vector<GrowthFit>& growth) {
-  std::string text;
-  for (const GrowthFit& fit : growth) {
-    const StepRange range = step_range(fit);
-    text += fmt::format("{}{}: {} steps of {} ns ({}) to {} ns ({})", text.empty() ? "" : "; ",
-                        fit.sampler, fit.model, page_number(range.fastest.ns, 2),
-                        extent_text(range.fastest.extent), page_number(range.slowest.ns, 2),
-                        extent_text(range.slowest.extent));
-  }
-  return text;
+  const auto [least, most] = std::minmax_element(
+      growth.begin(), growth.end(),
+      [](const GrowthFit& a, const GrowthFit& b) { return a.exponent < b.exponent; });
+  const auto power = [](const GrowthFit& fit) {
+    return fmt::format("{} ({})", page_number(fit.exponent, 2), fit.sampler);
+  };
+  return "The time per sample grows like S + T to the power of " +
+         (growth.size() == 1 ? power(*least) : power(*least) + " to " + power(*most));
 }
 
 std::string throughput_finding(const StudyResult& study) {

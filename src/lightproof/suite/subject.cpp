@@ -27,6 +27,10 @@ Candidate candidate_of(const Subject& subject, const EnvironmentMap& map) {
           .has_twin = subject.inverts_shared_cdf};
 }
 
+std::function<BoundSampler()> linear_scan_of(const EnvironmentMap& map, TargetDensity target) {
+  return [&map, target] { return bound(LinearScan(map, target)); };
+}
+
 /// The target densities of the subjects, each once.
 std::vector<TargetDensity> targets_of(std::span<const Subject> subjects) {
   std::vector<TargetDensity> targets;
@@ -76,8 +80,7 @@ std::vector<Problem> problems_of(std::span<const EnvironmentMap> maps,
       for (const Subject& subject : subjects) {
         if (!(subject.target == target)) continue;
         problem.candidates.push_back(candidate_of(subject, map));
-        if (!subject.inverts_shared_cdf) continue;
-        problem.twin = [&map, target] { return bound(LinearScan(map, target)); };
+        if (subject.inverts_shared_cdf) problem.twin = linear_scan_of(map, target);
       }
       problems.push_back(std::move(problem));
     }
