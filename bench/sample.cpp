@@ -19,7 +19,7 @@
 #include "lightproof/image/synthetic.h"
 #include "lightproof/samplers/registry.h"
 #include "lightproof/stats/goodness_of_fit.h"
-#include "lightproof/suite/expectation.h"
+#include "lightproof/suite/draws.h"
 #include "reference/slow_sampler.h"
 #include "reference/texel_masses.h"
 
@@ -88,22 +88,24 @@ const std::vector<double>& bins_of(Extent extent, TargetDensity target) {
 }
 
 /// How far from a knot of the exact distribution a sampler may take the neighbour: the rounding of
-/// its own sums. Float sums over n terms drift by up to n/2 ulp; see the registry's known defects.
+/// its own sums. Of n terms they drift by up to n steps.
 double knot_tolerance(const SamplerInfo& sampler, Extent extent) {
-  const double steps = extent.width + extent.height;
-  return sampler.known_defects ? steps * 0x1p-24 : steps * 0x1p-31;
+  return (extent.width + extent.height) * sampler.resolution;
 }
 
 /// An explanation if the samples do not fit the reference's bins; empty if they do.
 template <class Sampler>
 std::string misfit(const Sampler& sampler, const SamplerInfo& info, Extent extent) {
   Grid<std::uint64_t> counts(kGateBins);
+  std::uint64_t count = 0;
   for (const SquarePoint u : random_points().first(kFitted)) {
     const TexelSample sample = sampler.sample(u);
+    if (!is_on_map(sample, extent)) continue;
+    ++count;
     ++counts(cell_of(sample.at.s, kGateBins.width), cell_of(sample.at.t, kGateBins.height));
   }
   const double log10_p =
-      cressie_read(serpentine(counts), bins_of(extent, info.target(kWeighting)), kFitted).log10_p;
+      cressie_read(serpentine(counts), bins_of(extent, info.target(kWeighting)), count).log10_p;
   return log10_p > kLeastLog10P
              ? ""
              : fmt::format("the samples do not fit the map: log10 p = {}", log10_p);
@@ -112,7 +114,7 @@ std::string misfit(const Sampler& sampler, const SamplerInfo& info, Extent exten
 /// An explanation if a texel is not the reference's; empty if all are.
 template <class Sampler>
 std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent extent) {
-  if (!info.inverts_shared_cdf && !info.known_defects) return "";
+  if (info.resolution == 0.0) return "";  // it searches no sums
   const auto& reference = reference_of(extent, info.target(kWeighting));
   const double tolerance = knot_tolerance(info, extent);
   for (const SquarePoint u : random_points().first(256)) {
@@ -139,6 +141,7 @@ const Prepared& prepared(const SamplerInfo& info, Extent extent) {
   static Extent size;
   if (name == info.name && size == extent) return the_last;
   the_last = {};
+  name.clear();
   const EnvironmentMap& map = map_of(extent);
   const auto start = std::chrono::steady_clock::now();
   the_last.sampler.emplace(info.make(map, kWeighting));

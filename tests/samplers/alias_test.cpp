@@ -8,6 +8,7 @@
 
 #include "lightproof/image/synthetic.h"
 #include "lightproof/samplers/registry.h"
+#include "lightproof/warp/lat_long.h"
 #include "reference/texel_masses.h"
 
 namespace lightproof {
@@ -33,30 +34,41 @@ TEST(WholeMasses, AreWithinOneUnitOfTheirSharesAndSumToTheirNumber) {
       const Masses masses = whole_masses(weights, bits);
       const std::uint64_t whole = weights.size() << bits;
       EXPECT_EQ(sum_of(masses), whole) << name;
+      const bool any_faint = std::any_of(weights.begin(), weights.end(), [&](double w) {
+        return w > 0.0 && static_cast<double>(whole) * w < total;
+      });
       const auto largest = static_cast<std::size_t>(
           std::max_element(weights.begin(), weights.end()) - weights.begin());
       for (std::size_t i = 0; i < weights.size(); ++i) {
         EXPECT_EQ(masses[i] > 0, weights[i] > 0.0) << name << ", cell " << i;
         const double share = static_cast<double>(whole) * weights[i] / total;
-        // The units that all have beforehand come out of everybody's share.
-        const double reserved = 1.0 + share / std::ldexp(1.0, static_cast<int>(bits));
-        if (i == largest) continue;
-        EXPECT_NEAR(static_cast<double>(masses[i]), share, 1.0 + reserved);
+        // What raises the faint to one unit comes out of everybody's share.
+        const double gift =
+            share * static_cast<double>(weights.size()) / static_cast<double>(whole);
+        if (weights[i] == weights[largest]) continue;  // one of them takes the rest
+        EXPECT_NEAR(static_cast<double>(masses[i]), std::max(share, weights[i] > 0.0 ? 1.0 : 0.0),
+                    1.0 + (any_faint ? gift : 0.0));
       }
     }
   }
 }
 
-TEST(WholeMasses, FaintWeightsKeepAUnitBesideASun) {
+TEST(WholeMasses, FaintWeightsGetOneUnitBesideASun) {
   std::vector<double> weights(1000, 1.0);
   weights[500] = 1e15;
   const Masses masses = whole_masses(weights, 13);
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    if (i == 500) continue;
-    EXPECT_GE(masses[i], 1U) << i;
-    EXPECT_LE(masses[i], 2U) << i;
-  }
+  for (std::size_t i = 0; i < weights.size(); ++i) EXPECT_EQ(masses[i] == 1, i != 500) << i;
   EXPECT_EQ(sum_of(masses), weights.size() << 13U);
+}
+
+// Units for the faint would be drawn from the bright if all positive weights had one beforehand: by
+// 19 % of all that the sky is drawn here.
+TEST(WholeMasses, ASkyBesideASunIsNotDrawnTooOften) {
+  std::vector<double> weights(1000, 0.01 / 999.0);
+  weights[500] = 0.99;
+  const Masses masses = whole_masses(weights, 9);
+  const std::uint64_t sky = sum_of(masses) - masses[500];
+  EXPECT_NEAR(static_cast<double>(sky), 0.01 * 512000.0, 1.0);
 }
 
 TEST(SweepAliases, EveryColumnIsFilledAndEveryCellDrawnByItsMass) {
@@ -157,26 +169,90 @@ Grid<double> drawn_masses(const Sampler& sampler, Extent extent, std::size_t col
   return masses;
 }
 
+/// The same of a monotone sampler: rows are found at u.s = 1/2, then the columns in each.
 template <class Sampler>
-class AliasSamplers : public testing::Test {};
-using All = testing::Types<Alias, PackedAlias, AliasLines>;
-TYPED_TEST_SUITE(AliasSamplers, All);
+Grid<double> drawn_by_inversion(const Sampler& sampler, Extent extent) {
+  Grid<double> masses(extent);
+  /// visit(middle, length) of each part of [0,1) that leads to the same cell.
+  const auto parts = [](const auto& cell, const auto& visit) {
+    for (double start = 0.0; start < 1.0;) {
+      const int here = cell(start);
+      double inside = start;
+      double outside = 1.0;
+      while (std::nextafter(inside, 1.0) < outside) {
+        const double middle = 0.5 * (inside + outside);
+        (cell(middle) == here ? inside : outside) = middle;
+      }
+      visit(0.5 * (start + inside), outside - start);
+      start = outside;
+    }
+  };
+  const auto row = [&](double t) { return sampler.sample({0.5, t}).y; };
+  parts(row, [&](double t, double height) {
+    const auto column = [&](double s) { return sampler.sample({s, t}).x; };
+    parts(column, [&](double s, double width) {
+      const TexelSample sample = sampler.sample({s, t});
+      masses(sample.x, sample.y) += width * height;
+    });
+  });
+  return masses;
+}
 
-TYPED_TEST(AliasSamplers, ReturnTheDensityThatTheyDraw) {
+template <class Sampler>
+class TableSamplers : public testing::Test {};
+using All = testing::Types<Alias, PackedAlias, AliasLines, GuideLines, GuideTable>;
+TYPED_TEST_SUITE(TableSamplers, All);
+
+TYPED_TEST(TableSamplers, ReturnTheDensityThatTheyDraw) {
   for (const std::string_view name : {"sun-sky", "gradient", "checker", "one-texel"}) {
     // Runs of 32 that are cut off at the row's end; more texels than a palette has masses.
     for (const Extent extent : {Extent{1, 1}, Extent{45, 3}, Extent{130, 65}}) {
       const EnvironmentMap map = make_synthetic_map(name, extent);
       const TypeParam sampler(map, {Weighting::A, kRec709});
-      constexpr bool kRuns = std::is_same_v<TypeParam, AliasLines>;
       const auto runs = static_cast<std::size_t>((extent.width + 31) / 32 * extent.height);
-      const Grid<double> masses = drawn_masses(sampler, extent, kRuns ? runs : extent.count());
+      Grid<double> masses;
+      if constexpr (std::is_same_v<TypeParam, GuideLines> ||
+                    std::is_same_v<TypeParam, GuideTable>) {
+        masses = drawn_by_inversion(sampler, extent);
+      } else {
+        masses = drawn_masses(sampler, extent,
+                              std::is_same_v<TypeParam, AliasLines> ? runs : extent.count());
+      }
       for (int y = 0; y < extent.height; ++y) {
         for (int x = 0; x < extent.width; ++x) {
           const SquarePoint at = {(x + 0.5) / extent.width, (y + 0.5) / extent.height};
           const double returned = sampler.pdf(at).value / static_cast<double>(extent.count());
           ASSERT_NEAR(returned, masses(x, y), 0x1p-22 * masses(x, y) + 1e-15)
               << name << ", texel (" << x << ", " << y << ")";
+        }
+      }
+    }
+  }
+}
+
+// And it is the density that the map demands: to the step of each one's table.
+TYPED_TEST(TableSamplers, DrawTheReferencesMasses) {
+  constexpr bool kRuns =
+      std::is_same_v<TypeParam, AliasLines> || std::is_same_v<TypeParam, GuideLines>;
+  constexpr double kShare = kRuns                                    ? 1.0 / 32.0
+                            : std::is_same_v<TypeParam, PackedAlias> ? 1.0 / 256.0
+                                                                     : 0x1p-22;
+  for (const std::string_view name : {"sun-sky", "gradient", "checker", "one-texel"}) {
+    for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+      const Extent extent = {130, 65};
+      const EnvironmentMap map = make_synthetic_map(name, extent);
+      const TypeParam sampler(map, {weighting, kRec709});
+      const Grid<double> exact = reference::texel_masses(map, {weighting, kRec709});
+      for (int y = 0; y < extent.height; ++y) {
+        for (int x = 0; x < extent.width; ++x) {
+          const SquarePoint at = {(x + 0.5) / extent.width, (y + 0.5) / extent.height};
+          const double mass =
+              weighting == Weighting::A
+                  ? sampler.pdf(at).value / static_cast<double>(extent.count())
+                  : to_solid_angle(sampler.pdf(at), at).value * texel_solid_angle(extent, y);
+          // Two units of sums of a row or of thresholds of 24 bits.
+          const double units = 2.0 * (extent.width + 2) * 0x1p-31;
+          ASSERT_NEAR(mass, exact(x, y), kShare * exact(x, y) + units) << name;
         }
       }
     }

@@ -9,6 +9,7 @@
 #include "lightproof/image/synthetic.h"
 #include "lightproof/samplers/registry.h"
 #include "reference/slow_sampler.h"
+#include "reference/texel_masses.h"
 
 namespace lightproof {
 namespace {
@@ -130,6 +131,24 @@ TEST(Registry, MonotoneSamplersKeepTheOrderOfRandomNumbers) {
       };
       const int turns = std::visit(turns_back, info.make(map, weighting));
       EXPECT_EQ(turns == 0, info.monotone) << info.name << ": " << turns;
+    }
+  }
+}
+
+// Sums are floats: each of seven levels rounds twice.
+TEST(Hierarchical, DrawsTheReferencesMasses) {
+  for (const SyntheticMap& entry : synthetic_maps()) {
+    for (const Extent extent : {Extent{1, 1}, Extent{3, 1}, Extent{1, 6}, Extent{97, 41}}) {
+      const EnvironmentMap map = entry.make(extent);
+      const Hierarchical sampler(map, {Weighting::A, kRec709});
+      const Grid<double> exact = reference::texel_masses(map, {Weighting::A, kRec709});
+      for (int y = 0; y < extent.height; ++y) {
+        for (int x = 0; x < extent.width; ++x) {
+          const SquarePoint at = {(x + 0.5) / extent.width, (y + 0.5) / extent.height};
+          const double mass = sampler.pdf(at).value / static_cast<double>(extent.count());
+          ASSERT_NEAR(mass, exact(x, y), 14.0 * 0x1p-24 * exact(x, y)) << entry.name;
+        }
+      }
     }
   }
 }

@@ -30,7 +30,7 @@ std::string prediction_finding(const std::vector<ConvergenceRecord>& records);
 /// Is the measured variance the predicted one? Judged at 3 standard errors of each ratio.
 std::string variance_finding(const std::vector<ConvergenceRecord>& records);
 
-/// How much faster the fastest sampler on the largest map is than the baseline (the published
+/// How much faster the fastest sound sampler on the largest map is than the baseline (the published
 /// linear scan where there is one, else the slowest sampler), and whether that grows with the map.
 std::string throughput_finding(const StudyResult& study);
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <string_view>
-#include <utility>
+#include <tuple>
 
 #include "lightproof/report/findings.h"
 #include "lightproof/report/gate_summary.h"
@@ -35,15 +35,22 @@ const ThroughputRecord* fastest(const std::vector<ThroughputRecord>& records) {
   });
 }
 
-/// The fastest sampler on the largest map.
+/// Whether nothing is known against a sampler.
+bool is_sound(const GateResult& gate, const std::string& sampler) {
+  return std::none_of(gate.tests.begin(), gate.tests.end(), [&](const TestRecord& test) {
+    return test.sampler == sampler && (test.known_defect || test.outcome == Outcome::reject);
+  });
+}
+
+/// The fastest sampler on the largest map, of the sound ones if there are any.
 std::string subject_name(const StudyResult& study) {
+  const auto rank = [&](const ThroughputRecord& r) {
+    return std::tuple(is_sound(study.gate, r.sampler), r.extent.count(), -r.ns_per_sample);
+  };
   const std::vector<ThroughputRecord>& records = study.throughput;
   return std::max_element(records.begin(), records.end(),
-                          [](const ThroughputRecord& a, const ThroughputRecord& b) {
-                            const auto key = [](const ThroughputRecord& r) {
-                              return std::pair(r.extent.count(), -r.ns_per_sample);
-                            };
-                            return key(a) < key(b);
+                          [&](const ThroughputRecord& a, const ThroughputRecord& b) {
+                            return rank(a) < rank(b);
                           })
       ->sampler;
 }
@@ -116,6 +123,7 @@ StepRange step_range(const GrowthFit& fit) {
 }
 
 std::string growth_finding(const std::vector<GrowthFit>& growth) {
+  if (growth.empty()) return "";
   const auto [least, most] = std::minmax_element(
       growth.begin(), growth.end(),
       [](const GrowthFit& a, const GrowthFit& b) { return a.exponent < b.exponent; });

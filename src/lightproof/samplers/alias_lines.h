@@ -1,6 +1,7 @@
 // Two levels at 2.5 bytes a texel: the alias method chooses among runs of 32 texels, whose 16-bit
-// knots are then compared with what is left of the random number. One line of the cache a sample,
-// of the larger table; not monotone, so it loses stratification.
+// knots are then compared with what is left of the random number. One line of the cache a sample
+// of the larger table, and three in runs of much contrast; not monotone, so it loses
+// stratification.
 #pragma once
 
 #include "lightproof/samplers/alias_table.h"

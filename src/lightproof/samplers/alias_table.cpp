@@ -21,20 +21,28 @@ double exact_sum(std::span<const double> values) {
 }  // namespace
 
 std::vector<std::uint64_t> whole_masses(std::span<const double> weights, unsigned bits) {
-  const auto positive = static_cast<std::uint64_t>(
-      std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0.0; }));
   const std::uint64_t total = weights.size() << bits;
-  // Each of positive weight has one unit beforehand.
-  const double scale = static_cast<double>(total - positive) / exact_sum(weights);
+  const double unit = exact_sum(weights) / static_cast<double>(total);
+  const auto is_faint = [unit](double weight) { return weight > 0.0 && weight < unit; };
+  double bright = 0.0;
+  std::uint64_t left = total;
+  for (const double weight : weights) {
+    is_faint(weight) ? void(--left) : void(bright += weight);
+  }
+  const double scale = static_cast<double>(left) / bright;
   std::vector<std::uint64_t> masses(weights.size());
   double carry = 0.0;
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (!(weights[i] > 0.0)) continue;
-    const double share = scale * weights[i] + carry;
-    const double whole = std::floor(share);
-    carry = share - whole;
-    masses[i] = 1 + static_cast<std::uint64_t>(whole);
+    if (is_faint(weights[i])) {
+      masses[i] = 1;
+    } else {
+      const double share = scale * weights[i] + carry;
+      const double whole = std::max(1.0, std::floor(share));
+      carry = share - whole;
+      masses[i] = static_cast<std::uint64_t>(whole);
+    }
     sum += masses[i];
   }
   *std::max_element(masses.begin(), masses.end()) += total - sum;  // modulo 2^64: of either sign

@@ -1,6 +1,6 @@
 // The distribution inside every run of 32 texels of a row, in the smallest form that the run needs:
 // one line of the cache with 16-bit knots; where these would be too coarse, beside a lamp or the
-// sun, two lines with 32-bit knots.
+// sun, two more with 32-bit knots.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ struct RunTexel {
 };
 
 /// Upper knots of a run in units of 1/kOne. From the last texel with mass on they are 1, which is
-/// kept as kLast: of kOne, what an Integer holds. That texel has more than one unit, so that no
-/// other knot is kLast.
+/// kept as kLast: of kOne, what an Integer holds. Narrow knots that give
+/// it one unit alone say so of its neighbour: they are too coarse, and not kept.
 template <class Integer, std::uint32_t kOne>
 struct alignas(64) RunKnots {
   static constexpr Integer kLast =

@@ -12,13 +12,13 @@ KnotTrees::KnotTrees(std::size_t count, std::size_t cells)
       lines_(count * lines_per_tree_) {}
 
 void KnotTrees::set(std::size_t tree, CdfKnots knots) {
-  std::uint32_t* nodes = lines_[tree * lines_per_tree_].words;
+  CacheLine* lines = &lines_[tree * lines_per_tree_];
   // A node of level l, the k-th from the left, has the rank (2k + 1) 2^(levels - l - 1).
   std::size_t node = 1;
   for (unsigned level = 0; level < levels_; ++level) {
     const std::size_t step = std::size_t{1} << (levels_ - level - 1);
     for (std::size_t rank = step; node < std::size_t{2} << level; ++node, rank += 2 * step) {
-      nodes[node] = rank < knots.size() ? knots[rank] : kCdfOne;
+      lines[node / 16].words[node % 16] = rank < knots.size() ? knots[rank] : kCdfOne;
     }
   }
 }

@@ -1,7 +1,7 @@
 // Inversion by descent of an implicit tree: the knots of a row in the order of a breadth-first walk
 // (Khuong and Morin 2017, "Array layouts for comparison-based searching"). Every step goes one
-// level down, and the four next levels of a knot share one cache line, which is fetched ahead.
-// O(log W + log H) per sample, texel for texel the same as LinearScan.
+// level down; the sixteen knots four levels below a knot are one line of the cache, which is
+// fetched ahead. O(log W + log H) per sample, texel for texel the same as LinearScan.
 #pragma once
 
 #include <cstddef>
@@ -27,13 +27,13 @@ class KnotTrees {
   void set(std::size_t tree, CdfKnots knots);
   /// The knots on the way down are the nearest ones on either side.
   CdfCell find(std::size_t tree, std::uint32_t u) const {
-    const std::uint32_t* knots = lines_[tree * lines_per_tree_].words;
+    const CacheLine* lines = &lines_[tree * lines_per_tree_];
     std::uint32_t low = 0;
     std::uint32_t high = kCdfOne;
     std::size_t node = 1;
     for (unsigned level = 0; level < levels_; ++level) {
-      __builtin_prefetch(knots + 16 * node);
-      const std::uint32_t knot = knots[node];
+      if (level + 4 < levels_) __builtin_prefetch(lines + node);
+      const std::uint32_t knot = lines[node / 16].words[node % 16];
       const bool right = knot <= u;
       low = right ? knot : low;
       high = right ? high : knot;

@@ -1,6 +1,7 @@
 // Inversion in three steps at about 2.3 bytes a texel: guide tables find the row and the run of 32
 // texels in it, and the run's 16-bit knots are compared with what is left of the random number.
-// Monotone: it keeps stratification. Of the larger table it reads one line of the cache a sample.
+// Monotone: it keeps stratification. Of the larger table it reads one line of the cache a sample,
+// and three in runs of much contrast.
 #pragma once
 
 #include "lightproof/samplers/cdf_lines.h"

@@ -4,7 +4,7 @@
 //
 // Texels are rounded to the palette's masses before the table is built from these, in whole
 // numbers: what is returned is the density that is drawn. The brightest texels have masses of their
-// own; the others are rounded up and down by turns, so that no part of the map gains.
+// own; the others are rounded up and down by turns, so that no stretch of the map gains.
 #pragma once
 
 #include <cstddef>
@@ -20,10 +20,11 @@ namespace lightproof {
 
 /// Masses of which at most 2^bits are different.
 struct MassPalette {
-  std::vector<std::uint64_t> masses;  ///< each once
-  std::vector<std::uint16_t> codes;   ///< of every texel, indices of `masses`
+  std::vector<std::uint64_t> masses;
+  std::vector<std::uint16_t> codes;  ///< of every texel, indices of `masses`
 
-  /// Rounds masses; their sum stays what it was, and what is positive stays so. At most 16 bits.
+  /// Rounds masses; their sum stays what it was, and what is positive stays so. 11 to 16
+  /// bits; fewer only if there are no more masses than codes.
   MassPalette(std::span<const std::uint64_t> exact, unsigned bits);
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -18,9 +19,10 @@ AnySampler make(const EnvironmentMap& map, Weighting weighting) {
 
 double scanned(Extent map) { return map.width + map.height; }
 double halved(Extent map) { return std::log2(map.width) + std::log2(map.height); }
+double quartered(Extent map) { return std::log2(std::max(map.width, map.height)); }
 double looked_up(Extent /*map*/) { return 1.0; }
 
-constexpr std::array<SamplerInfo, 9> kSamplers = {{
+constexpr std::array<SamplerInfo, 10> kSamplers = {{
     {.name = "linear_scan_published",
      .source = "lecture \"Image-based Lighting\", GLSL listing",
      .growth = "S + T",
@@ -76,7 +78,7 @@ constexpr std::array<SamplerInfo, 9> kSamplers = {{
      .growth = "1",
      .steps = looked_up,
      .grey = kRec709,
-     .resolution = 0x1p-31,
+     .resolution = 0.0,
      .monotone = true,
      .known_defects = false,
      .inverts_shared_cdf = false,
@@ -86,7 +88,7 @@ constexpr std::array<SamplerInfo, 9> kSamplers = {{
      .growth = "1",
      .steps = looked_up,
      .grey = kRec709,
-     .resolution = 0x1p-31,
+     .resolution = 0.0,
      .monotone = false,
      .known_defects = false,
      .inverts_shared_cdf = false,
@@ -96,7 +98,7 @@ constexpr std::array<SamplerInfo, 9> kSamplers = {{
      .growth = "1",
      .steps = looked_up,
      .grey = kRec709,
-     .resolution = 0x1p-31,
+     .resolution = 0.0,
      .monotone = false,
      .known_defects = false,
      .inverts_shared_cdf = false,
@@ -106,11 +108,21 @@ constexpr std::array<SamplerInfo, 9> kSamplers = {{
      .growth = "1",
      .steps = looked_up,
      .grey = kRec709,
-     .resolution = 0x1p-31,
+     .resolution = 0.0,
      .monotone = false,
      .known_defects = false,
      .inverts_shared_cdf = false,
      .make = make<AliasLines, kRec709>},
+    {.name = "hierarchical",
+     .source = "quarter by quarter, by their sums (Clarberg et al. 2005)",
+     .growth = "log2 max(S, T)",
+     .steps = quartered,
+     .grey = kRec709,
+     .resolution = 0.0,
+     .monotone = true,
+     .known_defects = false,
+     .inverts_shared_cdf = false,
+     .make = make<Hierarchical, kRec709>},
 }};
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "lightproof/samplers/eytzinger.h"
 #include "lightproof/samplers/guide_lines.h"
 #include "lightproof/samplers/guide_table.h"
+#include "lightproof/samplers/hierarchical.h"
 #include "lightproof/samplers/linear_scan.h"
 #include "lightproof/samplers/linear_scan_published.h"
 #include "lightproof/samplers/packed_alias.h"
@@ -19,8 +20,9 @@
 namespace lightproof {
 
 /// Visit once per batch, outside the loop.
-using AnySampler = std::variant<LinearScanPublished, LinearScan, BinarySearch, Eytzinger,
-                                GuideTable, GuideLines, Alias, PackedAlias, AliasLines>;
+using AnySampler =
+    std::variant<LinearScanPublished, LinearScan, BinarySearch, Eytzinger, GuideTable, GuideLines,
+                 Alias, PackedAlias, AliasLines, Hierarchical>;
 
 struct SamplerInfo {
   std::string_view name;
@@ -28,8 +30,10 @@ struct SamplerInfo {
   std::string_view growth;  ///< steps of one sample on a map of S x T texels, up to a constant
   double (*steps)(Extent);  ///< the same as a function
   LuminanceWeights grey;    ///< the grey value that the sampler declares
-  double resolution;        ///< step of its sums and of the random numbers that it reads
-  bool monotone;            ///< rows by u.t and columns by u.s, in order: it keeps stratification
+  /// Step of its sums of rows and columns, and of the random numbers that it reads; 0 if it
+  /// searches no such sums.
+  double resolution;
+  bool monotone;            ///< in u.t along and in u.s across: it keeps stratification
   bool known_defects;       ///< kept as published, to show what the gate finds
   bool inverts_shared_cdf;  ///< must return the texel of LinearScan for every point
   /// The map must outlive the sampler. Throws InputError if it is black.

@@ -24,6 +24,7 @@ inline double place_in_cell(int index, double fraction, int count) {
 class SolidAngleRows {
  public:
   explicit SolidAngleRows(int height) : height_(height) {
+    if (height == 0) return;
     for (int edge = 0; edge <= height; ++edge) {
       const double sine = std::sin(0.5 * kPi * edge / height);
       squared_sines_.push_back(sine * sine);

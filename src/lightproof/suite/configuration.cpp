@@ -260,16 +260,16 @@ std::vector<Measured> test_strays(const Configuration& configuration, const Draw
 Twin draw_twin(BoundSampler sampler, const Expectation& expectation, const RandomStream& stream,
                std::uint64_t samples) {
   Draws draws = draw_samples(sampler, expectation, stream, {0, samples / 4});
-  return {std::move(sampler), std::move(draws)};
+  return {std::move(sampler), draws.samples, std::move(draws.bins)};
 }
 
 std::vector<Measured> test_against_twin(const Configuration& configuration, const Draws& draws,
                                         const std::optional<Twin>& twin) {
   if (!configuration.candidate->has_twin) return {};
-  const auto samples = static_cast<double>(twin->draws.samples);
+  const auto samples = static_cast<double>(twin->samples);
   Records records(configuration, draws.samples);
   records.add_two_samples("two samples with linear_scan",
-                          two_sample_fit(serpentine(draws.bins), serpentine(twin->draws.bins)),
+                          two_sample_fit(serpentine(draws.bins), serpentine(twin->bins)),
                           samples / (samples + static_cast<double>(draws.samples)));
   return records.take();
 }

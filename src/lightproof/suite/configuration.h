@@ -41,10 +41,11 @@ std::vector<Measured> test_draws(const Configuration& configuration, const Expec
                                  const OwnDensity& own, const Draws& draws,
                                  const UniformEstimates& uniform);
 
-/// The sampler that others of the same law claim to equal, and what it drew.
+/// The sampler that others of the same law claim to equal, and the bins of what it drew.
 struct Twin {
   BoundSampler sampler;
-  Draws draws;
+  std::uint64_t samples;
+  Grid<std::uint64_t> bins;
 };
 
 /// It draws a quarter of so many samples.

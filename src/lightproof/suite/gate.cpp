@@ -42,15 +42,15 @@ struct Yardstick {
   std::optional<Twin> twin;
 };
 
-Yardstick yardstick_of(const Problem& problem, const Expectation& expectation, std::uint64_t seed,
-                       std::uint64_t samples) {
+Yardstick yardstick_of(const Problem& problem, const Expectation& expectation,
+                       const GateOptions& options, std::uint64_t samples, bool with_twin) {
   const auto stream = [&](std::string_view purpose) {
     return RandomStream(
-        fmt::format("{}/{}/{}/{}", purpose, problem.weighting, problem.map, samples), seed);
+        fmt::format("{}/{}/{}/{}", purpose, problem.weighting, problem.map, samples), options.seed);
   };
   Yardstick yardstick{expectation, samples, draw_uniformly(expectation, stream("uniform"), samples),
                       std::nullopt};
-  if (problem.twin) {
+  if (with_twin) {
     yardstick.twin = draw_twin(problem.twin(), expectation, stream("twin"), samples);
   }
   return yardstick;
@@ -179,10 +179,13 @@ class Run {
 
   GateResult operator()() {
     if (progress_) progress_("gate", 0.0);
+    const auto has_twin = [](const Candidate& candidate) { return candidate.has_twin; };
     parallel_for(problems_.size(), [&](std::size_t i) {
+      const std::vector<Candidate>& candidates = problems_[i].candidates;
       const Expectation expectation = problems_[i].expectation();
       const Yardstick yardstick =
-          yardstick_of(problems_[i], expectation, options_.seed, options_.samples);
+          yardstick_of(problems_[i], expectation, options_, options_.samples,
+                       std::any_of(candidates.begin(), candidates.end(), has_twin));
       for_each_candidate(i, [&](const Configuration& configuration, Slot& slot) {
         slot = run_first(configuration, yardstick, options_.suspicious);
         show_progress();
@@ -194,10 +197,17 @@ class Run {
       const auto is_open = [&](const Slot& slot) {
         return std::any_of(slot.tests.begin(), slot.tests.end(), judge.again());
       };
-      if (std::none_of(slots_[i].begin(), slots_[i].end(), is_open)) return;
+      bool any = false;
+      bool with_twin = false;
+      for (std::size_t k = 0; k < slots_[i].size(); ++k) {
+        if (!is_open(slots_[i][k])) continue;
+        any = true;
+        with_twin = with_twin || problems_[i].candidates[k].has_twin;
+      }
+      if (!any) return;
       const Expectation expectation = problems_[i].expectation();
-      const Yardstick yardstick =
-          yardstick_of(problems_[i], expectation, options_.seed, kSecondStage * options_.samples);
+      const Yardstick yardstick = yardstick_of(problems_[i], expectation, options_,
+                                               kSecondStage * options_.samples, with_twin);
       for_each_candidate(i, [&](const Configuration& configuration, Slot& slot) {
         if (is_open(slot)) run_again(configuration, yardstick, judge.again(), slot);
       });

@@ -19,7 +19,8 @@ struct Candidate {
   bool known_defects = false;
   /// Builds it.
   std::function<BoundSampler()> bind;
-  /// Step of its sums and random numbers: a float's below 1 unless it is known to be finer.
+  /// Step of its sums and random numbers: a float's below 1 unless it is known to be finer, 0 if it
+  /// searches no sums of rows and columns.
   double resolution = 0x1p-24;
   /// Whether it claims to return the texels of the problem's twin, point for point.
   bool has_twin = false;
@@ -43,7 +44,7 @@ struct Problem {
   std::function<Expectation()> expectation;
   std::function<std::vector<Alternative>()> alternatives;
   std::vector<Candidate> candidates;
-  /// A sampler that others are held against; empty if no candidate has a twin.
+  /// A sampler that others are held against; there if any candidate has a twin.
   std::function<BoundSampler()> twin = {};
 };
 

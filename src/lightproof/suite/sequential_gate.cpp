@@ -97,8 +97,9 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
                                 draws.samples, log10_e, enough);
   }
   const Inspection inspection = configuration.candidate->inspect(sampler, expectation);
-  const std::optional<BoundSampler> twin =
-      configuration.problem->twin ? std::optional(configuration.problem->twin()) : std::nullopt;
+  const std::optional<BoundSampler> twin = configuration.candidate->has_twin
+                                               ? std::optional(configuration.problem->twin())
+                                               : std::nullopt;
   Finding finding{{record}, {}};
   for (const auto& tests : {test_strays(configuration, draws),
                             test_exactly(configuration, expectation, sampler, inspection, draws,

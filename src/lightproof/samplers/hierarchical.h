@@ -1,0 +1,95 @@
+// Hierarchical sample warping (Clarberg et al. 2005, "Wavelet importance sampling", section 4):
+// from the whole map down, a point chooses among four quarters by their sums, first the row, then
+// the column, and what is left of it goes on in the chosen quarter. O(log(max(W, H))) a sample,
+// 16/3 bytes a texel. Neighbouring points stay neighbours, and strata keep their area, but get
+// pinched.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "lightproof/samplers/alias_table.h"
+#include "lightproof/samplers/sampler.h"
+#include "lightproof/samplers/texel_places.h"
+
+namespace lightproof {
+
+class Hierarchical {
+ public:
+  /// Throws InputError if the map is black.
+  Hierarchical(const EnvironmentMap& map, TargetDensity target);
+
+  TexelSample sample(SquarePoint u) const {
+    int x = 0;
+    int y = 0;
+    double mass = 1.0;
+    for (const Level& level : levels_) {
+      const Children children = children_of(level, x, y);
+      const Split row = split(u.t, children.sum[0][0] + children.sum[0][1],
+                              children.sum[1][0] + children.sum[1][1]);
+      const double* const sums = children.sum[row.chosen];
+      const Split column = split(u.s, sums[0], sums[1]);
+      x = children.x + column.chosen;
+      y = children.y + row.chosen;
+      u = {column.rest, row.rest};
+      mass *= row.share * column.share;
+    }
+    return places_.sample(x, y, u.s, u.t, mass);
+  }
+
+  PerSquare pdf(SquarePoint at) const;
+
+  std::size_t table_bytes() const { return sums_.size() * sizeof(float) + places_.bytes(); }
+
+ private:
+  /// Sums of squares of 2^k texels; those at the edges may reach beyond the map. The last one holds
+  /// texels, the first one has at most 2 x 2 sums.
+  struct Level {
+    Extent extent;
+    bool splits_s;  ///< or the one before it is as wide
+    bool splits_t;
+    std::size_t first;  ///< of its sums
+  };
+
+  /// The quarters of a square, and the first one's place. Those that do not exist have no mass.
+  struct Children {
+    int x;
+    int y;
+    double sum[2][2];  ///< [row][column]
+  };
+  Children children_of(const Level& level, int x, int y) const {
+    const int x0 = level.splits_s ? 2 * x : x;
+    const int y0 = level.splits_t ? 2 * y : y;
+    const float* const row =
+        &sums_[level.first +
+               static_cast<std::size_t>(y0) * static_cast<std::size_t>(level.extent.width) +
+               static_cast<std::size_t>(x0)];
+    const bool across = level.splits_s && x0 + 1 < level.extent.width;
+    const bool along = level.splits_t && y0 + 1 < level.extent.height;
+    const float* const next = row + level.extent.width;
+    const auto sum = [](bool exists, const float* at) { return exists ? double{*at} : 0.0; };
+    return {
+        x0,
+        y0,
+        {{double{*row}, sum(across, row + 1)}, {sum(along, next), sum(across && along, next + 1)}}};
+  }
+
+  struct Split {
+    int chosen;
+    double share;  ///< of what was chosen
+    double rest;   ///< of the random number, in [0,1)
+  };
+  static Split split(double u, double low, double high) {
+    const double share = low / (low + high);
+    const bool is_low = u < share;
+    return {is_low ? 0 : 1, is_low ? share : high / (low + high), rest_of_choice(u, share)};
+  }
+
+  TexelPlaces places_;
+  std::vector<Level> levels_;  ///< from the coarsest to the texels
+  std::vector<float> sums_;    ///< over the mean texel
+};
+static_assert(EnvSampler<Hierarchical>);
+
+}  // namespace lightproof
