@@ -87,7 +87,7 @@ Chosen chosen_samplers(const Options& options) {
 
 /// Samples per sampler and map.
 std::uint64_t samples_of(const std::string& level) {
-  if (level == "quick") return std::uint64_t{1} << 20U;
+  if (level == "quick") return std::uint64_t{1} << 19U;
   return level == "full" ? GateOptions{}.samples : std::uint64_t{1} << 26U;
 }
 
@@ -173,7 +173,7 @@ void add_gate(CLI::App& app, int& exit_code) {
             options->gate.samples = samples_of(level);
             options->nightly = level == "nightly";
           },
-          "samples by name: quick 2^20, full 2^22 (as without), nightly 2^26; nightly takes the "
+          "samples by name: quick 2^19, full 2^22 (as without), nightly 2^26; nightly takes the "
           "date for the seed unless --seed is given")
       ->check(CLI::IsMember({"quick", "full", "nightly"}))
       ->excludes(samples);
