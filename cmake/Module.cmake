@@ -14,6 +14,11 @@ target_compile_options(lightproof_settings INTERFACE
 add_library(lightproof_glue INTERFACE)
 target_compile_options(lightproof_glue INTERFACE $<$<CONFIG:Release>:-O1>)
 
+# Beside the settings, for sources with vectors, which Highway compiles once for each of AVX-512,
+# AVX2, SSE4 and plain C++; the one that fits the processor is taken at run time.
+add_library(lightproof_vectors INTERFACE)
+target_compile_definitions(lightproof_vectors INTERFACE HWY_DISABLED_TARGETS=HWY_SSSE3)
+
 # lightproof_module(NAME SOURCES … [PUBLIC targets …] [PRIVATE targets …])
 function(lightproof_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})

@@ -41,6 +41,10 @@ class RandomStream {
     return other;
   }
 
+  /// What addresses the stream.
+  std::uint64_t key() const { return key_; }
+  std::uint64_t number() const { return substream_; }
+
   SquarePoint point(std::uint64_t index) const {
     const r123::Philox4x32::ctr_type counter = {
         {low(index), high(index), low(substream_), high(substream_)}};

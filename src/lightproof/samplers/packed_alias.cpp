@@ -133,31 +133,35 @@ MassPalette::MassPalette(std::span<const std::uint64_t> exact, unsigned bits)
   }
 }
 
-PackedAlias::PackedAlias(const EnvironmentMap& map, TargetDensity target)
-    : places_(map.radiance.extent(), target.weighting), words_(map.radiance.extent().count()) {
-  const unsigned alias_bits = std::max(1U, bits_of(words_.size() - 1));
-  const unsigned code_bits = std::min(alias_bits, kCodeBits);
-  const unsigned threshold_bits =
-      std::min(kWordBits - alias_bits - 2 * code_bits, kMostThresholdBits);
-  alias_at_ = alias_bits;
-  own_at_ = alias_at_ + code_bits;
-  threshold_at_ = own_at_ + code_bits;
-  alias_mask_ = (std::uint64_t{1} << alias_bits) - 1;
-  code_mask_ = (std::uint64_t{1} << code_bits) - 1;
-  unit_ = std::ldexp(1.0, -static_cast<int>(threshold_bits));
+PackedAliasLayout::PackedAliasLayout(std::size_t texels)
+    : alias_at(std::max(1U, bits_of(texels - 1))) {
+  code_bits = std::min(alias_at, kCodeBits);
+  threshold_bits = std::min(kWordBits - alias_at - 2 * code_bits, kMostThresholdBits);
+  own_at = alias_at + code_bits;
+  threshold_at = own_at + code_bits;
+  alias_mask = (std::uint64_t{1} << alias_at) - 1;
+  code_mask = (std::uint64_t{1} << code_bits) - 1;
+  unit = std::ldexp(1.0, -static_cast<int>(threshold_bits));
+}
 
+PackedAlias::PackedAlias(const EnvironmentMap& map, TargetDensity target)
+    : places_(map.radiance.extent(), target.weighting),
+      layout_(map.radiance.extent().count()),
+      words_(map.radiance.extent().count()) {
+  const unsigned threshold_bits = layout_.threshold_bits;
   std::vector<std::uint64_t> masses =
       whole_masses(texel_weights(map, target).values(), threshold_bits);
-  const MassPalette palette(masses, code_bits);
+  const MassPalette palette(masses, layout_.code_bits);
   for (std::size_t i = 0; i < masses.size(); ++i) masses[i] = palette.masses[palette.codes[i]];
-  const double probability = unit_ / static_cast<double>(words_.size());
+  const double probability = layout_.unit / static_cast<double>(words_.size());
   for (const std::uint64_t mass : palette.masses) {
     palette_.push_back(static_cast<float>(probability * static_cast<double>(mass)));
   }
+  palette_.push_back(0.0F);  // vectors read two at a time
   sweep_aliases(masses, threshold_bits, [&](std::size_t cell, const AliasColumn& column) {
-    words_[cell] = column.alias | std::uint64_t{palette.codes[column.alias]} << alias_at_ |
-                   std::uint64_t{palette.codes[cell]} << own_at_ |
-                   column.threshold << threshold_at_;
+    words_[cell] = column.alias | std::uint64_t{palette.codes[column.alias]} << layout_.alias_at |
+                   std::uint64_t{palette.codes[cell]} << layout_.own_at |
+                   column.threshold << layout_.threshold_at;
   });
 }
 

@@ -12,7 +12,9 @@
 #include <span>
 #include <vector>
 
+#include "lightproof/core/large_pages.h"
 #include "lightproof/samplers/alias_table.h"
+#include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/sampler.h"
 #include "lightproof/samplers/texel_places.h"
 
@@ -28,6 +30,21 @@ struct MassPalette {
   MassPalette(std::span<const std::uint64_t> exact, unsigned bits);
 };
 
+/// Where the parts of a word lie, from the lowest bit: alias, alias's code, own code, threshold.
+struct PackedAliasLayout {
+  unsigned code_bits;
+  unsigned threshold_bits;
+  unsigned alias_at;  ///< first bits of the codes and of the threshold
+  unsigned own_at;
+  unsigned threshold_at;
+  std::uint64_t alias_mask;
+  std::uint64_t code_mask;
+  double unit;  ///< of the threshold
+
+  /// As much for the threshold as the other parts of a table of so many texels leave.
+  explicit PackedAliasLayout(std::size_t texels);
+};
+
 class PackedAlias {
  public:
   /// Throws InputError if the map is black.
@@ -38,10 +55,10 @@ class PackedAlias {
     const double scaled = u.s * static_cast<double>(words_.size());
     const auto column = static_cast<std::uint64_t>(scaled);
     const std::uint64_t word = words_[column];
-    const double share = unit_ * static_cast<double>(word >> threshold_at_);
+    const double share = layout_.unit * static_cast<double>(word >> layout_.threshold_at);
     const bool own = u.t < share;
-    const std::uint64_t cell = own ? column : word & alias_mask_;
-    const double mass = palette_mass(word >> (own ? own_at_ : alias_at_));
+    const std::uint64_t cell = own ? column : word & layout_.alias_mask;
+    const double mass = palette_mass(word >> (own ? layout_.own_at : layout_.alias_at));
     const auto width = static_cast<std::uint64_t>(places_.extent().width);
     return places_.sample(static_cast<int>(cell % width), static_cast<int>(cell / width),
                           scaled - static_cast<double>(column), rest_of_choice(u.t, share), mass);
@@ -52,8 +69,16 @@ class PackedAlias {
     const int y = cell_of(at.t, extent.height);
     const auto x = static_cast<std::size_t>(cell_of(at.s, extent.width));
     const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(extent.width);
-    return places_.pdf(y, palette_mass(words_[row + x] >> own_at_), at);
+    return places_.pdf(y, palette_mass(words_[row + x] >> layout_.own_at), at);
   }
+
+  struct View {
+    std::span<const std::uint64_t> words;
+    std::span<const float> palette;
+    PackedAliasLayout layout;
+    TexelPlacesView places;
+  };
+  View view() const { return {words_, palette_, layout_, places_.view()}; }
 
   std::size_t table_bytes() const {
     return words_.size() * sizeof(std::uint64_t) + palette_.size() * sizeof(float) +
@@ -62,20 +87,17 @@ class PackedAlias {
 
  private:
   double palette_mass(std::uint64_t code) const {
-    return static_cast<double>(palette_[code & code_mask_]);
+    return static_cast<double>(palette_[code & layout_.code_mask]);
   }
 
   TexelPlaces places_;
-  std::vector<std::uint64_t>
-      words_;                   ///< from the lowest bit: alias, alias's code, own code, threshold
+  PackedAliasLayout layout_;
+  TableVector<std::uint64_t> words_;
   std::vector<float> palette_;  ///< probabilities, to 2^-24 of themselves
-  unsigned alias_at_;           ///< first bits of the codes and of the threshold
-  unsigned own_at_;
-  unsigned threshold_at_;
-  std::uint64_t alias_mask_;
-  std::uint64_t code_mask_;
-  double unit_;  ///< of the threshold
 };
 static_assert(EnvSampler<PackedAlias>);
+
+std::size_t sample_vectors(const PackedAlias::View& table, const BatchPoints& points,
+                           std::span<TexelSample> samples);
 
 }  // namespace lightproof

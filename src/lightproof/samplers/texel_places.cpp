@@ -7,6 +7,8 @@ namespace lightproof {
 TexelPlaces::TexelPlaces(Extent extent, Weighting weighting)
     : extent_(extent),
       weighting_(weighting),
+      texel_width_(1.0 / extent.width),
+      texel_height_(1.0 / extent.height),
       texels_(static_cast<double>(extent.count())),
       solid_angle_rows_(weighting == Weighting::B ? extent.height : 0) {
   if (weighting == Weighting::A) return;

@@ -1,0 +1,101 @@
+#include "bench/bare_gather.h"
+
+#include <array>
+#include <span>
+
+#include "lightproof/core/random_batch.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "bench/bare_gather.cpp"
+#include <hwy/foreach_target.h>
+// Highway asks for this order.
+#include "lightproof/samplers/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lightproof::bench {
+namespace HWY_NAMESPACE {
+namespace {
+
+#if HWY_TARGET == HWY_SCALAR
+
+std::uint64_t read(std::span<const std::uint16_t> numbers, std::size_t texels,
+                   const BatchPoints& points, std::size_t count) {
+  std::array<double, kBatchBlock> s;
+  std::array<double, kBatchBlock> t;
+  std::uint64_t sum = 0;
+  for (std::size_t done = 0; done < count; done += kBatchBlock) {
+    points.fill(done, s, t);
+    for (const double u : s) sum += numbers[static_cast<std::size_t>(u * static_cast<double>(texels))];
+  }
+  return sum;
+}
+
+#else
+
+using namespace lightproof::HWY_NAMESPACE;
+
+class BareGatherLanes {
+ public:
+  static constexpr int kStages = 2;
+  struct Block : BlockPoints {
+    alignas(64) std::int64_t offset[kBatchBlock];
+  };
+
+  BareGatherLanes(std::span<const std::uint16_t> numbers, std::size_t texels)
+      : numbers_(numbers), texels_(static_cast<double>(texels)) {}
+
+  template <int kStage>
+  HWY_INLINE void stage(Block& block, std::size_t i, TexelSample* /*out*/) {
+    if (kStage == 0) {
+      const Int texel = to_whole(hn::Mul(load(block.s + i), number(texels_)));
+      store(hn::Add(texel, texel), block.offset + i);
+      fetch(numbers_.data(), block.offset + i, hn::Lanes(Numbers()));
+    } else {
+      const Int read = gather(numbers_.data(), load(block.offset + i));
+      sum_ = hn::Add(sum_, hn::And(read, whole(0xffff)));
+    }
+  }
+
+  std::uint64_t sum() const {
+    return static_cast<std::uint64_t>(hn::GetLane(hn::SumOfLanes(Whole(), sum_)));
+  }
+
+ private:
+  std::span<const std::uint16_t> numbers_;
+  double texels_;
+  Int sum_ = whole(0);
+};
+
+std::uint64_t read(std::span<const std::uint16_t> numbers, std::size_t texels,
+                   const BatchPoints& points, std::size_t count) {
+  BareGatherLanes lanes(numbers, texels);
+  draw_vectors(lanes, points, std::span<TexelSample>(static_cast<TexelSample*>(nullptr), count));
+  return lanes.sum();
+}
+
+#endif
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace lightproof::bench
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lightproof::bench {
+namespace {
+
+HWY_EXPORT(read);
+
+}  // namespace
+
+BareGather::BareGather(Extent extent) : texels_(extent.count()), numbers_(texels_ + 3) {
+  for (std::size_t i = 0; i < texels_; ++i) numbers_[i] = static_cast<std::uint16_t>(i * 40503U);
+}
+
+std::uint64_t BareGather::read(const RandomStream& stream, std::uint64_t first,
+                               std::size_t count) const {
+  return HWY_DYNAMIC_DISPATCH(read)(numbers_, texels_, BatchPoints(stream, first), count);
+}
+
+}  // namespace lightproof::bench
+#endif

@@ -1,0 +1,37 @@
+// Memory for tables that are read at random. The processor remembers where some thousand pages
+// lie; of 4 kB each that covers less than a table of a large map, and every other read pays for a
+// walk through the page table. Pages of 2 MB are asked for, where the system has them (Linux:
+// transparent huge pages); where it has none the same memory is used as it comes.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace lightproof {
+
+/// Bytes of a large page; smaller tables are left to the usual heap.
+inline constexpr std::size_t kLargePage = std::size_t{1} << 21U;
+
+/// At least 64-byte aligned. Throws std::bad_alloc.
+void* allocate_table(std::size_t bytes);
+void free_table(void* memory, std::size_t bytes) noexcept;
+
+template <class T>
+struct LargePageAllocator {
+  using value_type = T;
+
+  LargePageAllocator() = default;
+  template <class U>
+  explicit(false) LargePageAllocator(const LargePageAllocator<U>& /*other*/) {}
+
+  T* allocate(std::size_t count) { return static_cast<T*>(allocate_table(count * sizeof(T))); }
+  void deallocate(T* memory, std::size_t count) noexcept { free_table(memory, count * sizeof(T)); }
+
+  friend bool operator==(const LargePageAllocator&, const LargePageAllocator&) { return true; }
+};
+
+/// A vector on large pages.
+template <class T>
+using TableVector = std::vector<T, LargePageAllocator<T>>;
+
+}  // namespace lightproof

@@ -1,0 +1,15 @@
+// Many points of a stream at once, with vectors: the same bits as RandomStream::point.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "lightproof/core/random.h"
+
+namespace lightproof {
+
+/// Writes the points first, first + 1, … of the stream: s[i] and t[i]. Both spans are of one size.
+void fill_points(const RandomStream& stream, std::uint64_t first, std::span<double> s,
+                 std::span<double> t);
+
+}  // namespace lightproof

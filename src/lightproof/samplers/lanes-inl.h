@@ -1,0 +1,210 @@
+// Parts of the vectorised samplers, compiled once for every kind of vector: the pipeline of a
+// batch, and the places of samples in their texels. A lane is a sample; numbers are doubles and
+// 64-bit integers, and every operation is that of the scalar code, so that the texels are the same.
+//
+// Included by sources of Highway's foreach_target only; it has no include guard of its own kind but
+// Highway's.
+#if defined(LIGHTPROOF_SAMPLERS_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIGHTPROOF_SAMPLERS_LANES_INL_H
+#undef LIGHTPROOF_SAMPLERS_LANES_INL_H
+#else
+#define LIGHTPROOF_SAMPLERS_LANES_INL_H
+#endif
+
+#include <hwy/contrib/math/math-inl.h>
+#include <hwy/highway.h>
+
+#include <span>
+#include <type_traits>
+
+#include "lightproof/samplers/batch.h"
+#include "lightproof/samplers/texel_places.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lightproof {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET != HWY_SCALAR
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Numbers = hn::ScalableTag<double>;
+using Whole = hn::ScalableTag<std::int64_t>;
+using Number = hn::Vec<Numbers>;
+using Int = hn::Vec<Whole>;
+using Which = hn::Mask<Numbers>;
+
+HWY_INLINE Number number(double value) { return hn::Set(Numbers(), value); }
+HWY_INLINE Number to_number(Int value) { return hn::ConvertTo(Numbers(), value); }
+HWY_INLINE Int whole(std::int64_t value) { return hn::Set(Whole(), value); }
+/// Towards zero.
+HWY_INLINE Int to_whole(Number value) { return hn::ConvertTo(Whole(), value); }
+HWY_INLINE Number load(const double* from) { return hn::Load(Numbers(), from); }
+HWY_INLINE Int load(const std::int64_t* from) { return hn::Load(Whole(), from); }
+HWY_INLINE void store(Number value, double* to) { hn::Store(value, Numbers(), to); }
+HWY_INLINE void store(Int value, std::int64_t* to) { hn::Store(value, Whole(), to); }
+HWY_INLINE Int low_half(Int value) { return hn::And(value, whole(0xffffffff)); }
+HWY_INLINE Int high_half(Int value) {
+  return hn::BitCast(
+      Whole(), hn::ShiftRight<32>(hn::BitCast(hn::RebindToUnsigned<Whole>(), value)));
+}
+/// The float whose bits are the low half.
+HWY_INLINE Number float_in(Int value) {
+  const hn::Rebind<std::uint32_t, Whole> half;
+  const auto bits = hn::TruncateTo(half, hn::BitCast(hn::RebindToUnsigned<Whole>(), value));
+  return hn::PromoteTo(Numbers(), hn::BitCast(hn::Rebind<float, Whole>(), bits));
+}
+/// 64-bit words at these byte offsets, which need not be aligned.
+HWY_INLINE Int gather(const void* base, Int offset) {
+  return hn::GatherOffset(Whole(), static_cast<const std::int64_t*>(base), offset);
+}
+HWY_INLINE Number gather_numbers(const double* base, Int index) {
+  return hn::GatherIndex(Numbers(), base, index);
+}
+
+/// What is left of a uniform number that has chosen the part below or above `share`; see
+/// rest_of_choice of the scalar code.
+HWY_INLINE Number rest_of_choice(Number choice, Number share, Which below) {
+  const Number part = hn::IfThenElse(below, choice, hn::Sub(choice, share));
+  const Number of = hn::IfThenElse(below, share, hn::Sub(number(1.0), share));
+  return hn::Min(hn::Div(part, of), number(1.0 - 0x1p-53));
+}
+
+/// A cell's number, of cells counted row by row, as column and row: exact below 2^48.
+struct Cell {
+  Number x;
+  Number y;
+};
+HWY_INLINE Cell cell_at(Number cell, Number width, Number inverse_width) {
+  const Number y = hn::Trunc(hn::Mul(hn::Add(cell, number(0.5)), inverse_width));
+  return {hn::Sub(cell, hn::Mul(y, width)), y};
+}
+
+/// TexelPlaces, for a vector of samples.
+class LanePlaces {
+ public:
+  explicit LanePlaces(const TexelPlacesView& view) : view_(view) {}
+
+  Cell cell(Number texel) const {
+    return cell_at(texel, number(view_.extent.width), number(view_.texel_width));
+  }
+
+  /// Writes a vector of samples: the texels, the shares of their width and height (under B: of
+  /// their solid angle), and their probabilities.
+  HWY_INLINE void store_samples(Cell cell, Number across, Number along, Number mass,
+                                TexelSample* to) const {
+    const Number s = hn::Mul(hn::Add(cell.x, inside(across)), number(view_.texel_width));
+    Number t;
+    Number pdf;
+    if (view_.weighting == Weighting::A) {
+      t = hn::Mul(hn::Add(cell.y, inside(along)), number(view_.texel_height));
+      pdf = hn::Mul(mass, number(view_.texels));
+    } else {
+      t = place_by_solid_angle(cell.y, along);
+      const Number near = hn::Min(t, hn::Sub(number(1.0), t));
+      const Number sine = hn::Sin(Numbers(), hn::Mul(number(kPi), near));
+      const Number density = hn::Mul(
+          mass, gather_numbers(view_.texels_per_steradian, to_whole(cell.y)));
+      pdf = hn::Mul(density, hn::Mul(number(2.0 * kPi * kPi), sine));
+    }
+    const Int texel = hn::Or(to_whole(cell.x), hn::ShiftLeft<32>(to_whole(cell.y)));
+    hn::StoreInterleaved4(s, t, hn::BitCast(Numbers(), texel), pdf, Numbers(),
+                          reinterpret_cast<double*>(to));
+  }
+
+ private:
+  static HWY_INLINE Number inside(Number fraction) {
+    return hn::Clamp(fraction, number(kCellMargin), number(1.0 - kCellMargin));
+  }
+
+  /// SolidAngleRows::place.
+  HWY_INLINE Number place_by_solid_angle(Number y, Number fraction) const {
+    const Number height = number(view_.extent.height);
+    const Which upper = hn::Ge(hn::Add(y, y), height);
+    const Number row = hn::IfThenElse(upper, hn::Sub(hn::Sub(height, number(1.0)), y), y);
+    const Number f =
+        inside(hn::IfThenElse(upper, hn::Sub(number(1.0), fraction), fraction));
+    const Int index = to_whole(row);
+    const Number low = gather_numbers(view_.squared_sines, index);
+    const Number high = gather_numbers(view_.squared_sines + 1, index);
+    const Number sine = hn::Sqrt(hn::Add(low, hn::Mul(f, hn::Sub(high, low))));
+    const Number angle = hn::Asin(Numbers(), hn::Min(sine, number(1.0)));
+    const Number within = hn::Sub(hn::Mul(hn::Mul(number(2.0 / kPi), angle), height), row);
+    const Number share = inside(hn::IfThenElse(upper, hn::Sub(number(1.0), within), within));
+    return hn::Mul(hn::Add(y, share), number(view_.texel_height));
+  }
+
+  TexelPlacesView view_;
+};
+
+/// Random points of a block of samples.
+struct BlockPoints {
+  alignas(64) double s[kBatchBlock];
+  alignas(64) double t[kBatchBlock];
+};
+
+/// Fetches the lines of these byte offsets.
+HWY_INLINE void fetch(const void* base, const std::int64_t* offsets, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    __builtin_prefetch(static_cast<const char*>(base) + offsets[i]);
+  }
+}
+
+template <int kStage, class Kernel, class Block>
+HWY_INLINE void run_stage(Kernel& kernel, Block& block, std::size_t count,
+                          TexelSample* out) {
+  for (std::size_t i = 0; i < count; i += hn::Lanes(Numbers())) {
+    kernel.template stage<kStage>(block, i, out + i);
+  }
+}
+
+/// Draws whole vectors of samples; returns how many samples that were. A kernel works in stages,
+/// each of which asks for the lines that the next one reads; while these come, other blocks go
+/// through their stages.
+///
+/// Kernel: kStages; struct Block : BlockPoints; template <int> void stage(Block&, size_t i,
+/// TexelSample* out) of a vector from sample i of the block on, and void fetched<int>(Block&, count)
+/// after it.
+template <class Kernel>
+std::size_t draw_vectors(Kernel&& kernel, const BatchPoints& points,
+                         std::span<TexelSample> samples) {
+  using Block = typename std::remove_reference_t<Kernel>::Block;
+  constexpr int kStages = std::remove_reference_t<Kernel>::kStages;
+  Block ring[kStages];
+  const std::size_t lanes = hn::Lanes(Numbers());
+  const std::size_t total = samples.size() / lanes * lanes;
+  const std::size_t blocks = (total + kBatchBlock - 1) / kBatchBlock;
+  const auto count_of = [&](std::size_t block) {
+    return std::min(kBatchBlock, total - block * kBatchBlock);
+  };
+  for (std::size_t step = 0; step < blocks + kStages - 1; ++step) {
+    if (step < blocks) {
+      Block& block = ring[step % kStages];
+      const std::size_t count = count_of(step);
+      points.fill(step * kBatchBlock, std::span(block.s).first(count),
+                  std::span(block.t).first(count));
+      run_stage<0>(kernel, block, count, nullptr);
+    }
+    if constexpr (kStages > 1) {
+      if (step >= 1 && step - 1 < blocks) {
+        run_stage<1>(kernel, ring[(step - 1) % kStages], count_of(step - 1),
+                     samples.data() + (step - 1) * kBatchBlock);
+      }
+    }
+    if constexpr (kStages > 2) {
+      if (step >= 2 && step - 2 < blocks) {
+        run_stage<2>(kernel, ring[(step - 2) % kStages], count_of(step - 2),
+                     samples.data() + (step - 2) * kBatchBlock);
+      }
+    }
+  }
+  return total;
+}
+
+#endif  // HWY_TARGET != HWY_SCALAR
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lightproof
+HWY_AFTER_NAMESPACE();
+
+#endif
