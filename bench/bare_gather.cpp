@@ -45,25 +45,26 @@ class BareGatherLanes {
       : numbers_(numbers), texels_(static_cast<double>(texels)) {}
 
   template <int kStage>
-  HWY_INLINE void stage(Block& block, std::size_t i, TexelSample* /*out*/) {
-    if (kStage == 0) {
-      const Int texel = to_whole(hn::Mul(load(block.s + i), number(texels_)));
-      store(hn::Add(texel, texel), block.offset + i);
-      fetch(numbers_.data(), block.offset + i, hn::Lanes(Numbers()));
+  HWY_INLINE void stage(Block& block, std::size_t count, TexelSample* /*out*/) {
+    if constexpr (kStage == 0) {
+      for_vectors(count, [&](std::size_t i) HWY_ATTR {
+        const Int texel = to_whole(hn::Mul(load(block.s + i), number(texels_)));
+        store(hn::Add(texel, texel), block.offset + i);
+      });
+      fetch(numbers_.data(), block.offset, count);
     } else {
-      const Int read = gather(numbers_.data(), load(block.offset + i));
-      sum_ = hn::Add(sum_, hn::And(read, whole(0xffff)));
+      for (std::size_t i = 0; i < count; ++i) {
+        sum_ += numbers_[static_cast<std::size_t>(block.offset[i]) / sizeof(std::uint16_t)];
+      }
     }
   }
 
-  std::uint64_t sum() const {
-    return static_cast<std::uint64_t>(hn::GetLane(hn::SumOfLanes(Whole(), sum_)));
-  }
+  std::uint64_t sum() const { return sum_; }
 
  private:
   std::span<const std::uint16_t> numbers_;
   double texels_;
-  Int sum_ = whole(0);
+  std::uint64_t sum_ = 0;
 };
 
 std::uint64_t read(std::span<const std::uint16_t> numbers, std::size_t texels,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "lightproof/samplers/alias_table.h"
+#include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/sampler.h"
 #include "lightproof/samplers/texel_places.h"
 
@@ -31,6 +32,12 @@ class Alias {
     return places_.pdf(y, table_.mass(row + x), at);
   }
 
+  struct View {
+    std::span<const AliasTable::Entry> entries;
+    TexelPlacesView places;
+  };
+  View view() const { return {table_.entries(), places_.view()}; }
+
   std::size_t table_bytes() const { return table_.bytes() + places_.bytes(); }
 
  private:
@@ -38,5 +45,9 @@ class Alias {
   TexelPlaces places_;
 };
 static_assert(EnvSampler<Alias>);
+
+/// Whole vectors of a batch; returns how many samples these are.
+std::size_t sample_vectors(const Alias::View& table, const BatchPoints& points,
+                           std::span<TexelSample> samples);
 
 }  // namespace lightproof

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "lightproof/samplers/alias_table.h"
+#include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/cdf_lines.h"
 #include "lightproof/samplers/sampler.h"
 #include "lightproof/samplers/texel_places.h"
@@ -34,6 +35,13 @@ class AliasLines {
     return places_.pdf(y, table_.mass(run) * lines_.mass(run, x % kRunTexels), at);
   }
 
+  struct View {
+    std::span<const AliasTable::Entry> runs;
+    CdfLines::View lines;
+    TexelPlacesView places;
+  };
+  View view() const { return {table_.entries(), lines_.view(), places_.view()}; }
+
   std::size_t table_bytes() const { return lines_.bytes() + table_.bytes() + places_.bytes(); }
 
  private:
@@ -44,5 +52,9 @@ class AliasLines {
   TexelPlaces places_;
 };
 static_assert(EnvSampler<AliasLines>);
+
+/// Whole vectors of a batch; returns how many samples these are.
+std::size_t sample_vectors(const AliasLines::View& table, const BatchPoints& points,
+                           std::span<TexelSample> samples);
 
 }  // namespace lightproof

@@ -13,6 +13,8 @@
 #include <span>
 #include <vector>
 
+#include "lightproof/core/large_pages.h"
+
 namespace lightproof {
 
 /// Masses in units of 2^-bits / weights.size(), that is with a sum of weights.size() << bits.
@@ -89,18 +91,19 @@ class AliasTable {
   double mass(std::size_t cell) const { return static_cast<double>(entries_[cell].mass); }
   std::size_t bytes() const { return entries_.size() * sizeof(Entry); }
 
- private:
-  static constexpr unsigned kBits = 31;
-  static constexpr double kUnit = 0x1p-31;
-
   struct Entry {
-    std::uint32_t threshold;
+    std::uint32_t threshold;  ///< in units of 2^-31
     std::uint32_t alias;
     float mass;
     float alias_mass;
   };
+  std::span<const Entry> entries() const { return entries_; }
 
-  std::vector<Entry> entries_;
+ private:
+  static constexpr unsigned kBits = 31;
+  static constexpr double kUnit = 0x1p-31;
+
+  TableVector<Entry> entries_;
 };
 
 }  // namespace lightproof

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lightproof/core/grid.h"
+#include "lightproof/core/large_pages.h"
 
 namespace lightproof {
 
@@ -38,10 +39,15 @@ struct alignas(64) RunKnots {
     const double scaled = u * kOne;
     const std::uint32_t number =
         std::min<std::uint32_t>(static_cast<std::uint32_t>(scaled), kLast - 1);
-    int index = 0;
-    for (const Integer knot : upper) index += knot <= number ? 1 : 0;
+    const int index = find(number);
     const double units = high(index) - low(index);
     return {index, units / kOne, (scaled - low(index)) / units};
+  }
+  /// The texel of a number below kLast.
+  int find(std::uint32_t number) const {
+    int index = 0;
+    for (const Integer knot : upper) index += knot <= number ? 1 : 0;
+    return index;
   }
   /// Share of the run's mass.
   double mass(int index) const { return (high(index) - low(index)) / kOne; }
@@ -77,12 +83,15 @@ class CdfLines {
   std::size_t bytes() const {
     return narrow_.size() * sizeof(Narrow) + wide_.size() * sizeof(Wide);
   }
-  /// Runs that need the longer form.
-  std::size_t wide_count() const { return wide_.size(); }
-
- private:
   using Narrow = RunKnots<std::uint16_t, 1U << 16U>;
   using Wide = RunKnots<std::uint32_t, 1U << 31U>;
+
+  struct View {
+    const Narrow* narrow;
+    const Wide* wide;
+    int runs;  ///< across
+  };
+  View view() const { return {narrow_.data(), wide_.data(), extent_.width}; }
 
   /// The last upper knot of a narrow run is 1; of a wide one all that is kept in its place is where
   /// it is.
@@ -91,9 +100,13 @@ class CdfLines {
     return knots.upper[0] | std::size_t{knots.upper[1]} << 16U;
   }
 
+  /// Runs that need the longer form.
+  std::size_t wide_count() const { return wide_.size(); }
+
+ private:
   Extent extent_;
-  std::vector<Narrow> narrow_;
-  std::vector<Wide> wide_;
+  TableVector<Narrow> narrow_;
+  TableVector<Wide> wide_;
 };
 
 /// Sums of the weights of each run.

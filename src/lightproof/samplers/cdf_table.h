@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lightproof/core/grid.h"
+#include "lightproof/core/large_pages.h"
 #include "lightproof/image/target_density.h"
 
 namespace lightproof {
@@ -44,6 +45,16 @@ class CdfTable {
   }
   /// Probability of texel (x, y) as drawn.
   double mass(int x, int y) const { return cdf_mass(units(rows_, y), units(columns(y), x)); }
+  struct View {
+    const std::uint32_t* rows;
+    const std::uint32_t* columns;
+    std::size_t stride;  ///< knots of a row
+
+    const std::uint32_t* row(std::size_t y) const { return columns + y * stride; }
+  };
+  View view() const {
+    return {rows_.data(), columns_.data(), static_cast<std::size_t>(extent_.width) + 1};
+  }
   std::size_t bytes() const { return (rows_.size() + columns_.size()) * sizeof(std::uint32_t); }
 
  private:
@@ -58,7 +69,7 @@ class CdfTable {
 
   Extent extent_;
   std::vector<std::uint32_t> rows_;
-  std::vector<std::uint32_t> columns_;
+  TableVector<std::uint32_t> columns_;
 };
 
 }  // namespace lightproof

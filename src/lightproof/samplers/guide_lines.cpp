@@ -3,6 +3,11 @@
 #include "lightproof/samplers/texel_weights.h"
 
 namespace lightproof {
+namespace {
+
+constexpr std::size_t kPartsPerRun = 4;
+
+}  // namespace
 
 GuideLines::GuideLines(const EnvironmentMap& map, TargetDensity target)
     : GuideLines(texel_weights(map, target), target.weighting) {}
@@ -10,7 +15,7 @@ GuideLines::GuideLines(const EnvironmentMap& map, TargetDensity target)
 GuideLines::GuideLines(const Grid<double>& weights, Weighting weighting)
     : lines_(weights),
       table_(run_weights(weights)),
-      guides_(table_),
+      guides_(table_, kPartsPerRun),
       places_(weights.extent(), weighting) {}
 
 }  // namespace lightproof

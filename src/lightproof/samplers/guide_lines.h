@@ -4,6 +4,7 @@
 // and three in runs of much contrast.
 #pragma once
 
+#include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/cdf_lines.h"
 #include "lightproof/samplers/guide_table.h"
 #include "lightproof/samplers/sampler.h"
@@ -33,6 +34,14 @@ class GuideLines {
     return places_.pdf(y, table_.mass(x / kRunTexels, y) * share, at);
   }
 
+  struct View {
+    CdfTable::View runs;
+    GuidedKnots::View guides;
+    CdfLines::View lines;
+    TexelPlacesView places;
+  };
+  View view() const { return {table_.view(), guides_.view(), lines_.view(), places_.view()}; }
+
   std::size_t table_bytes() const {
     return lines_.bytes() + table_.bytes() + guides_.bytes() + places_.bytes();
   }
@@ -46,5 +55,9 @@ class GuideLines {
   TexelPlaces places_;
 };
 static_assert(EnvSampler<GuideLines>);
+
+/// Whole vectors of a batch; returns how many samples these are.
+std::size_t sample_vectors(const GuideLines::View& table, const BatchPoints& points,
+                           std::span<TexelSample> samples);
 
 }  // namespace lightproof

@@ -8,14 +8,15 @@ namespace lightproof {
 namespace {
 
 constexpr unsigned kCdfBits = 31;
+constexpr std::size_t kPartsPerRow = 4;
 
 unsigned guide_bits(std::size_t cells) { return static_cast<unsigned>(std::bit_width(cells - 1)); }
 
 }  // namespace
 
-Guides::Guides(std::size_t count, std::size_t cells)
-    : shift_(kCdfBits - guide_bits(cells)),
-      parts_((std::size_t{1} << guide_bits(cells)) + 1),
+Guides::Guides(std::size_t count, std::size_t cells, std::size_t parts_per_cell)
+    : shift_(kCdfBits - guide_bits(cells * parts_per_cell)),
+      parts_((std::size_t{1} << guide_bits(cells * parts_per_cell)) + 1),
       first_(count * parts_) {}
 
 void Guides::set(std::size_t guide, CdfKnots knots) {
@@ -31,10 +32,10 @@ void Guides::set(std::size_t guide, CdfKnots knots) {
   first_[guide * parts_ + parts_ - 1] = static_cast<std::uint16_t>(cell);
 }
 
-GuidedKnots::GuidedKnots(const CdfTable& table)
-    : rows_(1, static_cast<std::size_t>(table.extent().height)),
+GuidedKnots::GuidedKnots(const CdfTable& table, std::size_t parts_per_column)
+    : rows_(1, static_cast<std::size_t>(table.extent().height), kPartsPerRow),
       columns_(static_cast<std::size_t>(table.extent().height),
-               static_cast<std::size_t>(table.extent().width)) {
+               static_cast<std::size_t>(table.extent().width), parts_per_column) {
   rows_.set(0, table.rows());
   parallel_for(static_cast<std::size_t>(table.extent().height),
                [&](std::size_t y) { columns_.set(y, table.columns(static_cast<int>(y))); });

@@ -7,8 +7,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "lightproof/core/large_pages.h"
+#include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/cdf_inversion.h"
 
 namespace lightproof {
@@ -17,30 +18,60 @@ namespace lightproof {
 /// every 2^bits-th part of [0,1) begins in.
 class Guides {
  public:
-  Guides(std::size_t count, std::size_t cells);
+  /// `parts_per_cell` is a power of two: the more there are, the more often the first cell is the
+  /// one that is sought, or the next.
+  Guides(std::size_t count, std::size_t cells, std::size_t parts_per_cell);
   void set(std::size_t guide, CdfKnots knots);
   /// Of the distribution that was set with these knots.
   CdfCell find(std::size_t guide, CdfKnots knots, std::uint32_t u) const {
-    const std::size_t part = guide * parts_ + (u >> shift_);
-    std::size_t cell = first_[part];
-    for (std::size_t cells = first_[part + 1] - cell + std::size_t{1}; cells > 1;) {
-      const std::size_t half = cells / 2;
-      cell += knots[cell + half] <= u ? half : 0;
-      cells -= half;
-    }
+    const View all = view();
+    const std::size_t cell = all.find(all.part(guide, u), knots.data(), u);
     return {static_cast<int>(cell), knots[cell], knots[cell + 1]};
   }
+
+  struct View {
+    unsigned shift;
+    std::size_t parts;  ///< of one guide, and its end
+    const std::uint16_t* first;
+
+    /// The part of a guide that u lies in.
+    std::size_t part(std::size_t guide, std::uint32_t u) const {
+      return guide * parts + (u >> shift);
+    }
+    /// The cell of u in that part. Seldom is it none of the first two.
+    std::size_t find(std::size_t part, const std::uint32_t* knots, std::uint32_t u) const {
+      std::size_t cell = first[part];
+      cell += knots[cell + 1] <= u ? 1 : 0;
+      if (knots[cell + 1] <= u) [[unlikely]]
+        return bisect(cell + 1, first[part + 1], knots, u);
+      return cell;
+    }
+
+   private:
+    /// Among the cells from `cell` to `last`.
+    static std::size_t bisect(std::size_t cell, std::size_t last, const std::uint32_t* knots,
+                              std::uint32_t u) {
+      for (std::size_t cells = last - cell + 1; cells > 1;) {
+        const std::size_t half = cells / 2;
+        cell += knots[cell + half] <= u ? half : 0;
+        cells -= half;
+      }
+      return cell;
+    }
+  };
+  View view() const { return {shift_, parts_, first_.data()}; }
   std::size_t bytes() const { return first_.size() * sizeof(std::uint16_t); }
 
  private:
   unsigned shift_;
-  std::size_t parts_;  ///< of one guide, and its end
-  std::vector<std::uint16_t> first_;
+  std::size_t parts_;
+  TableVector<std::uint16_t> first_;
 };
 
 class GuidedKnots {
  public:
-  explicit GuidedKnots(const CdfTable& table);
+  /// Parts of each cell in the guides of columns; rows are few, and have more.
+  explicit GuidedKnots(const CdfTable& table, std::size_t parts_per_column = 1);
   CdfCell row(const CdfTable& table, std::uint32_t u) const {
     return rows_.find(0, table.rows(), u);
   }
@@ -49,6 +80,12 @@ class GuidedKnots {
   }
   std::size_t bytes() const { return rows_.bytes() + columns_.bytes(); }
 
+  struct View {
+    Guides::View rows;
+    Guides::View columns;
+  };
+  View view() const { return {rows_.view(), columns_.view()}; }
+
  private:
   Guides rows_;
   Guides columns_;
@@ -56,5 +93,9 @@ class GuidedKnots {
 
 using GuideTable = CdfInversion<GuidedKnots>;
 static_assert(EnvSampler<GuideTable>);
+
+/// Whole vectors of a batch; returns how many samples these are.
+std::size_t sample_vectors(const GuideTable::View& table, const BatchPoints& points,
+                           std::span<TexelSample> samples);
 
 }  // namespace lightproof

@@ -1,0 +1,70 @@
+// GuideLines, for many samples at once.
+#if defined(LIGHTPROOF_SAMPLERS_GUIDE_LINES_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIGHTPROOF_SAMPLERS_GUIDE_LINES_LANES_INL_H
+#undef LIGHTPROOF_SAMPLERS_GUIDE_LINES_LANES_INL_H
+#else
+#define LIGHTPROOF_SAMPLERS_GUIDE_LINES_LANES_INL_H
+#endif
+
+#include "lightproof/samplers/cdf_lines_lanes-inl.h"
+#include "lightproof/samplers/guide_lines.h"
+#include "lightproof/samplers/guide_table_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lightproof {
+namespace HWY_NAMESPACE {
+
+class GuideLinesLanes {
+ public:
+  static constexpr int kStages = 3;
+  struct Block : BlockPoints {
+    GuidedLanes::Block runs;
+    CdfLinesLanes::Block lines;
+    alignas(64) double within[kBatchBlock];  ///< the run
+  };
+
+  explicit GuideLinesLanes(const GuideLines::View& view)
+      : guided_(view.runs, view.guides),
+        lines_(view.lines),
+        places_(view.places),
+        across_(view.lines.runs) {}
+
+  template <int kStage>
+  HWY_INLINE void stage(Block& block, std::size_t count, TexelSample* out) const {
+    if constexpr (kStage == 0) {
+      guided_.choose_rows(block, block.runs, count);
+    } else if constexpr (kStage == 1) {
+      guided_.choose_columns(block.runs, count);
+      for_vectors(count, [&](std::size_t i) HWY_ATTR {
+        const GuidedLanes::Found run = guided_.cells(block.runs, i);
+        const Number index = hn::Add(hn::Mul(run.y, number(across_)), run.x);
+        store(hn::ShiftLeft<6>(to_whole(index)), block.lines.offset + i);
+        store(run.across, block.within + i);
+      });
+      lines_.choose_runs(block.lines, count);
+    } else {
+      lines_.choose_texels(block.within, block.lines, count);
+      for_vectors(count, [&](std::size_t i) HWY_ATTR { place(block, i, out + i); });
+    }
+  }
+
+ private:
+  HWY_INLINE void place(const Block& block, std::size_t i, TexelSample* out) const {
+    const CdfLinesLanes::Texel texel = lines_.texels(block.within, block.lines, i);
+    const GuidedLanes::Found run = guided_.cells(block.runs, i);
+    const Number x = hn::Add(hn::Mul(run.x, number(kRunTexels)), texel.index);
+    places_.store_samples({x, run.y}, texel.fraction, run.along, hn::Mul(run.mass, texel.mass),
+                          out);
+  }
+
+  GuidedLanes guided_;
+  CdfLinesLanes lines_;
+  LanePlaces places_;
+  double across_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lightproof
+HWY_AFTER_NAMESPACE();
+
+#endif  // LIGHTPROOF_SAMPLERS_GUIDE_LINES_LANES_INL_H

@@ -1,0 +1,112 @@
+// Every sampler with a vectorised form: a class of lanes, in a header of its own, and three lines
+// here.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lightproof/samplers/lanes.cpp"
+#include <hwy/foreach_target.h>
+// Highway asks for this order.
+#include <hwy/highway.h>
+
+#if HWY_TARGET == HWY_SCALAR
+#include "lightproof/samplers/registry.h"
+#else
+#include "lightproof/samplers/alias_lanes-inl.h"
+#include "lightproof/samplers/alias_lines_lanes-inl.h"
+#include "lightproof/samplers/guide_lines_lanes-inl.h"
+#include "lightproof/samplers/guide_table_lanes-inl.h"
+#include "lightproof/samplers/packed_alias_lanes-inl.h"
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace lightproof {
+namespace HWY_NAMESPACE {
+namespace {
+
+#if HWY_TARGET == HWY_SCALAR
+
+/// Without vectors the scalar interface draws everything.
+class AliasLanes;
+class AliasLinesLanes;
+class GuideLinesLanes;
+class GuideTableLanes;
+class PackedAliasLanes;
+
+template <class Lanes, class View>
+std::size_t draw(const View& /*table*/, const BatchPoints& /*points*/,
+                 std::span<TexelSample> /*samples*/) {
+  return 0;
+}
+
+#else
+
+template <class Lanes, class View>
+std::size_t draw(const View& table, const BatchPoints& points, std::span<TexelSample> samples) {
+  return draw_vectors(Lanes(table), points, samples);
+}
+
+#endif
+
+std::size_t draw_alias(const Alias::View& table, const BatchPoints& points,
+                       std::span<TexelSample> samples) {
+  return draw<AliasLanes>(table, points, samples);
+}
+std::size_t draw_alias_lines(const AliasLines::View& table, const BatchPoints& points,
+                             std::span<TexelSample> samples) {
+  return draw<AliasLinesLanes>(table, points, samples);
+}
+std::size_t draw_guide_lines(const GuideLines::View& table, const BatchPoints& points,
+                             std::span<TexelSample> samples) {
+  return draw<GuideLinesLanes>(table, points, samples);
+}
+std::size_t draw_guide_table(const GuideTable::View& table, const BatchPoints& points,
+                             std::span<TexelSample> samples) {
+  return draw<GuideTableLanes>(table, points, samples);
+}
+std::size_t draw_packed_alias(const PackedAlias::View& table, const BatchPoints& points,
+                              std::span<TexelSample> samples) {
+  return draw<PackedAliasLanes>(table, points, samples);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace lightproof
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lightproof {
+namespace {
+
+HWY_EXPORT(draw_alias);
+HWY_EXPORT(draw_alias_lines);
+HWY_EXPORT(draw_guide_lines);
+HWY_EXPORT(draw_guide_table);
+HWY_EXPORT(draw_packed_alias);
+
+}  // namespace
+
+std::size_t sample_vectors(const Alias::View& table, const BatchPoints& points,
+                           std::span<TexelSample> samples) {
+  return HWY_DYNAMIC_DISPATCH(draw_alias)(table, points, samples);
+}
+
+std::size_t sample_vectors(const AliasLines::View& table, const BatchPoints& points,
+                           std::span<TexelSample> samples) {
+  return HWY_DYNAMIC_DISPATCH(draw_alias_lines)(table, points, samples);
+}
+
+std::size_t sample_vectors(const GuideLines::View& table, const BatchPoints& points,
+                           std::span<TexelSample> samples) {
+  return HWY_DYNAMIC_DISPATCH(draw_guide_lines)(table, points, samples);
+}
+
+std::size_t sample_vectors(const GuideTable::View& table, const BatchPoints& points,
+                           std::span<TexelSample> samples) {
+  return HWY_DYNAMIC_DISPATCH(draw_guide_table)(table, points, samples);
+}
+
+std::size_t sample_vectors(const PackedAlias::View& table, const BatchPoints& points,
+                           std::span<TexelSample> samples) {
+  return HWY_DYNAMIC_DISPATCH(draw_packed_alias)(table, points, samples);
+}
+
+}  // namespace lightproof
+#endif
