@@ -34,14 +34,17 @@ class CdfLinesLanes {
 
   /// u: uniform numbers in [0,1).
   HWY_INLINE void choose_texels(const double* u, Block& block, std::size_t count) const {
+    std::array<std::uint16_t, kBatchBlock> wide;
+    std::size_t wides = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      const auto run = static_cast<std::size_t>(block.offset[i]) / sizeof(CdfLines::Narrow);
-      const CdfLines::Narrow& knots = view_.narrow[run];
-      if (CdfLines::is_wide(knots)) {
-        choose(view_.wide[CdfLines::wide_index(knots)], u[i], block, i);
-      } else {
-        choose(knots, u[i], block, i);
-      }
+      const CdfLines::Narrow& knots = run(block, i);
+      choose(knots, u[i], block, i);
+      wide[wides] = static_cast<std::uint16_t>(i);
+      wides += CdfLines::is_wide(knots) ? 1 : 0;
+    }
+    for (std::size_t k = 0; k < wides; ++k) {
+      const std::size_t i = wide[k];
+      choose(view_.wide[CdfLines::wide_index(run(block, i))], u[i], block, i);
     }
   }
 
@@ -55,16 +58,23 @@ class CdfLinesLanes {
   }
 
  private:
+  HWY_INLINE const CdfLines::Narrow& run(const Block& block, std::size_t i) const {
+    return view_.narrow[static_cast<std::size_t>(block.offset[i]) / sizeof(CdfLines::Narrow)];
+  }
+
+  /// What stands in for a wide run gives some texel or other.
   template <class Integer, std::uint32_t kOne>
   static HWY_INLINE void choose(const RunKnots<Integer, kOne>& run, double u, Block& block,
                                 std::size_t i) {
     constexpr std::uint32_t kLast = RunKnots<Integer, kOne>::kLast;
     constexpr std::uint32_t kUnit = (1U << 31U) / kOne;
     const auto number = std::min<std::uint32_t>(static_cast<std::uint32_t>(u * kOne), kLast - 1);
-    const std::size_t index = count_up_to(run.upper, static_cast<Integer>(number));
-    const std::uint32_t below = index == 0 ? 0 : run.upper[index - 1];
+    // No branches, which would be guessed wrong as often as right.
+    const std::size_t index = count_up_to(run.upper, static_cast<Integer>(number)) % kRunTexels;
+    const std::uint32_t has_lower = index > 0 ? 1 : 0;
+    const std::uint32_t below = run.upper[(index - 1) % kRunTexels] * has_lower;
     const std::uint32_t above = run.upper[index];
-    const std::uint64_t high = above == kLast ? kOne : above;
+    const std::uint64_t high = above + (above == kLast ? kOne - kLast : 0);
     block.index[i] = static_cast<std::int64_t>(index);
     block.knots[i] =
         static_cast<std::int64_t>((high * kUnit) << 32U | std::uint64_t{below} * kUnit);

@@ -38,25 +38,25 @@ class Guides {
     std::size_t part(std::size_t guide, std::uint32_t u) const {
       return guide * parts + (u >> shift);
     }
-    /// The cell of u in that part. Seldom is it none of the first two.
-    std::size_t find(std::size_t part, const std::uint32_t* knots, std::uint32_t u) const {
-      std::size_t cell = first[part];
-      cell += knots[cell + 1] <= u ? 1 : 0;
-      if (knots[cell + 1] <= u) [[unlikely]]
-        return bisect(cell + 1, first[part + 1], knots, u);
-      return cell;
+    /// The cell of u in that part, if it is one of the first two; else one before it. Seldom is it
+    /// another.
+    std::size_t guess(std::size_t part, const std::uint32_t* knots, std::uint32_t u) const {
+      const std::size_t cell = first[part];
+      return cell + (knots[cell + 1] <= u ? 1 : 0);
     }
-
-   private:
-    /// Among the cells from `cell` to `last`.
-    static std::size_t bisect(std::size_t cell, std::size_t last, const std::uint32_t* knots,
-                              std::uint32_t u) {
-      for (std::size_t cells = last - cell + 1; cells > 1;) {
+    /// By bisection from a guess on.
+    std::size_t find_from(std::size_t cell, std::size_t part, const std::uint32_t* knots,
+                          std::uint32_t u) const {
+      for (std::size_t cells = first[part + 1] - cell + 1; cells > 1;) {
         const std::size_t half = cells / 2;
         cell += knots[cell + half] <= u ? half : 0;
         cells -= half;
       }
       return cell;
+    }
+    std::size_t find(std::size_t part, const std::uint32_t* knots, std::uint32_t u) const {
+      const std::size_t cell = guess(part, knots, u);
+      return knots[cell + 1] <= u ? find_from(cell, part, knots, u) : cell;
     }
   };
   View view() const { return {shift_, parts_, first_.data()}; }

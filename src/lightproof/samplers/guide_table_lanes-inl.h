@@ -42,13 +42,13 @@ class GuidedLanes {
       store(hn::Mul(load(points.s + i), number(kCdfOne)), block.scaled_s + i);
       store(hn::Mul(load(points.t + i), number(kCdfOne)), block.scaled_t + i);
     });
+    find_cells(guides_.rows, count, block.scaled_t, {block.y, block.row},
+               [&](std::size_t /*i*/, std::uint32_t u) HWY_ATTR {
+                 return Where{guides_.rows.part(0, u), table_.rows};
+               });
     for (std::size_t i = 0; i < count; ++i) {
-      const auto u = static_cast<std::uint32_t>(block.scaled_t[i]);
-      const std::size_t y = guides_.rows.find(guides_.rows.part(0, u), table_.rows, u);
-      block.y[i] = static_cast<std::int64_t>(y);
-      std::memcpy(block.row + i, table_.rows + y, sizeof block.row[i]);
-      const auto s = static_cast<std::uint32_t>(block.scaled_s[i]);
-      const std::size_t part = guides_.columns.part(y, s);
+      const auto u = static_cast<std::uint32_t>(block.scaled_s[i]);
+      const std::size_t part = guides_.columns.part(static_cast<std::size_t>(block.y[i]), u);
       block.part[i] = static_cast<std::int64_t>(part);
       __builtin_prefetch(guides_.columns.first + part);
     }
@@ -65,13 +65,11 @@ class GuidedLanes {
   }
 
   HWY_INLINE void choose_columns(Block& block, std::size_t count) const {
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t* knots = table_.row(static_cast<std::size_t>(block.y[i]));
-      const std::size_t x = guides_.columns.find(static_cast<std::size_t>(block.part[i]), knots,
-                                                 static_cast<std::uint32_t>(block.scaled_s[i]));
-      block.x[i] = static_cast<std::int64_t>(x);
-      std::memcpy(block.column + i, knots + x, sizeof block.column[i]);
-    }
+    find_cells(guides_.columns, count, block.scaled_s, {block.x, block.column},
+               [&](std::size_t i, std::uint32_t /*u*/) HWY_ATTR {
+                 return Where{static_cast<std::size_t>(block.part[i]),
+                              table_.row(static_cast<std::size_t>(block.y[i]))};
+               });
   }
 
   HWY_INLINE Found cells(const Block& block, std::size_t i) const {
@@ -91,6 +89,43 @@ class GuidedLanes {
     const Number low = to_number(low_half(pair));
     const Number units = hn::Sub(to_number(high_half(pair)), low);
     return {units, hn::Div(hn::Sub(load(scaled), low), units)};
+  }
+
+  struct Where {
+    std::size_t part;  ///< of the guide
+    const std::uint32_t* knots;
+  };
+  /// Cells and their lower and upper knots.
+  struct Cells {
+    std::int64_t* index;
+    std::int64_t* knots;
+  };
+
+  /// Guesses all cells without a branch, then corrects the few wrong ones.
+  template <class Locate>
+  static HWY_INLINE void find_cells(const Guides::View& guides, std::size_t count,
+                                    const double* scaled, Cells cells, const Locate& locate) {
+    std::array<std::uint16_t, kBatchBlock> wrong;
+    std::size_t wrongs = 0;
+    const auto set = [&](std::size_t i, std::size_t cell, const std::uint32_t* knots) HWY_ATTR {
+      cells.index[i] = static_cast<std::int64_t>(cell);
+      std::memcpy(cells.knots + i, knots + cell, sizeof cells.knots[i]);
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto u = static_cast<std::uint32_t>(scaled[i]);
+      const Where where = locate(i, u);
+      const std::size_t cell = guides.guess(where.part, where.knots, u);
+      set(i, cell, where.knots);
+      wrong[wrongs] = static_cast<std::uint16_t>(i);
+      wrongs += where.knots[cell + 1] <= u ? 1 : 0;
+    }
+    for (std::size_t k = 0; k < wrongs; ++k) {
+      const std::size_t i = wrong[k];
+      const auto u = static_cast<std::uint32_t>(scaled[i]);
+      const Where where = locate(i, u);
+      const auto from = static_cast<std::size_t>(cells.index[i]);
+      set(i, guides.find_from(from, where.part, where.knots, u), where.knots);
+    }
   }
 
   CdfTable::View table_;
