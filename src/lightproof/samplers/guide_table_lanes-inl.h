@@ -19,6 +19,8 @@ class GuidedLanes {
   struct Block {
     alignas(64) double scaled_s[kBatchBlock];  ///< in units of 2^-31
     alignas(64) double scaled_t[kBatchBlock];
+    alignas(64) std::int64_t whole_s[kBatchBlock];  ///< the same without fractions
+    alignas(64) std::int64_t whole_t[kBatchBlock];
     alignas(64) std::int64_t y[kBatchBlock];
     alignas(64) std::int64_t row[kBatchBlock];   ///< its knots: the lower and the upper one
     alignas(64) std::int64_t part[kBatchBlock];  ///< of the guides of columns
@@ -39,15 +41,19 @@ class GuidedLanes {
 
   HWY_INLINE void choose_rows(const BlockPoints& points, Block& block, std::size_t count) const {
     for_vectors(count, [&](std::size_t i) HWY_ATTR {
-      store(hn::Mul(load(points.s + i), number(kCdfOne)), block.scaled_s + i);
-      store(hn::Mul(load(points.t + i), number(kCdfOne)), block.scaled_t + i);
+      const Number s = hn::Mul(load(points.s + i), number(kCdfOne));
+      const Number t = hn::Mul(load(points.t + i), number(kCdfOne));
+      store(s, block.scaled_s + i);
+      store(t, block.scaled_t + i);
+      store(to_whole(s), block.whole_s + i);
+      store(to_whole(t), block.whole_t + i);
     });
-    find_cells(guides_.rows, count, block.scaled_t, {block.y, block.row},
+    find_cells(guides_.rows, count, block.whole_t, {block.y, block.row},
                [&](std::size_t /*i*/, std::uint32_t u) HWY_ATTR {
                  return Where{guides_.rows.part(0, u), table_.rows};
                });
     for (std::size_t i = 0; i < count; ++i) {
-      const auto u = static_cast<std::uint32_t>(block.scaled_s[i]);
+      const auto u = static_cast<std::uint32_t>(block.whole_s[i]);
       const std::size_t part = guides_.columns.part(static_cast<std::size_t>(block.y[i]), u);
       block.part[i] = static_cast<std::int64_t>(part);
       __builtin_prefetch(guides_.columns.first + part);
@@ -65,7 +71,7 @@ class GuidedLanes {
   }
 
   HWY_INLINE void choose_columns(Block& block, std::size_t count) const {
-    find_cells(guides_.columns, count, block.scaled_s, {block.x, block.column},
+    find_cells(guides_.columns, count, block.whole_s, {block.x, block.column},
                [&](std::size_t i, std::uint32_t /*u*/) HWY_ATTR {
                  return Where{static_cast<std::size_t>(block.part[i]),
                               table_.row(static_cast<std::size_t>(block.y[i]))};
@@ -104,7 +110,7 @@ class GuidedLanes {
   /// Guesses all cells without a branch, then corrects the few wrong ones.
   template <class Locate>
   static HWY_INLINE void find_cells(const Guides::View& guides, std::size_t count,
-                                    const double* scaled, Cells cells, const Locate& locate) {
+                                    const std::int64_t* whole, Cells cells, const Locate& locate) {
     std::array<std::uint16_t, kBatchBlock> wrong;
     std::size_t wrongs = 0;
     const auto set = [&](std::size_t i, std::size_t cell, const std::uint32_t* knots) HWY_ATTR {
@@ -112,7 +118,7 @@ class GuidedLanes {
       std::memcpy(cells.knots + i, knots + cell, sizeof cells.knots[i]);
     };
     for (std::size_t i = 0; i < count; ++i) {
-      const auto u = static_cast<std::uint32_t>(scaled[i]);
+      const auto u = static_cast<std::uint32_t>(whole[i]);
       const Where where = locate(i, u);
       const std::size_t cell = guides.guess(where.part, where.knots, u);
       set(i, cell, where.knots);
@@ -121,7 +127,7 @@ class GuidedLanes {
     }
     for (std::size_t k = 0; k < wrongs; ++k) {
       const std::size_t i = wrong[k];
-      const auto u = static_cast<std::uint32_t>(scaled[i]);
+      const auto u = static_cast<std::uint32_t>(whole[i]);
       const Where where = locate(i, u);
       const auto from = static_cast<std::size_t>(cells.index[i]);
       set(i, guides.find_from(from, where.part, where.knots, u), where.knots);
