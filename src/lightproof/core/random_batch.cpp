@@ -1,5 +1,8 @@
 #include "lightproof/core/random_batch.h"
 
+#include <algorithm>
+#include <array>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lightproof/core/random_batch.cpp"
 #include <hwy/foreach_target.h>
@@ -47,7 +50,7 @@ struct Philox {
 };
 
 /// 53 bits of the two words as a number in [0,1).
-hn::Vec<hn::ScalableTag<double>> unit_interval(Words low, Words high) {
+hn::Vec<hn::ScalableTag<double> > unit_interval(Words low, Words high) {
   const hn::ScalableTag<double> numbers;
   const hn::Repartition<std::int64_t, Wide> whole;
   const Words low_half = hn::And(low, hn::Set(Wide(), std::uint64_t{0xffffffff}));
@@ -101,6 +104,17 @@ void fill_points(const RandomStream& stream, std::uint64_t first, std::span<doub
     const SquarePoint point = stream.point(first + done);
     s[done] = point.s;
     t[done] = point.t;
+  }
+}
+
+void fill_points(const RandomStream& stream, std::uint64_t first, std::span<SquarePoint> points) {
+  constexpr std::size_t kBlock = 256;
+  std::array<double, kBlock> s;
+  std::array<double, kBlock> t;
+  for (std::size_t done = 0; done < points.size(); done += kBlock) {
+    const std::size_t count = std::min(kBlock, points.size() - done);
+    fill_points(stream, first + done, std::span(s).first(count), std::span(t).first(count));
+    for (std::size_t i = 0; i < count; ++i) points[done + i] = {s[i], t[i]};
   }
 }
 

@@ -12,4 +12,7 @@ namespace lightproof {
 void fill_points(const RandomStream& stream, std::uint64_t first, std::span<double> s,
                  std::span<double> t);
 
+/// The same, point by point.
+void fill_points(const RandomStream& stream, std::uint64_t first, std::span<SquarePoint> points);
+
 }  // namespace lightproof

@@ -3,6 +3,8 @@
 #include <cassert>
 #include <variant>
 
+#include "lightproof/core/random_batch.h"
+#include "lightproof/samplers/batch.h"
 #include "lightproof/warp/lat_long.h"
 
 namespace lightproof {
@@ -20,10 +22,9 @@ std::uint32_t texel_index(int x, int y, Extent map) {
   return static_cast<std::uint32_t>(y * map.width + x);
 }
 
-Drawn from_environment(const BinarySearch& sampler, SquarePoint u) {
-  const TexelSample drawn = sampler.sample(u);
+Drawn from_environment(const TexelSample& drawn, Extent map) {
   return {direction_from_square(drawn.at), to_solid_angle(drawn.pdf, drawn.at).value, 0.0,
-          texel_index(drawn.x, drawn.y, sampler.table().extent())};
+          texel_index(drawn.x, drawn.y, map)};
 }
 
 /// With density 1/4pi: cos(theta) uniform, so the place on the map needs no inverse of a warp but
@@ -43,12 +44,11 @@ Drawn from_material(const Surface& surface, const ShadingPoint& at, SquarePoint 
 }  // namespace
 
 template <class Draw>
-void LightBatch::fill(const RandomStream& stream, std::uint64_t first, std::size_t count,
-                      const Draw& draw) {
+void LightBatch::fill(std::size_t count, const Draw& draw) {
   assert(count <= kCapacity);
   count_ = count;
   for (std::size_t i = 0; i < count; ++i) {
-    const Drawn drawn = draw(stream.point(first + i));
+    const Drawn drawn = draw(i);
     x_[i] = drawn.direction.x;
     y_[i] = drawn.direction.y;
     z_[i] = drawn.direction.z;
@@ -60,25 +60,24 @@ void LightBatch::fill(const RandomStream& stream, std::uint64_t first, std::size
 
 void LightBatch::draw(const Lighting& lighting, const ShadingPoint& at, const RandomStream& stream,
                       std::uint64_t first, std::size_t count) {
-  const EnvironmentLight& light = *lighting.light;
+  const Extent extent = lighting.light->map().radiance.extent();
   switch (lighting.strategy) {
     case Strategy::uniform:
-      return fill(stream, first, count, [extent = light.map().radiance.extent()](SquarePoint u) {
-        return from_sphere(extent, u);
-      });
+      fill_points(stream, first, std::span(points_).first(count));
+      return fill(count, [&](std::size_t i) { return from_sphere(extent, points_[i]); });
     case Strategy::material:
+      fill_points(stream, first, std::span(points_).first(count));
       return std::visit(
           [&](const auto& surface) {
-            fill(stream, first, count,
-                 [&](SquarePoint u) { return from_material(surface, at, u); });
+            fill(count, [&](std::size_t i) { return from_material(surface, at, points_[i]); });
           },
           lighting.material);
     case Strategy::environment_a:
     case Strategy::environment_b: {
       const bool a = lighting.strategy == Strategy::environment_a;
-      const BinarySearch& sampler = light.sampler(a ? Weighting::A : Weighting::B);
-      return fill(stream, first, count,
-                  [&](SquarePoint u) { return from_environment(sampler, u); });
+      sample(lighting.light->sampler(a ? Weighting::A : Weighting::B), stream, first,
+             std::span(samples_).first(count));
+      return fill(count, [&](std::size_t i) { return from_environment(samples_[i], extent); });
     }
   }
 }

@@ -54,13 +54,15 @@ class LightBatch {
   };
 
   template <class Draw>
-  void fill(const RandomStream& stream, std::uint64_t first, std::size_t count, const Draw& draw);
+  void fill(std::size_t count, const Draw& draw);
   Direction direction(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
   /// The texels that the directions meet.
   void locate(Extent map);
 
   // Of every sample. Apart, so that loops over them run on vectors.
   std::size_t count_ = 0;
+  std::array<SquarePoint, kCapacity> points_;   ///< unless the map draws
+  std::array<TexelSample, kCapacity> samples_;  ///< if it does
   std::array<double, kCapacity> x_;
   std::array<double, kCapacity> y_;
   std::array<double, kCapacity> z_;

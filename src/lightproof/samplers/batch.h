@@ -19,9 +19,10 @@ namespace lightproof {
 class BatchPoints {
  public:
   explicit BatchPoints(std::span<const SquarePoint> given)
-      : given_(given), stream_("", 0), first_(0) {}
+      : given_(given), stream_("", 0), first_(0), is_stream_(false) {}
   /// The points first, first + 1, … of the stream.
-  BatchPoints(const RandomStream& stream, std::uint64_t first) : stream_(stream), first_(first) {}
+  BatchPoints(const RandomStream& stream, std::uint64_t first)
+      : stream_(stream), first_(first), is_stream_(true) {}
 
   /// Writes the points `from`, from + 1, … of the batch: s[i] and t[i]. Both spans are of one size.
   void fill(std::size_t from, std::span<double> s, std::span<double> t) const;
@@ -30,6 +31,7 @@ class BatchPoints {
   std::span<const SquarePoint> given_;
   RandomStream stream_;
   std::uint64_t first_;
+  bool is_stream_;
 };
 
 /// Samples between two fetches of points.

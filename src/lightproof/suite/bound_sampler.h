@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/sampler.h"
 
 namespace lightproof {
@@ -22,7 +23,7 @@ template <EnvSampler Sampler>
 BoundSampler bound(Sampler sampler) {
   auto shared = std::make_shared<const Sampler>(std::move(sampler));
   return {[shared](std::span<const SquarePoint> points, std::span<TexelSample> samples) {
-            for (std::size_t i = 0; i < points.size(); ++i) samples[i] = shared->sample(points[i]);
+            lightproof::sample(*shared, points, samples);
           },
           [shared](SquarePoint at) { return shared->pdf(at); }};
 }

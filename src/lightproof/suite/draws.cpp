@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "lightproof/core/parallel.h"
+#include "lightproof/core/random_batch.h"
 #include "lightproof/stats/uniformity.h"
 #include "lightproof/warp/lat_long.h"
 
@@ -119,9 +120,7 @@ Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
   Batch batch;
   for (std::uint64_t done = 0; done < range.count; done += kBatch) {
     batch.size = static_cast<std::size_t>(std::min(kBatch, range.count - done));
-    for (std::size_t i = 0; i < batch.size; ++i) {
-      batch.points[i] = stream.point(range.first + done + i);
-    }
+    fill_points(stream, range.first + done, std::span(batch.points).first(batch.size));
     sampler.sample(std::span(batch.points).first(batch.size),
                    std::span(batch.samples).first(batch.size));
     count_lost(part.draws, batch, expectation.masses.extent());

@@ -1,0 +1,156 @@
+// Batches give the texels of the scalar interface, whatever vectors the processor has.
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "lightproof/core/large_pages.h"
+#include "lightproof/core/random_batch.h"
+#include "lightproof/image/synthetic.h"
+#include "lightproof/samplers/batch.h"
+#include "lightproof/samplers/registry.h"
+
+namespace lightproof {
+namespace {
+
+/// Calls body(name) once for every kind of vector that this processor has, with only that one; the
+/// last is none at all.
+template <class Body>
+void for_each_kind_of_vector(const Body& body) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(target);
+    body(hwy::TargetName(target));
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+/// Off by the rounding of vectorised sines and arc sines, some 10^-15 of a quarter circle each, in
+/// a map of up to 64 rows.
+constexpr double kPlaceError = 1e-12;
+
+void expect_same(const TexelSample& batch, const TexelSample& scalar, Weighting weighting) {
+  // What is published may be not a number.
+  if (std::memcmp(&batch, &scalar, sizeof batch) == 0) return;
+  EXPECT_EQ(batch.x, scalar.x);
+  EXPECT_EQ(batch.y, scalar.y);
+  EXPECT_EQ(batch.at.s, scalar.at.s);
+  if (weighting == Weighting::A) {
+    EXPECT_EQ(batch.at.t, scalar.at.t);
+    EXPECT_EQ(batch.pdf.value, scalar.pdf.value);
+  } else {
+    EXPECT_NEAR(batch.at.t, scalar.at.t, kPlaceError);
+    // Near a pole the density follows the sine, and so the rounding of t.
+    const double near = std::min(scalar.at.t, 1.0 - scalar.at.t);
+    EXPECT_NEAR(batch.pdf.value, scalar.pdf.value, scalar.pdf.value * kPlaceError * (1 + 1 / near));
+  }
+}
+
+/// Uniform points, and those at the ends of the square and of low resolution.
+std::vector<SquarePoint> test_points(std::size_t count) {
+  const RandomStream stream("batch", 1);
+  std::vector<SquarePoint> points = {{0.0, 0.0},
+                                     {std::nextafter(1.0, 0.0), std::nextafter(1.0, 0.0)},
+                                     {0.0, std::nextafter(1.0, 0.0)},
+                                     {std::nextafter(1.0, 0.0), 0.0},
+                                     {0.5, 0.5},
+                                     {0.25, 0.75}};
+  while (points.size() < count) points.push_back(stream.point(points.size()));
+  points.resize(count);
+  return points;
+}
+
+class Batch : public testing::TestWithParam<SamplerInfo> {};
+
+TEST_P(Batch, GivesTheTexelsOfTheScalarInterface) {
+  for (const std::string_view map_name : {"sun-sky", "one-texel", "gradient", "checker"}) {
+    for (const Extent extent : {Extent{64, 32}, Extent{37, 19}, Extent{1, 1}, Extent{100, 3}}) {
+      const EnvironmentMap map = make_synthetic_map(map_name, extent);
+      for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+        const AnySampler any = GetParam().make(map, weighting);
+        std::visit(
+            [&](const auto& sampler) {
+              const std::vector<SquarePoint> points = test_points(1500);
+              for_each_kind_of_vector([&](const char* vectors) {
+                SCOPED_TRACE(testing::Message() << map_name << " " << extent.width << " x "
+                                                << extent.height << ", " << vectors);
+                std::vector<TexelSample> samples(points.size());
+                sample(sampler, points, samples);
+                for (std::size_t i = 0; i < points.size() && !HasFailure(); ++i) {
+                  expect_same(samples[i], sampler.sample(points[i]), weighting);
+                }
+              });
+            },
+            any);
+      }
+    }
+  }
+}
+
+TEST_P(Batch, OfAnySizeWritesNothingElse) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
+  const AnySampler any = GetParam().make(map, Weighting::A);
+  std::visit(
+      [&](const auto& sampler) {
+        const std::vector<SquarePoint> points = test_points(600);
+        for (const std::size_t size : {0U, 1U, 7U, 8U, 9U, 255U, 256U, 257U, 520U}) {
+          const TexelSample untouched{{-1.0, -1.0}, -1, -1, {-1.0}};
+          std::vector<TexelSample> samples(size + 9, untouched);
+          sample(sampler, std::span(points).first(size), std::span(samples).first(size));
+          for (std::size_t i = 0; i < size; ++i) {
+            expect_same(samples[i], sampler.sample(points[i]), Weighting::A);
+          }
+          for (std::size_t i = size; i < samples.size(); ++i) EXPECT_EQ(samples[i].x, -1);
+        }
+      },
+      any);
+}
+
+TEST_P(Batch, OfAStreamDrawsAtItsPoints) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
+  const AnySampler any = GetParam().make(map, Weighting::A);
+  const RandomStream stream("batch of a stream", 3);
+  const std::uint64_t first = (std::uint64_t{1} << 32U) - 300;  // both words of the counter change
+  std::visit(
+      [&](const auto& sampler) {
+        std::vector<TexelSample> samples(700);
+        sample(sampler, stream, first, samples);
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+          expect_same(samples[i], sampler.sample(stream.point(first + i)), Weighting::A);
+        }
+      },
+      any);
+}
+
+INSTANTIATE_TEST_SUITE_P(Samplers, Batch, testing::ValuesIn(samplers().begin(), samplers().end()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(RandomBatch, IsTheStreamsPointsBitForBit) {
+  const RandomStream stream("random batch", 7, (std::uint64_t{5} << 32U) + 3);
+  const std::uint64_t first = (std::uint64_t{1} << 32U) - 100;
+  for_each_kind_of_vector([&](const char* vectors) {
+    for (const std::size_t size : {0U, 1U, 8U, 13U, 300U}) {
+      std::vector<SquarePoint> points(size);
+      fill_points(stream, first, points);
+      for (std::size_t i = 0; i < size; ++i) {
+        EXPECT_EQ(points[i], stream.point(first + i)) << vectors << ", point " << i;
+      }
+    }
+  });
+}
+
+TEST(LargePages, HoldTablesOfAnySize) {
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, kLargePage - 1, kLargePage,
+                                 kLargePage + 1, 3 * kLargePage}) {
+    TableVector<unsigned char> table(size, 7);
+    const std::size_t alignment = size >= kLargePage ? kLargePage : 64;
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(table.data()) % alignment, 0U);
+    for (const unsigned char byte : table) ASSERT_EQ(byte, 7);
+  }
+}
+
+}  // namespace
+}  // namespace lightproof
