@@ -25,7 +25,8 @@ std::uint64_t read(std::span<const std::uint16_t> numbers, std::size_t texels,
   std::uint64_t sum = 0;
   for (std::size_t done = 0; done < count; done += kBatchBlock) {
     points.fill(done, s, t);
-    for (const double u : s) sum += numbers[static_cast<std::size_t>(u * static_cast<double>(texels))];
+    for (const double u : s)
+      sum += numbers[static_cast<std::size_t>(u * static_cast<double>(texels))];
   }
   return sum;
 }

@@ -1,22 +1,33 @@
-// Time to draw one sample: sample/<sampler>/<map>/<W>x<H>/random.
+// Time to draw one sample: sample/<sampler>/<map>/<W>x<H>/<order>.
 //
-// Random points are generated beforehand, so many that the parts of a table that they reach do not
-// stay in the cache; the sampler's type is static inside the loop. Before a sampler is timed, its
-// samples must fit the bins of reference/, and if it searches sums, its texels must be those of
-// reference/.
+//   random   one at a time, at random points that were generated beforehand, so many that the parts
+//            of a table that they reach do not stay in the cache
+//   batch    the same points, in batches
+//   fused    in batches, random numbers included; with the ratios to the yardsticks, both measured
+//            beside it: times_baseline, how many times as fast as std::upper_bound, and
+//            share_of_limit, of the speed of a bare gather from a table of two bytes a texel
+//
+// The sampler's type is static inside the loop. Before a sampler is timed, its samples must fit the
+// bins of reference/, and if it searches sums, its texels must be those of reference/.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdlib>
+#include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "bench/bare_gather.h"
 #include "bench/registration.h"
+#include "bench/upper_bound_baseline.h"
+#include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
 #include "lightproof/image/synthetic.h"
+#include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/registry.h"
 #include "lightproof/stats/goodness_of_fit.h"
 #include "lightproof/suite/draws.h"
@@ -27,8 +38,8 @@ namespace lightproof::bench {
 namespace {
 
 constexpr std::string_view kMap = "sun-sky";
-constexpr std::array<Extent, 5> kExtents = {
-    {{512, 256}, {1024, 512}, {2048, 1024}, {4096, 2048}, {8192, 4096}}};
+constexpr std::array<Extent, 7> kExtents = {
+    {{256, 128}, {512, 256}, {1024, 512}, {2048, 1024}, {4096, 2048}, {8192, 4096}, {16384, 8192}}};
 constexpr std::size_t kPoints = std::size_t{1} << 21U;
 constexpr std::size_t kFitted = std::size_t{1} << 16U;
 /// Far beyond chance: the points are the same in every run.
@@ -73,18 +84,24 @@ std::span<const SquarePoint> random_points() {
   return points;
 }
 
-/// Of the law that all samplers of this grey draw.
-const std::vector<double>& bins_of(Extent extent, TargetDensity target) {
-  static std::vector<double> bins;
+/// The law that all samplers of this grey draw.
+struct Law {
+  Grid<double> masses;
+  std::vector<double> bins;
+};
+
+const Law& law_of(Extent extent, TargetDensity target) {
+  static Law law;
   static Extent made_for;
   static double made_with = 0.0;
   if (!(made_for == extent) || made_with != target.grey.red) {
-    const Grid<double> masses = reference::texel_masses(map_of(extent), target);
-    bins = serpentine(reference::bin_masses(masses, target.weighting, kGateBins));
+    law = {};
+    law.masses = reference::texel_masses(map_of(extent), target);
+    law.bins = serpentine(reference::bin_masses(law.masses, target.weighting, kGateBins));
     made_for = extent;
     made_with = target.grey.red;
   }
-  return bins;
+  return law;
 }
 
 /// How far from a knot of the exact distribution a sampler may take the neighbour: the rounding of
@@ -105,7 +122,7 @@ std::string misfit(const Sampler& sampler, const SamplerInfo& info, Extent exten
     ++counts(cell_of(sample.at.s, kGateBins.width), cell_of(sample.at.t, kGateBins.height));
   }
   const double log10_p =
-      cressie_read(serpentine(counts), bins_of(extent, info.target(kWeighting)), count).log10_p;
+      cressie_read(serpentine(counts), law_of(extent, info.target(kWeighting)).bins, count).log10_p;
   return log10_p > kLeastLog10P
              ? ""
              : fmt::format("the samples do not fit the map: log10 p = {}", log10_p);
@@ -127,11 +144,32 @@ std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent
   return "";
 }
 
+/// The largest relative difference between the probability with which a texel is drawn, which is
+/// what the sampler says, and its share of the light. Of texels without light, which are drawn by
+/// none.
+template <class Sampler>
+double worst_texel_error(const Sampler& sampler, const Grid<double>& masses) {
+  const Extent extent = masses.extent();
+  const double texels = static_cast<double>(extent.count());
+  std::vector<double> worst(static_cast<std::size_t>(extent.height));
+  parallel_for(worst.size(), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < extent.width; ++x) {
+      if (!(masses(x, y) > 0.0)) continue;
+      const SquarePoint centre = {(x + 0.5) / extent.width, (y + 0.5) / extent.height};
+      const double drawn = sampler.pdf(centre).value / texels;
+      worst[row] = std::max(worst[row], std::abs(drawn / masses(x, y) - 1.0));
+    }
+  });
+  return *std::ranges::max_element(worst);
+}
+
 /// A sampler that was built and checked: once, though Google Benchmark runs a benchmark several
 /// times.
 struct Prepared {
   std::optional<AnySampler> sampler;
   double build_ms = 0.0;
+  double worst_texel_error = 0.0;
   std::string why_not;
 };
 
@@ -151,6 +189,8 @@ const Prepared& prepared(const SamplerInfo& info, Extent extent) {
       [&](const auto& sampler) {
         the_last.why_not = misfit(sampler, info, extent);
         if (the_last.why_not.empty()) the_last.why_not = disagreement(sampler, info, extent);
+        const Grid<double>& masses = law_of(extent, info.target(kWeighting)).masses;
+        the_last.worst_texel_error = worst_texel_error(sampler, masses);
       },
       *the_last.sampler);
   name = info.name;
@@ -158,28 +198,194 @@ const Prepared& prepared(const SamplerInfo& info, Extent extent) {
   return the_last;
 }
 
+/// Samples of one batch.
+constexpr std::size_t kBatch = 4096;
+
+using Clock = std::chrono::steady_clock;
+
+double nanoseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+}
+
+/// Calls draw(first) for every kBatch points of a stream, or of the pool, on and on.
+template <class Draw>
+void time_batches(benchmark::State& state, const Draw& draw) {
+  std::uint64_t first = 0;
+  for (int warm = 0; warm < 4; ++warm, first += kBatch) draw(first);
+  const auto start = Clock::now();
+  for (auto _ : state) {
+    draw(first);
+    first += kBatch;
+  }
+  const double samples = static_cast<double>(state.iterations()) * static_cast<double>(kBatch);
+  state.counters["ns_per_sample"] = nanoseconds_since(start) / samples;
+  state.SetItemsProcessed(static_cast<std::int64_t>(samples));
+}
+
 template <class Sampler>
-void time_sampler(benchmark::State& state, const Sampler& sampler) {
+void time_random(benchmark::State& state, const Sampler& sampler) {
   const std::span<const SquarePoint> points = random_points();
   for (std::size_t i = 0; i < 256; ++i) benchmark::DoNotOptimize(sampler.sample(points[i]));
   std::size_t next = 0;
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   for (auto _ : state) {
     const TexelSample sample = sampler.sample(points[next]);
     benchmark::DoNotOptimize(sample);
     next = (next + 1) % kPoints;
   }
-  const std::chrono::duration<double, std::nano> elapsed = std::chrono::steady_clock::now() - start;
+  state.counters["ns_per_sample"] =
+      nanoseconds_since(start) / static_cast<double>(state.iterations());
   state.SetItemsProcessed(state.iterations());
-  state.counters["ns_per_sample"] = elapsed.count() / static_cast<double>(state.iterations());
-  state.counters["table_bytes"] = static_cast<double>(sampler.table_bytes());
 }
 
-void sample_benchmark(benchmark::State& state, const SamplerInfo& info, Extent extent) {
+template <class Sampler>
+void time_batch(benchmark::State& state, const Sampler& sampler) {
+  std::vector<TexelSample> samples(kBatch);
+  time_batches(state, [&](std::uint64_t first) {
+    sample(sampler, random_points().subspan(first % kPoints, kBatch), samples);
+    benchmark::DoNotOptimize(samples.data());
+    benchmark::ClobberMemory();
+  });
+}
+
+const RandomStream& fused_stream() {
+  static const RandomStream stream("bench/fused", 1);
+  return stream;
+}
+
+/// What speed is compared with, of the last size that was asked for.
+struct Yardsticks {
+  UpperBoundBaseline baseline;
+  BareGather limit;
+};
+
+const Yardsticks& yardsticks_of(Extent extent) {
+  static std::unique_ptr<Yardsticks> the_last;
+  static Extent size;
+  if (!the_last || !(size == extent)) {
+    the_last.reset();
+    the_last.reset(new Yardsticks{UpperBoundBaseline(map_of(extent)), BareGather(extent)});
+    size = extent;
+  }
+  return *the_last;
+}
+
+/// Median of five slices of 5 ms.
+template <class Draw>
+double ns_per_sample(const Draw& draw) {
+  static std::uint64_t first = 0;
+  std::array<double, 5> slices;
+  draw(first);
+  for (double& slice : slices) {
+    const auto start = Clock::now();
+    double samples = 0.0;
+    do {
+      draw(first += kBatch);
+      samples += kBatch;
+    } while (nanoseconds_since(start) < 5e6);
+    slice = nanoseconds_since(start) / samples;
+  }
+  std::ranges::nth_element(slices, slices.begin() + 2);
+  return slices[2];
+}
+
+auto draw_baseline(const UpperBoundBaseline& baseline) {
+  return [&baseline, samples = std::vector<TexelSample>(kBatch)](std::uint64_t first) mutable {
+    for (std::size_t i = 0; i < kBatch; ++i) {
+      samples[i] = baseline.sample(fused_stream().point(first + i));
+    }
+    benchmark::DoNotOptimize(samples.data());
+    benchmark::ClobberMemory();
+  };
+}
+
+auto draw_limit(const BareGather& limit) {
+  return [&limit](std::uint64_t first) {
+    benchmark::DoNotOptimize(limit.read(fused_stream(), first, kBatch));
+  };
+}
+
+template <class Sampler>
+void time_fused(benchmark::State& state, const Sampler& sampler, Extent extent) {
+  const Yardsticks& yardsticks = yardsticks_of(extent);
+  std::vector<TexelSample> samples(kBatch);
+  auto baseline = draw_baseline(yardsticks.baseline);
+  const double before[] = {ns_per_sample(std::ref(baseline)),
+                           ns_per_sample(draw_limit(yardsticks.limit))};
+  time_batches(state, [&](std::uint64_t first) {
+    sample(sampler, fused_stream(), first, samples);
+    benchmark::DoNotOptimize(samples.data());
+    benchmark::ClobberMemory();
+  });
+  // On either side of the sampler's time, so that a change of the machine's speed cancels.
+  const double base = 0.5 * (before[0] + ns_per_sample(std::ref(baseline)));
+  const double limit = 0.5 * (before[1] + ns_per_sample(draw_limit(yardsticks.limit)));
+  const double time = state.counters["ns_per_sample"];
+  state.counters["times_baseline"] = base / time;
+  state.counters["share_of_limit"] = limit / time;
+}
+
+void set_table_counters(benchmark::State& state, std::size_t bytes, Extent extent) {
+  state.counters["table_bytes"] = static_cast<double>(bytes);
+  state.counters["bytes_per_texel"] =
+      static_cast<double>(bytes) / static_cast<double>(extent.count());
+}
+
+enum class Order { random, batch, fused };
+
+void sample_benchmark(benchmark::State& state, const SamplerInfo& info, Extent extent,
+                      Order order) {
   const Prepared& subject = prepared(info, extent);
   if (!subject.why_not.empty()) return disagree(state, subject.why_not);
-  std::visit([&](const auto& sampler) { time_sampler(state, sampler); }, *subject.sampler);
+  std::visit(
+      [&](const auto& sampler) {
+        switch (order) {
+          case Order::random:
+            time_random(state, sampler);
+            break;
+          case Order::batch:
+            time_batch(state, sampler);
+            break;
+          case Order::fused:
+            time_fused(state, sampler, extent);
+        }
+        set_table_counters(state, sampler.table_bytes(), extent);
+      },
+      *subject.sampler);
   state.counters["build_ms"] = subject.build_ms;
+  if (!info.known_defects) state.counters["worst_texel_error"] = subject.worst_texel_error;
+}
+
+void baseline_benchmark(benchmark::State& state, Extent extent) {
+  const UpperBoundBaseline& baseline = yardsticks_of(extent).baseline;
+  auto draw = draw_baseline(baseline);
+  time_batches(state, std::ref(draw));
+  set_table_counters(state, baseline.table_bytes(), extent);
+  const Grid<double>& masses = law_of(extent, {kWeighting, kRec709}).masses;
+  state.counters["worst_texel_error"] = worst_texel_error(baseline, masses);
+}
+
+void limit_benchmark(benchmark::State& state, Extent extent) {
+  const BareGather& limit = yardsticks_of(extent).limit;
+  time_batches(state, draw_limit(limit));
+  set_table_counters(state, limit.table_bytes(), extent);
+}
+
+void register_sampler(const SamplerInfo& info, Extent extent, Order order,
+                      std::string_view order_name) {
+  const std::string name = fmt::format("sample/{}/{}/{}x{}/{}", info.name, kMap, extent.width,
+                                       extent.height, order_name);
+  benchmark::RegisterBenchmark(name.c_str(), [&info, extent, order](benchmark::State& state) {
+    sample_benchmark(state, info, extent, order);
+  });
+}
+
+void register_yardstick(std::string_view yardstick, Extent extent,
+                        void (*run)(benchmark::State&, Extent)) {
+  const std::string name =
+      fmt::format("sample/{}/{}/{}x{}/fused", yardstick, kMap, extent.width, extent.height);
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [extent, run](benchmark::State& state) { run(state, extent); });
 }
 
 }  // namespace
@@ -193,12 +399,12 @@ bool any_disagreement() { return disagreed; }
 
 void register_sample_benchmarks() {
   for (const Extent extent : kExtents) {
+    register_yardstick("upper_bound_baseline", extent, baseline_benchmark);
+    register_yardstick("bare_gather_2B", extent, limit_benchmark);
     for (const SamplerInfo& info : samplers()) {
-      const std::string name =
-          fmt::format("sample/{}/{}/{}x{}/random", info.name, kMap, extent.width, extent.height);
-      benchmark::RegisterBenchmark(name.c_str(), [&info, extent](benchmark::State& state) {
-        sample_benchmark(state, info, extent);
-      });
+      register_sampler(info, extent, Order::random, "random");
+      register_sampler(info, extent, Order::batch, "batch");
+      register_sampler(info, extent, Order::fused, "fused");
     }
   }
 }

@@ -15,8 +15,7 @@ namespace lightproof::bench {
 class UpperBoundBaseline {
  public:
   /// Of the grey values, as a density over (s,t).
-  explicit UpperBoundBaseline(const EnvironmentMap& map)
-      : extent_(map.radiance.extent()) {
+  explicit UpperBoundBaseline(const EnvironmentMap& map) : extent_(map.radiance.extent()) {
     std::vector<double> row_weights;
     for (int y = 0; y < extent_.height; ++y) {
       std::vector<double> weights;
@@ -29,14 +28,23 @@ class UpperBoundBaseline {
   TexelSample sample(SquarePoint u) const {
     const Found row = find(rows_, u.t);
     const auto stride = static_cast<std::size_t>(extent_.width) + 1;
-    const Found column =
-        find(std::span(columns_).subspan(static_cast<std::size_t>(row.index) * stride, stride), u.s);
+    const Found column = find(
+        std::span(columns_).subspan(static_cast<std::size_t>(row.index) * stride, stride), u.s);
     const double texels = static_cast<double>(extent_.count());
     return {{(column.index + column.fraction) / extent_.width,
              (row.index + row.fraction) / extent_.height},
             column.index,
             row.index,
             {row.mass * column.mass * texels}};
+  }
+
+  PerSquare pdf(SquarePoint at) const {
+    const auto x = static_cast<std::size_t>(cell_of(at.s, extent_.width));
+    const auto y = static_cast<std::size_t>(cell_of(at.t, extent_.height));
+    const std::size_t column = y * (static_cast<std::size_t>(extent_.width) + 1) + x;
+    const auto row_mass = static_cast<double>(rows_[y + 1] - rows_[y]);
+    const auto column_mass = static_cast<double>(columns_[column + 1] - columns_[column]);
+    return {row_mass * column_mass * static_cast<double>(extent_.count())};
   }
 
   std::size_t table_bytes() const { return (rows_.size() + columns_.size()) * sizeof(float); }
