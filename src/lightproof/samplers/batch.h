@@ -35,7 +35,7 @@ class BatchPoints {
 };
 
 /// Samples between two fetches of points.
-inline constexpr std::size_t kBatchBlock = 256;
+inline constexpr std::size_t kBatchBlock = 128;
 
 /// Draws samples[i] at the i-th of these points.
 template <EnvSampler Sampler>
