@@ -8,6 +8,7 @@
 int main(int argc, char** argv) {
   try {
     lightproof::bench::register_sample_benchmarks();
+    lightproof::bench::register_build_benchmarks();
     lightproof::bench::register_render_benchmarks();
     lightproof::bench::register_histogram_benchmarks();
     benchmark::Initialize(&argc, argv);

@@ -84,6 +84,34 @@ TEST(VarianceChart, HasBarsOfTwoStandardErrors) {
   EXPECT_DOUBLE_EQ(rows[0]["high"], 1.16);
 }
 
+std::vector<std::string> names_of(const std::vector<TableRecord>& records) {
+  std::vector<std::string> names;
+  for (const TableRecord& record : records) names.push_back(record.sampler);
+  return names;
+}
+
+TEST(ParetoFront, IsWhatNothingBeatsInBothCosts) {
+  const std::vector<TableRecord> tables = testing::made_up_study().tables;
+  EXPECT_EQ(
+      names_of(pareto_front(tables, &TableRecord::worst_texel_error, &TableRecord::ns_per_sample)),
+      (std::vector<std::string>{"alias", "packed_alias"}));
+  EXPECT_EQ(
+      names_of(pareto_front(tables, &TableRecord::bytes_per_texel, &TableRecord::ns_per_sample)),
+      (std::vector<std::string>{"alias_lines", "guide_table", "packed_alias"}));
+}
+
+TEST(TableChart, MarksTheFrontOfTheLargestMap) {
+  std::vector<TableRecord> tables = testing::made_up_study().tables;
+  tables.push_back({"small map", "sun-sky", {4, 2}, 1.0, 1.0, 1e-9, 99.0, 1.0});
+  const json rows =
+      json::parse(table_chart(tables, &TableRecord::bytes_per_texel, "size"))["data"]["values"];
+  ASSERT_EQ(rows.size(), 6U);
+  EXPECT_EQ(rows[0]["sampler"], "upper_bound_baseline");
+  EXPECT_EQ(rows[0]["front"], "beaten in both");
+  EXPECT_EQ(rows[3]["sampler"], "alias_lines");
+  EXPECT_EQ(rows[3]["front"], "on the front");
+}
+
 TEST(ThroughputChart, NamesTheStepsOfASample) {
   const StudyResult study = testing::made_up_study();
   const json rows = json::parse(throughput_chart(study.throughput, study.growth))["data"]["values"];

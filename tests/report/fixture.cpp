@@ -163,6 +163,16 @@ std::vector<ThroughputRecord> throughput() {
   return records;
 }
 
+std::vector<TableRecord> tables() {
+  const Extent extent = {2048, 1024};
+  return {{"upper_bound_baseline", "sun-sky", extent, 136.0, 4.0, 1.5e-2, 0.0, 0.0},
+          {"binary_search", "sun-sky", extent, 64.0, 4.0, 3.1e-4, 2.3, 0.034},
+          {"guide_table", "sun-sky", extent, 6.8, 6.0, 3.1e-4, 21.0, 0.32},
+          {"alias_lines", "sun-sky", extent, 8.7, 2.5, 4.9e-4, 16.7, 0.25},
+          {"alias", "sun-sky", extent, 4.4, 16.0, 5.5e-8, 32.6, 0.5},
+          {"packed_alias", "sun-sky", extent, 4.2, 8.0, 4.7e-4, 35.2, 0.52}};
+}
+
 double shade(double x, double y) {
   const double r2 = x * x + y * y;
   return r2 > 1.0 ? 0.0 : 0.2 + std::max(0.0, 0.6 * std::sqrt(1.0 - r2) + 0.5 * y - 0.4 * x);
@@ -257,6 +267,7 @@ StudyResult made_up_study() {
     }
   }
   study.throughput = throughput();
+  study.tables = tables();
   const Extent small = {256, 128};
   const Extent large = {4096, 2048};
   study.growth = {{"binary_search", "log2 S + log2 T", 0.161, 0.004, {{small, 1.5}, {large, 1.9}}},

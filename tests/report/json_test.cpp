@@ -72,7 +72,7 @@ TEST(StudyJson, HoldsEverythingButThePixels) {
   const json document = json::parse(study_json(testing::made_up_study()));
   EXPECT_EQ(keys_of(document),
             (std::set<std::string>{"version", "machine", "seed", "maps", "gate", "convergence",
-                                   "throughput", "growth", "renders", "self_test"}));
+                                   "throughput", "growth", "tables", "renders", "self_test"}));
   EXPECT_EQ(document["maps"].size(), 8U);
   EXPECT_EQ(document["maps"][0]["size"], (json{64, 32}));
   EXPECT_EQ(document["maps"][0]["drawn"].size(), 300U);

@@ -32,7 +32,7 @@ std::string run(std::string_view name, double ns) {
 TEST_F(ThroughputFile, MedianAndRangeOfRepetitions) {
   const std::string name = "sample/binary_search/sun-sky/512x256/random";
   write("{\"benchmarks\":[" + run(name, 30) + "," + run(name, 50) + "," + run(name, 35) + "]}");
-  const auto records = read_throughput(file_);
+  const auto records = read_throughput(file_).samplers;
   ASSERT_EQ(records.size(), 1U);
   EXPECT_EQ(records[0].sampler, "binary_search");
   EXPECT_EQ(records[0].map, "sun-sky");
@@ -44,11 +44,30 @@ TEST_F(ThroughputFile, MedianAndRangeOfRepetitions) {
   EXPECT_EQ(records[0].build_ms, 2.5);
 }
 
+TEST_F(ThroughputFile, TablesAreTheFusedRowsThatKnowTheirError) {
+  const std::string counters =
+      ",\"bytes_per_texel\":8,\"worst_texel_error\":0.25,\"times_baseline\":30,"
+      "\"share_of_limit\":0.5}";
+  std::string fused = run("sample/alias/sun-sky/512x256/fused", 4);
+  fused.replace(fused.size() - 1, 1, counters);
+  write("{\"benchmarks\":[" + run("sample/a/b/4x2/random", 9) + "," + fused + "," +
+        run("sample/bare_gather_2B/sun-sky/512x256/fused", 2) + "]}");
+  const auto tables = read_throughput(file_).tables;
+  ASSERT_EQ(tables.size(), 1U);
+  EXPECT_EQ(tables[0].sampler, "alias");
+  EXPECT_EQ(tables[0].extent, (Extent{512, 256}));
+  EXPECT_EQ(tables[0].ns_per_sample, 4.0);
+  EXPECT_EQ(tables[0].bytes_per_texel, 8.0);
+  EXPECT_EQ(tables[0].worst_texel_error, 0.25);
+  EXPECT_EQ(tables[0].times_baseline, 30.0);
+  EXPECT_EQ(tables[0].share_of_limit, 0.5);
+}
+
 TEST_F(ThroughputFile, OtherBenchmarksAndAggregatesAreLeftOut) {
   write("{\"benchmarks\":[" + run("render/uniform/lambert/64x32/plane", 9) + "," +
         run("sample/a/b/4x2/random", 9) +
         ",{\"run_name\":\"sample/a/b/2x1/random\",\"run_type\":\"aggregate\"}]}");
-  const auto records = read_throughput(file_);
+  const auto records = read_throughput(file_).samplers;
   ASSERT_EQ(records.size(), 1U);
   EXPECT_EQ(records[0].extent, (Extent{4, 2}));
 }

@@ -71,15 +71,16 @@ int run(Options options) {
   options.study.benchmarks = benchmark_program(options);
   options.study.gate.seed = options.study.convergence.seed = options.study.renders.seed =
       options.seed;
-  std::vector<ThroughputRecord> throughput;
+  Throughput throughput;
   if (!options.throughput.empty()) throughput = read_throughput(options.throughput);
   std::vector<EnvironmentMap> maps = load_maps(options);
   prepare(folder);
   StudyResult result = run_study(std::move(maps), options.study, progress_bar(options));
   result.gate.input_options = input_options(options);
-  if (!throughput.empty()) {
-    result.growth = growth_of(throughput);
-    result.throughput = std::move(throughput);
+  if (!throughput.samplers.empty()) {
+    result.growth = growth_of(throughput.samplers);
+    result.throughput = std::move(throughput.samplers);
+    result.tables = std::move(throughput.tables);
   }
   if (!options.no_self_test) {
     result.self_test = run_self_test(options.seed, progress_bar(options));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lightproof/report/pareto.h"
 #include "lightproof/suite/results.h"
 
 namespace lightproof {
@@ -38,5 +39,10 @@ std::string variance_chart(const std::vector<ConvergenceRecord>& records);
 /// ns per sample against the size of the map, log-log, with the number of steps in the legend.
 std::string throughput_chart(const std::vector<ThroughputRecord>& records,
                              const std::vector<GrowthFit>& growth);
+
+/// ns per sample against another cost of the tables on the largest map, log-log, with the Pareto
+/// front. Records without such a cost are left out.
+std::string table_chart(const std::vector<TableRecord>& records, TableCost cost,
+                        const std::string& cost_name);
 
 }  // namespace lightproof

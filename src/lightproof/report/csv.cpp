@@ -101,6 +101,17 @@ std::string throughput_csv(const std::vector<ThroughputRecord>& records) {
   return csv;
 }
 
+std::string tables_csv(const std::vector<TableRecord>& records) {
+  std::string csv =
+      "sampler,map,width,height,ns_per_sample,bytes_per_texel,worst_texel_error,times_baseline,"
+      "share_of_limit\n";
+  for (const TableRecord& r : records) {
+    csv += row(r.sampler, r.map, r.extent.width, r.extent.height, r.ns_per_sample,
+               r.bytes_per_texel, r.worst_texel_error, r.times_baseline, r.share_of_limit);
+  }
+  return csv;
+}
+
 std::string renders_csv(const std::vector<RenderRecord>& records) {
   std::string csv = "map,receiver,material,strategy,samples,width,height,rmse,seconds,picture\n";
   const std::vector<std::string> stems = render_stems(records);

@@ -16,6 +16,7 @@ std::string convergence_csv(const std::vector<ConvergenceRecord>& records);
 /// One row per record: variance, its prediction, their ratio, and the fitted slope.
 std::string variance_csv(const std::vector<ConvergenceRecord>& records);
 std::string throughput_csv(const std::vector<ThroughputRecord>& records);
+std::string tables_csv(const std::vector<TableRecord>& records);
 std::string renders_csv(const std::vector<RenderRecord>& records);
 /// One row per mutant and test that rejects it.
 std::string mutants_csv(const std::vector<KillRecord>& mutants);

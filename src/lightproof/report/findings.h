@@ -3,8 +3,10 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "lightproof/report/pareto.h"
 #include "lightproof/suite/results.h"
 
 namespace lightproof {
@@ -43,6 +45,11 @@ StepRange step_range(const GrowthFit& fit);
 
 /// How many steps each sampler takes, and whether they stay as fast as the map grows.
 std::string growth_finding(const std::vector<GrowthFit>& growth);
+
+/// Which tables are beaten by none in speed and in another cost, on the largest map. `records` is
+/// not empty; `better` is the comparative: "more accurate".
+std::string tables_finding(const std::vector<TableRecord>& records, TableCost cost,
+                           std::string_view better);
 
 /// How many times fewer samples the best strategy needs than the worst for the same error, by the
 /// predicted variances. `records` is not empty.

@@ -45,6 +45,7 @@ Json json_of(const GateResult& gate, const Rejection& r);
 Json json_of(const ConvergencePoint& p);
 Json json_of(const ConvergenceRecord& r);
 Json json_of(const ThroughputRecord& r);
+Json json_of(const TableRecord& r);
 Json json_of(const GrowthFit& fit);
 Json json_of(const StepTime& step);
 Json json_of(const MapRecord& r);
@@ -115,6 +116,17 @@ Json json_of(const ThroughputRecord& r) {
           {"ns_high", number(r.ns_high)},
           {"table_bytes", number(r.table_bytes)},
           {"build_ms", number(r.build_ms)}};
+}
+
+Json json_of(const TableRecord& r) {
+  return {{"sampler", r.sampler},
+          {"map", r.map},
+          {"size", json_of(r.extent)},
+          {"ns_per_sample", number(r.ns_per_sample)},
+          {"bytes_per_texel", number(r.bytes_per_texel)},
+          {"worst_texel_error", number(r.worst_texel_error)},
+          {"times_baseline", number(r.times_baseline)},
+          {"share_of_limit", number(r.share_of_limit)}};
 }
 
 Json json_of(const GrowthFit& fit) {
@@ -240,6 +252,7 @@ std::string study_json(const StudyResult& study) {
                   {"convergence", list_of(study.convergence)},
                   {"throughput", list_of(study.throughput)},
                   {"growth", list_of(study.growth)},
+                  {"tables", list_of(study.tables)},
                   {"renders", renders_json(study.renders)}});
 }
 

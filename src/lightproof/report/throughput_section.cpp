@@ -49,6 +49,47 @@ std::string growth_table(const std::vector<GrowthFit>& growth) {
          table.html();
 }
 
+std::string tables_table(const std::vector<TableRecord>& records) {
+  Table table("Tables", {"Sampler", "Map", "Size", "ns per sample", "Times std::upper_bound",
+                         "Share of the limit", "Bytes per texel", "Worst texel's error"});
+  for (const TableRecord& r : records) {
+    table.add({text_cell(r.sampler),
+               text_cell(r.map),
+               {extent_text(r.extent), "number", ""},
+               number_cell(r.ns_per_sample),
+               r.times_baseline > 0.0 ? number_cell(r.times_baseline) : text_cell("1"),
+               r.share_of_limit > 0.0 ? number_cell(r.share_of_limit) : text_cell("\u2013"),
+               number_cell(r.bytes_per_texel),
+               number_cell(r.worst_texel_error)});
+  }
+  return table.html();
+}
+
+constexpr std::string_view kTablesNote =
+    "Batches of samples on one thread, random numbers included. The error is the largest relative "
+    "difference between the probability with which a texel is drawn and its share of the light; "
+    "samplers return the probability that they draw with, so the error costs variance, no bias. "
+    "Along the dashed line nothing gets better in one way without getting worse in the other.";
+
+/// The costs that are held against speed.
+std::string table_figures(const std::vector<TableRecord>& tables) {
+  if (tables.empty()) return "";
+  const Chart accuracy = {
+      "table-accuracy-chart",
+      tables_finding(tables, &TableRecord::worst_texel_error, "more accurate"),
+      "Time per sample of each sampler against the worst relative error of a texel",
+      std::string(kTablesNote),
+      table_chart(tables, &TableRecord::worst_texel_error, "worst texel's relative error (log)")};
+  const Chart memory = {
+      "table-memory-chart", tables_finding(tables, &TableRecord::bytes_per_texel, "smaller"),
+      "Time per sample of each sampler against the bytes of its table per texel", "",
+      table_chart(tables, &TableRecord::bytes_per_texel,
+                  "size of the table (bytes per texel, log)")};
+  return chart_figure(accuracy, "") +
+         chart_figure(memory, collapsible("Tables as a table", tables_table(tables)) +
+                                  download_link("tables.csv", tables_csv(tables)));
+}
+
 constexpr std::string_view kNote =
     "Median over the benchmark's repetitions; bars reach from the fastest to the slowest. "
     "The legend gives how many steps a sample takes on a map of width S and height T.";
@@ -70,7 +111,7 @@ std::string throughput_section(const StudyResult& study) {
          chart_figure(chart, collapsible("Times as a table", throughput_table(study.throughput)) +
                                  download_link("throughput.csv", throughput_csv(study.throughput)) +
                                  growth_table(study.growth)) +
-         "</section>\n";
+         table_figures(study.tables) + "</section>\n";
 }
 
 }  // namespace lightproof

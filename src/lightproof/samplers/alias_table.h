@@ -19,8 +19,9 @@ namespace lightproof {
 
 /// Masses in units of 2^-bits / weights.size(), that is with a sum of weights.size() << bits.
 /// Positive weights of less than one unit get one; the others share the rest in proportion, to
-/// within one unit, but for the largest, which takes what the rounding of the sum leaves. All
-/// weights are >= 0 and one is positive; (weights.size() << bits) < 2^62.
+/// within one unit, but for the largest, which takes what the rounding of the sum leaves: less than
+/// a unit of every 65536 cells. In parallel, the same for any number of threads. All weights are >=
+/// 0 and one is positive; (weights.size() << bits) < 2^62.
 std::vector<std::uint64_t> whole_masses(std::span<const double> weights, unsigned bits);
 
 /// A column of the method: its own cell below the threshold, else the alias.

@@ -106,6 +106,19 @@ struct ThroughputRecord {
   double build_ms = 0.0;
 };
 
+/// What a sampler's table costs and how well it keeps the map: a row of the benchmark of batches
+/// with fused random numbers.
+struct TableRecord {
+  std::string sampler;
+  std::string map;
+  Extent extent;
+  double ns_per_sample = 0.0;  ///< median over repetitions
+  double bytes_per_texel = 0.0;
+  double worst_texel_error = 0.0;  ///< relative, of the probability that a texel is drawn with
+  double times_baseline = 0.0;     ///< as fast as std::upper_bound; 0 if it is that itself
+  double share_of_limit = 0.0;     ///< of the speed of a bare gather; likewise
+};
+
 /// What one step of a search takes on maps of one size.
 struct StepTime {
   Extent extent;
@@ -215,6 +228,7 @@ struct StudyResult {
   std::vector<ConvergenceRecord> convergence;
   std::vector<ThroughputRecord> throughput;
   std::vector<GrowthFit> growth;
+  std::vector<TableRecord> tables;
   std::vector<RenderRecord> renders;
   std::optional<SelfTestResult> self_test = {};
 };

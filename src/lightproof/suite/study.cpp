@@ -71,7 +71,9 @@ StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& opti
   const double gate_start = options.benchmarks ? 0.1 : 0.0;
   if (options.benchmarks) {
     if (progress) progress("throughput", 0.0);
-    result.throughput = measure_throughput(*options.benchmarks);
+    Throughput measured = measure_throughput(*options.benchmarks);
+    result.throughput = std::move(measured.samplers);
+    result.tables = std::move(measured.tables);
     result.growth = growth_of(result.throughput);
   }
   for (const EnvironmentMap& map : maps) {

@@ -19,7 +19,8 @@ namespace lightproof {
 namespace fs = std::filesystem;
 namespace {
 
-/// Of one sample at a time; larger maps take minutes to prepare.
+/// One sample at a time on maps of all but the largest size, which take minutes to prepare; tables
+/// on one.
 constexpr std::string_view kFilter = "^sample/[^/]*/[^/]*/(512|1024|2048|4096|8192)x[0-9]*/random$";
 
 double median(std::vector<double> values) {
@@ -44,6 +45,12 @@ int side_of(const std::string& digits) {
   return side;
 }
 
+double median_of(const std::vector<nlohmann::json>& runs, const char* counter) {
+  std::vector<double> values;
+  for (const auto& run : runs) values.push_back(run.at(counter).get<double>());
+  return median(std::move(values));
+}
+
 ThroughputRecord summarise(const std::smatch& name, const std::vector<nlohmann::json>& runs) {
   std::vector<double> times;
   for (const auto& run : runs) times.push_back(run.at("ns_per_sample").get<double>());
@@ -56,6 +63,18 @@ ThroughputRecord summarise(const std::smatch& name, const std::vector<nlohmann::
           *high,
           runs.front().at("table_bytes").get<double>(),
           runs.front().at("build_ms").get<double>()};
+}
+
+TableRecord table_of(const std::smatch& name, const std::vector<nlohmann::json>& runs) {
+  const bool has_ratios = runs.front().contains("times_baseline");
+  return {name[1],
+          name[2],
+          {side_of(name[3]), side_of(name[4])},
+          median_of(runs, "ns_per_sample"),
+          median_of(runs, "bytes_per_texel"),
+          median_of(runs, "worst_texel_error"),
+          has_ratios ? median_of(runs, "times_baseline") : 0.0,
+          has_ratios ? median_of(runs, "share_of_limit") : 0.0};
 }
 
 /// Throws InputError for a benchmark that reports an error: a sampler that fails its check must
@@ -74,20 +93,25 @@ std::vector<Group> groups_of(const nlohmann::json& document) {
   return groups;
 }
 
-std::vector<ThroughputRecord> records_of(const nlohmann::json& document) {
-  static const std::regex pattern("sample/([^/]+)/([^/]+)/(\\d+)x(\\d+)/random");
-  std::vector<ThroughputRecord> records;
+Throughput records_of(const nlohmann::json& document) {
+  static const std::regex pattern("sample/([^/]+)/([^/]+)/(\\d+)x(\\d+)/(random|fused)");
+  Throughput records;
   for (const auto& [name, runs] : groups_of(document)) {
     std::smatch match;
-    if (std::regex_match(name, match, pattern)) records.push_back(summarise(match, runs));
+    if (!std::regex_match(name, match, pattern)) continue;
+    if (match[5] == "random") {
+      records.samplers.push_back(summarise(match, runs));
+    } else if (runs.front().contains("worst_texel_error")) {
+      records.tables.push_back(table_of(match, runs));
+    }
   }
-  if (records.empty()) throw InputError("no benchmark is called sample/…/random");
+  if (records.samplers.empty()) throw InputError("no benchmark is called sample/…/random");
   return records;
 }
 
 }  // namespace
 
-std::vector<ThroughputRecord> measure_throughput(const fs::path& program) {
+Throughput measure_throughput(const fs::path& program) {
   const TemporaryFolder folder;
   const fs::path file = folder / "throughput.json";
   run_child(program, {"--benchmark_filter=" + std::string(kFilter),
@@ -96,7 +120,7 @@ std::vector<ThroughputRecord> measure_throughput(const fs::path& program) {
   return read_throughput(file);
 }
 
-std::vector<ThroughputRecord> read_throughput(const fs::path& file) {
+Throughput read_throughput(const fs::path& file) {
   std::ifstream in(file);
   if (!in) throw InputError(fmt::format("{}: cannot be read", file.string()));
   try {

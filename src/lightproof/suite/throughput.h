@@ -9,13 +9,19 @@
 
 namespace lightproof {
 
+struct Throughput {
+  std::vector<ThroughputRecord> samplers;
+  std::vector<TableRecord> tables;
+};
+
 /// Runs the benchmark program over `sample/` and reads what it measured. Throws InputError if it
 /// cannot be started or fails, Interrupted if it was interrupted.
-std::vector<ThroughputRecord> measure_throughput(const std::filesystem::path& program);
+Throughput measure_throughput(const std::filesystem::path& program);
 
-/// The rows named sample/<sampler>/<map>/<W>x<H>/random of such a file, medians over repetitions.
-/// Throws InputError naming the file if it is not Google Benchmark's JSON.
-std::vector<ThroughputRecord> read_throughput(const std::filesystem::path& file);
+/// The rows named sample/<sampler>/<map>/<W>x<H>/random of such a file, medians over repetitions,
+/// and those of the order `fused` that say what a texel's error is. Throws InputError naming the
+/// file if it is not Google Benchmark's JSON, or has none of the first.
+Throughput read_throughput(const std::filesystem::path& file);
 
 /// How each sampler's time grows with S + T.
 std::vector<GrowthFit> growth_of(std::span<const ThroughputRecord> records);

@@ -1,0 +1,101 @@
+// Time to build a sampler of a map: build/<sampler>/<map>/<W>x<H>/<threads>.
+//
+// Beside them, on one thread, what they are compared with: build/copy_of_map/…, the map copied into
+// memory that is there already, and build/vose_baseline/…, the usual build of an alias table from
+// grey values. Counter: build_ms.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/registration.h"
+#include "bench/vose_baseline.h"
+#include "lightproof/core/parallel.h"
+#include "lightproof/image/synthetic.h"
+#include "lightproof/samplers/registry.h"
+
+namespace lightproof::bench {
+namespace {
+
+constexpr std::string_view kMap = "sun-sky";
+constexpr std::array<Extent, 7> kExtents = {
+    {{256, 128}, {512, 256}, {1024, 512}, {2048, 1024}, {4096, 2048}, {8192, 4096}, {16384, 8192}}};
+
+/// Benchmarks of one size follow each other, so one map at a time is enough.
+const EnvironmentMap& map_of(Extent extent) {
+  static EnvironmentMap map;
+  if (!(map.radiance.extent() == extent)) {
+    map = {};
+    map = make_synthetic_map(kMap, extent);
+  }
+  return map;
+}
+
+template <class Build>
+void time_builds(benchmark::State& state, const Build& build) {
+  const auto start = std::chrono::steady_clock::now();
+  for (auto _ : state) build();
+  const std::chrono::duration<double, std::milli> elapsed =
+      std::chrono::steady_clock::now() - start;
+  state.counters["build_ms"] = elapsed.count() / static_cast<double>(state.iterations());
+}
+
+void copy_benchmark(benchmark::State& state, Extent extent) {
+  const std::span<const Rgb> texels = map_of(extent).radiance.values();
+  std::vector<Rgb> copy(texels.size());
+  time_builds(state, [&] {
+    std::ranges::copy(texels, copy.begin());
+    benchmark::DoNotOptimize(copy.data());
+    benchmark::ClobberMemory();
+  });
+}
+
+void vose_benchmark(benchmark::State& state, Extent extent) {
+  std::vector<float> weights;
+  for (const Rgb rgb : map_of(extent).radiance.values()) {
+    weights.push_back(static_cast<float>(luminance(rgb, kRec709)));
+  }
+  time_builds(state, [&] { benchmark::DoNotOptimize(build_vose(weights)); });
+}
+
+void sampler_benchmark(benchmark::State& state, const SamplerInfo& info, Extent extent,
+                       int threads) {
+  const EnvironmentMap& map = map_of(extent);
+  const ThreadLimit limit(threads);
+  time_builds(state, [&] { benchmark::DoNotOptimize(info.make(map, Weighting::A)); });
+}
+
+template <class Run>
+void register_build(std::string_view subject, Extent extent, std::string_view threads,
+                    const Run& run) {
+  const std::string name =
+      fmt::format("build/{}/{}/{}x{}/{}", subject, kMap, extent.width, extent.height, threads);
+  benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
+}  // namespace
+
+void register_build_benchmarks() {
+  for (const Extent extent : kExtents) {
+    register_build("copy_of_map", extent, "one-thread",
+                   [extent](benchmark::State& state) { copy_benchmark(state, extent); });
+    register_build("vose_baseline", extent, "one-thread",
+                   [extent](benchmark::State& state) { vose_benchmark(state, extent); });
+    for (const SamplerInfo& info : samplers()) {
+      register_build(info.name, extent, "one-thread", [&info, extent](benchmark::State& state) {
+        sampler_benchmark(state, info, extent, 1);
+      });
+      register_build(info.name, extent, "all-threads", [&info, extent](benchmark::State& state) {
+        sampler_benchmark(state, info, extent, 0);
+      });
+    }
+  }
+}
+
+}  // namespace lightproof::bench
