@@ -12,8 +12,7 @@
 #include "lightproof/samplers/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace lightproof::bench {
-namespace HWY_NAMESPACE {
+namespace lightproof::bench::HWY_NAMESPACE {
 namespace {
 
 #if HWY_TARGET == HWY_SCALAR
@@ -78,8 +77,7 @@ std::uint64_t read(std::span<const std::uint16_t> numbers, std::size_t texels,
 #endif
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lightproof::bench
+}  // namespace lightproof::bench::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

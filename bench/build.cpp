@@ -71,30 +71,50 @@ void sampler_benchmark(benchmark::State& state, const SamplerInfo& info, Extent 
   time_builds(state, [&] { benchmark::DoNotOptimize(info.make(map, Weighting::A)); });
 }
 
-template <class Run>
-void register_build(std::string_view subject, Extent extent, std::string_view threads,
-                    const Run& run) {
-  const std::string name =
-      fmt::format("build/{}/{}/{}x{}/{}", subject, kMap, extent.width, extent.height, threads);
-  benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond)->UseRealTime();
+struct Threads {
+  std::string_view name;
+  int count;  ///< 0: all
+};
+constexpr std::array<Threads, 2> kThreads = {{{"one-thread", 1}, {"all-threads", 0}}};
+
+struct Yardstick {
+  std::string_view name;
+  void (*run)(benchmark::State&, Extent);
+};
+constexpr std::array<Yardstick, 2> kYardsticks = {
+    {{"copy_of_map", copy_benchmark}, {"vose_baseline", vose_benchmark}}};
+
+std::string name_of(std::string_view subject, Extent extent, std::string_view threads) {
+  return fmt::format("build/{}/{}/{}x{}/{}", subject, kMap, extent.width, extent.height, threads);
+}
+
+void register_samplers(Extent extent) {
+  for (const SamplerInfo& info : samplers()) {
+    for (const Threads& threads : kThreads) {
+      const std::string name = name_of(info.name, extent, threads.name);
+      benchmark::RegisterBenchmark(name.c_str(),
+                                   [&info, extent, &threads](benchmark::State& state) {
+                                     sampler_benchmark(state, info, extent, threads.count);
+                                   })
+          ->Unit(benchmark::kMillisecond)
+          ->UseRealTime();
+    }
+  }
 }
 
 }  // namespace
 
 void register_build_benchmarks() {
   for (const Extent extent : kExtents) {
-    register_build("copy_of_map", extent, "one-thread",
-                   [extent](benchmark::State& state) { copy_benchmark(state, extent); });
-    register_build("vose_baseline", extent, "one-thread",
-                   [extent](benchmark::State& state) { vose_benchmark(state, extent); });
-    for (const SamplerInfo& info : samplers()) {
-      register_build(info.name, extent, "one-thread", [&info, extent](benchmark::State& state) {
-        sampler_benchmark(state, info, extent, 1);
-      });
-      register_build(info.name, extent, "all-threads", [&info, extent](benchmark::State& state) {
-        sampler_benchmark(state, info, extent, 0);
-      });
+    for (const Yardstick& yardstick : kYardsticks) {
+      const std::string name = name_of(yardstick.name, extent, "one-thread");
+      benchmark::RegisterBenchmark(
+          name.c_str(),
+          [&yardstick, extent](benchmark::State& state) { yardstick.run(state, extent); })
+          ->Unit(benchmark::kMillisecond)
+          ->UseRealTime();
     }
+    register_samplers(extent);
   }
 }
 

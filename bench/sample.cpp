@@ -255,6 +255,8 @@ const RandomStream& fused_stream() {
 
 /// What speed is compared with, of the last size that was asked for.
 struct Yardsticks {
+  explicit Yardsticks(Extent extent) : baseline(map_of(extent)), limit(extent) {}
+
   UpperBoundBaseline baseline;
   BareGather limit;
 };
@@ -264,7 +266,7 @@ const Yardsticks& yardsticks_of(Extent extent) {
   static Extent size;
   if (!the_last || !(size == extent)) {
     the_last.reset();
-    the_last.reset(new Yardsticks{UpperBoundBaseline(map_of(extent)), BareGather(extent)});
+    the_last = std::make_unique<Yardsticks>(extent);
     size = extent;
   }
   return *the_last;
@@ -371,21 +373,34 @@ void limit_benchmark(benchmark::State& state, Extent extent) {
   set_table_counters(state, limit.table_bytes(), extent);
 }
 
-void register_sampler(const SamplerInfo& info, Extent extent, Order order,
-                      std::string_view order_name) {
-  const std::string name = fmt::format("sample/{}/{}/{}x{}/{}", info.name, kMap, extent.width,
-                                       extent.height, order_name);
-  benchmark::RegisterBenchmark(name.c_str(), [&info, extent, order](benchmark::State& state) {
-    sample_benchmark(state, info, extent, order);
-  });
+struct OrderInfo {
+  Order order;
+  std::string_view name;
+};
+constexpr std::array<OrderInfo, 3> kOrders = {
+    {{Order::random, "random"}, {Order::batch, "batch"}, {Order::fused, "fused"}}};
+
+struct YardstickInfo {
+  std::string_view name;
+  void (*run)(benchmark::State&, Extent);
+};
+constexpr std::array<YardstickInfo, 2> kYardsticks = {
+    {{"upper_bound_baseline", baseline_benchmark}, {"bare_gather_2B", limit_benchmark}}};
+
+std::string name_of(std::string_view sampler, Extent extent, std::string_view order) {
+  return fmt::format("sample/{}/{}/{}x{}/{}", sampler, kMap, extent.width, extent.height, order);
 }
 
-void register_yardstick(std::string_view yardstick, Extent extent,
-                        void (*run)(benchmark::State&, Extent)) {
-  const std::string name =
-      fmt::format("sample/{}/{}/{}x{}/fused", yardstick, kMap, extent.width, extent.height);
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [extent, run](benchmark::State& state) { run(state, extent); });
+void register_samplers(Extent extent) {
+  for (const SamplerInfo& info : samplers()) {
+    for (const auto& [order, order_name] : kOrders) {
+      const std::string name = name_of(info.name, extent, order_name);
+      benchmark::RegisterBenchmark(name.c_str(),
+                                   [&info, extent, order = order](benchmark::State& state) {
+                                     sample_benchmark(state, info, extent, order);
+                                   });
+    }
+  }
 }
 
 }  // namespace
@@ -399,13 +414,13 @@ bool any_disagreement() { return disagreed; }
 
 void register_sample_benchmarks() {
   for (const Extent extent : kExtents) {
-    register_yardstick("upper_bound_baseline", extent, baseline_benchmark);
-    register_yardstick("bare_gather_2B", extent, limit_benchmark);
-    for (const SamplerInfo& info : samplers()) {
-      register_sampler(info, extent, Order::random, "random");
-      register_sampler(info, extent, Order::batch, "batch");
-      register_sampler(info, extent, Order::fused, "fused");
+    for (const YardstickInfo& yardstick : kYardsticks) {
+      const std::string name = name_of(yardstick.name, extent, "fused");
+      benchmark::RegisterBenchmark(name.c_str(), [&yardstick, extent](benchmark::State& state) {
+        yardstick.run(state, extent);
+      });
     }
+    register_samplers(extent);
   }
 }
 

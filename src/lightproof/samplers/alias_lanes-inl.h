@@ -10,8 +10,7 @@
 #include "lightproof/samplers/alias_table_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace lightproof {
-namespace HWY_NAMESPACE {
+namespace lightproof::HWY_NAMESPACE {
 
 class AliasLanes {
  public:
@@ -41,8 +40,7 @@ class AliasLanes {
   LanePlaces places_;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lightproof
+}  // namespace lightproof::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // LIGHTPROOF_SAMPLERS_ALIAS_LANES_INL_H

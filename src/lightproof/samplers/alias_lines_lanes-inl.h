@@ -11,8 +11,7 @@
 #include "lightproof/samplers/cdf_lines_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace lightproof {
-namespace HWY_NAMESPACE {
+namespace lightproof::HWY_NAMESPACE {
 
 class AliasLinesLanes {
  public:
@@ -61,8 +60,7 @@ class AliasLinesLanes {
   double inverse_across_;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lightproof
+}  // namespace lightproof::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // LIGHTPROOF_SAMPLERS_ALIAS_LINES_LANES_INL_H

@@ -10,8 +10,7 @@
 #include "lightproof/samplers/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace lightproof {
-namespace HWY_NAMESPACE {
+namespace lightproof::HWY_NAMESPACE {
 
 class AliasTableLanes {
  public:
@@ -59,8 +58,7 @@ class AliasTableLanes {
   std::span<const AliasTable::Entry> entries_;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lightproof
+}  // namespace lightproof::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // LIGHTPROOF_SAMPLERS_ALIAS_TABLE_LANES_INL_H

@@ -10,8 +10,7 @@
 #include "lightproof/samplers/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace lightproof {
-namespace HWY_NAMESPACE {
+namespace lightproof::HWY_NAMESPACE {
 
 class CdfLinesLanes {
  public:
@@ -96,8 +95,7 @@ class CdfLinesLanes {
   CdfLines::View view_;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lightproof
+}  // namespace lightproof::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // LIGHTPROOF_SAMPLERS_CDF_LINES_LANES_INL_H

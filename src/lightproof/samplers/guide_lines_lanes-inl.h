@@ -11,8 +11,7 @@
 #include "lightproof/samplers/guide_table_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace lightproof {
-namespace HWY_NAMESPACE {
+namespace lightproof::HWY_NAMESPACE {
 
 class GuideLinesLanes {
  public:
@@ -63,8 +62,7 @@ class GuideLinesLanes {
   double across_;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lightproof
+}  // namespace lightproof::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // LIGHTPROOF_SAMPLERS_GUIDE_LINES_LANES_INL_H

@@ -10,8 +10,7 @@
 #include "lightproof/samplers/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace lightproof {
-namespace HWY_NAMESPACE {
+namespace lightproof::HWY_NAMESPACE {
 
 /// Finds a row and a column of a CdfTable.
 class GuidedLanes {
@@ -168,8 +167,7 @@ class GuideTableLanes {
   LanePlaces places_;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lightproof
+}  // namespace lightproof::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // LIGHTPROOF_SAMPLERS_GUIDE_TABLE_LANES_INL_H

@@ -22,8 +22,7 @@
 #include "lightproof/samplers/texel_places.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace lightproof {
-namespace HWY_NAMESPACE {
+namespace lightproof::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
@@ -211,8 +210,7 @@ std::size_t draw_vectors(Kernel&& kernel, const BatchPoints& points,
 
 #endif  // HWY_TARGET != HWY_SCALAR
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lightproof
+}  // namespace lightproof::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

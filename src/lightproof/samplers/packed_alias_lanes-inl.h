@@ -10,8 +10,7 @@
 #include "lightproof/samplers/packed_alias.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace lightproof {
-namespace HWY_NAMESPACE {
+namespace lightproof::HWY_NAMESPACE {
 
 class PackedAliasLanes {
  public:
@@ -81,8 +80,7 @@ class PackedAliasLanes {
   LanePlaces places_;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace lightproof
+}  // namespace lightproof::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // LIGHTPROOF_SAMPLERS_PACKED_ALIAS_LANES_INL_H
