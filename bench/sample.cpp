@@ -73,16 +73,15 @@ std::span<const SquarePoint> random_points() {
   return points;
 }
 
-/// Of the law that all samplers of this grey draw.
+/// Of the law that all samplers of this target draw.
 const std::vector<double>& bins_of(Extent extent, TargetDensity target) {
   static std::vector<double> bins;
   static Extent made_for;
-  static double made_with = 0.0;
-  if (!(made_for == extent) || made_with != target.grey.red) {
-    const Grid<double> masses = reference::texel_masses(map_of(extent), target);
-    bins = serpentine(reference::bin_masses(masses, target.weighting, kGateBins));
+  static TargetDensity made_with = {};
+  if (!(made_for == extent) || !(made_with == target)) {
+    bins = serpentine(reference::bin_masses(map_of(extent), target, kGateBins));
     made_for = extent;
-    made_with = target.grey.red;
+    made_with = target;
   }
   return bins;
 }
@@ -111,10 +110,12 @@ std::string misfit(const Sampler& sampler, const SamplerInfo& info, Extent exten
              : fmt::format("the samples do not fit the map: log10 p = {}", log10_p);
 }
 
-/// An explanation if a texel is not the reference's; empty if all are.
+/// An explanation if a texel is not the reference's; empty if all are. The reference draws whole
+/// texels: it says nothing of a look-up that interpolates.
 template <class Sampler>
 std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent extent) {
-  if (info.resolution == 0.0) return "";  // it searches no sums
+  const bool sums_texels = info.resolution != 0.0 && info.lookup == Lookup::nearest;
+  if (!sums_texels) return "";
   const auto& reference = reference_of(extent, info.target(kWeighting));
   const double tolerance = knot_tolerance(info, extent);
   for (const SquarePoint u : random_points().first(256)) {
