@@ -15,7 +15,7 @@ namespace {
 constexpr double kWidestPiece = 1.0 / 64.0;
 
 /// Gauss-Legendre on [0,1], n = 3 (Abramowitz & Stegun 25.4.29): over 1/64 of the square exact to
-/// 1e-15 for the product of a linear function and sin(pi t).
+/// 1e-14 for the product of a linear function and sin(pi t).
 constexpr std::array<double, 3> kPlaces = {0.11270166537925831, 0.5, 0.88729833462074169};
 constexpr std::array<double, 3> kWeights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 

@@ -128,8 +128,9 @@ double mean_over_light(const Quarter& quarter, double from, double to, const Wei
   constexpr std::array<double, 3> kPlaces = {0.11270166537925831, 0.5, 0.88729833462074169};
   constexpr std::array<double, 3> kWeights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
   const auto changes = [&](const std::array<double, 2>& ends) {
-    const auto [least, most] = std::minmax(between(ends, from), between(ends, to));
-    return most > kMostChange * least;
+    const double a = between(ends, from);
+    const double b = between(ends, to);
+    return std::max(a, b) > kMostChange * std::min(a, b);
   };
   const bool wide = (to - from) * std::abs(quarter.height) > 1.0 / 64.0;
   if (wide || changes(quarter.near) || changes(quarter.far)) {
