@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -244,8 +245,8 @@ TEST_P(BilinearOnMaps, PdfIsTheInterpolatedGreyOverItsIntegral) {
     for (std::uint64_t i = 0; i < 2000; ++i) {
       const SquarePoint at = stream.point(i);
       const double exact = density(at) / total;
-      const int column = static_cast<int>(at.s * extent.width + 0.5);
-      const int row = static_cast<int>(at.t * extent.height + 0.5);
+      const int column = static_cast<int>(std::round(at.s * extent.width));
+      const int row = static_cast<int>(std::round(at.t * extent.height));
       double mass = 0.0;
       for (int y = std::max(0, 2 * row - 1); y <= std::min(2 * row, 2 * extent.height - 1); ++y) {
         for (int x = std::max(0, 2 * column - 1); x <= std::min(2 * column, 2 * extent.width - 1);

@@ -3,7 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
+#include <memory>
 
 #include "lightproof/image/synthetic.h"
 #include "lightproof/suite/gate.h"

@@ -14,12 +14,7 @@ double between(double low, double high, double share) { return low + (high - low
 
 /// The patch that a coordinate lies in: those of index 0 and `count` are halves.
 int patch_of(double coordinate, int count) {
-  return std::clamp(static_cast<int>(coordinate * count + 0.5), 0, count);
-}
-
-/// How far from one centre to the next: 0 in the centre of texel index - 1, 1 in that of `index`.
-double way_between_centres(double coordinate, int index, int count) {
-  return std::clamp(coordinate * count + 0.5 - index, 0.0, 1.0);
+  return std::clamp(static_cast<int>(std::floor(coordinate * count + 0.5)), 0, count);
 }
 
 double inside(double share) { return std::clamp(share, kCellMargin, 1.0 - kCellMargin); }
@@ -105,25 +100,21 @@ TexelSample BilinearPatches::sample(int column, int row, double across, double a
   const Part in_t = part(row, height);
   const SquarePoint at = {(column - 0.5 + in_s.begin + in_s.length * p) / width,
                           (row - 0.5 + in_t.begin + in_t.length * q) / height};
-  return {at, cell_of(at.s, width), cell_of(at.t, height), pdf(column, row, mass, at)};
+  return {at, cell_of(at.s, width), cell_of(at.t, height), density(corner, column, row, mass, at)};
 }
 
 int BilinearPatches::column_of(double s) const { return patch_of(s, texels().width); }
 
 int BilinearPatches::row_of(double t) const { return patch_of(t, texels().height); }
 
-PerSquare BilinearPatches::pdf(int column, int row, double mass, SquarePoint at) const {
+PerSquare BilinearPatches::density(const Corners& corners, int column, int row, double mass,
+                                   SquarePoint at) const {
   const auto [width, height] = texels();
-  const int left = (column + width - 1) % width;
-  const int right = column % width;
-  const double across = way_between_centres(at.s, column, width);
-  const double along = way_between_centres(at.t, row, height);
-  const auto grey = [&](int y) {
-    return between(static_cast<double>(grey_(left, y)), static_cast<double>(grey_(right, y)),
-                   across);
-  };
-  const double here = between(grey(std::max(row - 1, 0)), grey(std::min(row, height - 1)), along);
-  const double density = mass / integral(corners(column, row), column, row) * here;
+  const double p = share_of_part(at.s * width + 0.5 - column, part(column, width));
+  const double q = share_of_part(at.t * height + 0.5 - row, part(row, height));
+  const double grey = between(between(corners.grey[0][0], corners.grey[0][1], p),
+                              between(corners.grey[1][0], corners.grey[1][1], p), q);
+  const double density = mass / integral(corners, column, row) * grey;
   return weighting_ == Weighting::A ? PerSquare{density} : to_square(PerSteradian{density}, at);
 }
 

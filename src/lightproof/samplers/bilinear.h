@@ -10,6 +10,7 @@
 // adds variance wherever texels differ.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -37,7 +38,9 @@ class BilinearPatches {
   int column_of(double s) const;
   int row_of(double t) const;
   /// Density over the square at `at`, in this patch of probability `mass`.
-  PerSquare pdf(int column, int row, double mass, SquarePoint at) const;
+  PerSquare pdf(int column, int row, double mass, SquarePoint at) const {
+    return density(corners(column, row), column, row, mass, at);
+  }
   std::size_t bytes() const {
     return grey_.values().size() * sizeof(float) + rows_.size() * sizeof(Row);
   }
@@ -50,6 +53,10 @@ class BilinearPatches {
   };
   static Part part(int index, int count) {
     return {index == 0 ? 0.5 : 0.0, index == 0 || index == count ? 0.5 : 1.0};
+  }
+  /// Of the part that is covered, for the way from one centre to the next.
+  static double share_of_part(double way, Part covered) {
+    return std::clamp((way - covered.begin) / covered.length, 0.0, 1.0);
   }
   /// ∫ of the weight of a place over the t of a row: of what falls from 1 to 0, and of what rises
   /// from 0 to 1.
@@ -75,6 +82,8 @@ class BilinearPatches {
     return part(column, texels().width).length / texels().width *
            (corners.low() * weight.falling + corners.high() * weight.rising);
   }
+  /// What is returned with a sample and what is asked for later are the same bits.
+  PerSquare density(const Corners& corners, int column, int row, double mass, SquarePoint at) const;
   double place_along(const Corners& corners, int row, double share) const;
 
   Weighting weighting_;
