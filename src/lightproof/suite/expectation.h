@@ -54,7 +54,9 @@ struct Expectation {
 };
 
 /// The effect w that rounding of all sums to steps of 1 would have on average: it grows in
-/// proportion to the step. Cells are pooled until `samples` expect 25 of each.
+/// proportion to the step. Cells are pooled until `samples` expect 25 of each. Of an interpolated
+/// map the sums are of patches, of which a texel has a quarter of four: where it is smooth, the
+/// effect is half as large.
 struct RoundingEffect {
   double texels = 0.0;
   double rows = 0.0;
