@@ -84,7 +84,7 @@ std::span<const SquarePoint> random_points() {
   return points;
 }
 
-/// The law that all samplers of this grey draw.
+/// The law that all samplers of this target draw.
 struct Law {
   Grid<double> masses;
   std::vector<double> bins;
@@ -93,13 +93,13 @@ struct Law {
 const Law& law_of(Extent extent, TargetDensity target) {
   static Law law;
   static Extent made_for;
-  static double made_with = 0.0;
-  if (!(made_for == extent) || made_with != target.grey.red) {
+  static TargetDensity made_with = {};
+  if (!(made_for == extent) || !(made_with == target)) {
     law = {};
     law.masses = reference::texel_masses(map_of(extent), target);
-    law.bins = serpentine(reference::bin_masses(law.masses, target.weighting, kGateBins));
+    law.bins = serpentine(reference::bin_masses(map_of(extent), target, kGateBins));
     made_for = extent;
-    made_with = target.grey.red;
+    made_with = target;
   }
   return law;
 }
@@ -128,10 +128,12 @@ std::string misfit(const Sampler& sampler, const SamplerInfo& info, Extent exten
              : fmt::format("the samples do not fit the map: log10 p = {}", log10_p);
 }
 
-/// An explanation if a texel is not the reference's; empty if all are.
+/// An explanation if a texel is not the reference's; empty if all are. The reference draws whole
+/// texels: it says nothing of a look-up that interpolates.
 template <class Sampler>
 std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent extent) {
-  if (info.resolution == 0.0) return "";  // it searches no sums
+  const bool sums_texels = info.resolution != 0.0 && info.lookup == Lookup::nearest;
+  if (!sums_texels) return "";
   const auto& reference = reference_of(extent, info.target(kWeighting));
   const double tolerance = knot_tolerance(info, extent);
   for (const SquarePoint u : random_points().first(256)) {
@@ -164,6 +166,11 @@ double worst_texel_error(const Sampler& sampler, const Grid<double>& masses) {
   return *std::ranges::max_element(worst);
 }
 
+/// With the probability that it says, whole.
+bool draws_texels(const SamplerInfo& info) {
+  return !info.known_defects && info.lookup == Lookup::nearest;
+}
+
 /// A sampler that was built and checked: once, though Google Benchmark runs a benchmark several
 /// times.
 struct Prepared {
@@ -189,6 +196,7 @@ const Prepared& prepared(const SamplerInfo& info, Extent extent) {
       [&](const auto& sampler) {
         the_last.why_not = misfit(sampler, info, extent);
         if (the_last.why_not.empty()) the_last.why_not = disagreement(sampler, info, extent);
+        if (!draws_texels(info)) return;
         const Grid<double>& masses = law_of(extent, info.target(kWeighting)).masses;
         the_last.worst_texel_error = worst_texel_error(sampler, masses);
       },
@@ -355,7 +363,7 @@ void sample_benchmark(benchmark::State& state, const SamplerInfo& info, Extent e
       },
       *subject.sampler);
   state.counters["build_ms"] = subject.build_ms;
-  if (!info.known_defects) state.counters["worst_texel_error"] = subject.worst_texel_error;
+  if (draws_texels(info)) state.counters["worst_texel_error"] = subject.worst_texel_error;
 }
 
 void baseline_benchmark(benchmark::State& state, Extent extent) {

@@ -52,13 +52,14 @@ SphereQuadrature::Level SphereQuadrature::make_level(Extent cells) const {
     for (const GaussNode& node : kNodes) {
       const double t = (j + node.place) / rows;
       const double sine = sin_theta(t);
-      level.rows.push_back({sine, cos_theta(t), exact * node.weight * sine / rule});
+      level.rows.push_back({sine, cos_theta(t), exact * node.weight * sine / rule, t});
     }
   }
   for (int i = 0; i < columns; ++i) {
     for (const GaussNode& node : kNodes) {
+      const double s = (i + node.place) / columns;
       const double phi = kPi - 2.0 * kPi * (i + node.place) / columns;
-      level.columns.push_back({std::cos(phi), std::sin(phi), node.weight});
+      level.columns.push_back({std::cos(phi), std::sin(phi), node.weight, s});
     }
   }
   return level;

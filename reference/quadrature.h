@@ -17,6 +17,7 @@ struct Node {
   Direction direction;
   double sin_theta;
   double solid_angle;
+  SquarePoint at;
 };
 
 /// Nodes of the texels of one map size. The weights of a texel sum to its exact solid angle.
@@ -45,7 +46,8 @@ class SphereQuadrature {
         const Column& column = level.columns[static_cast<std::size_t>(x * level.nodes.width + i)];
         visit(Node{{row.sine * column.cosine, row.sine * column.sine, row.cosine},
                    row.sine,
-                   row.weight * column.weight});
+                   row.weight * column.weight,
+                   {column.s, row.t}});
       }
     }
   }
@@ -55,11 +57,13 @@ class SphereQuadrature {
     double sine;
     double cosine;
     double weight;  ///< solid angle of the cell, shared out by the row's nodes
+    double t;
   };
   struct Column {
     double cosine;
     double sine;
     double weight;  ///< share of the cell; a cell's sum to 1
+    double s;
   };
   struct Level {
     Extent nodes;  ///< of one texel

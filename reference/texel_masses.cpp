@@ -5,6 +5,7 @@
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/measure.h"
+#include "reference/bilinear_law.h"
 
 namespace lightproof::reference {
 namespace {
@@ -37,6 +38,7 @@ Grid<double> overlaps(int cells, int bins, const Height& height) {
 
 Grid<double> texel_masses(const EnvironmentMap& map, TargetDensity target) {
   const Extent extent = map.radiance.extent();
+  if (target.lookup == Lookup::bilinear) return bilinear_masses(map, target, extent);
   Grid<double> masses(extent);
   double total = 0.0;
   for (int y = 0; y < extent.height; ++y) {
@@ -73,6 +75,11 @@ Grid<double> bin_masses(const Grid<double>& texel_masses, Weighting weighting, E
     }
   }
   return masses;
+}
+
+Grid<double> bin_masses(const EnvironmentMap& map, TargetDensity target, Extent bins) {
+  if (target.lookup == Lookup::bilinear) return bilinear_masses(map, target, bins);
+  return bin_masses(texel_masses(map, target), target.weighting, bins);
 }
 
 std::vector<double> row_marginal(const Grid<double>& masses) {

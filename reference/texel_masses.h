@@ -15,6 +15,10 @@ Grid<double> texel_masses(const EnvironmentMap& map, TargetDensity target);
 /// texels and bins: linear in s; linear in t under A, in cos(theta) under B.
 Grid<double> bin_masses(const Grid<double>& texel_masses, Weighting weighting, Extent bins);
 
+/// The same of a map's own target density, whatever its look-up. Throws InputError if the map is
+/// black.
+Grid<double> bin_masses(const EnvironmentMap& map, TargetDensity target, Extent bins);
+
 /// Sums over columns: the marginal of the rows. And over rows.
 std::vector<double> row_marginal(const Grid<double>& masses);
 std::vector<double> column_marginal(const Grid<double>& masses);

@@ -28,9 +28,9 @@ inline double luminance(Rgb rgb, LuminanceWeights weights = kRec709) {
          weights.blue * static_cast<double>(rgb.b);
 }
 
-/// Radiance over all directions, constant inside each texel: column x covers
-/// s in [x/W, (x+1)/W), row y covers t in [y/H, (y+1)/H), in the `z-up` mapping
-/// s = 1/2 - phi/2pi, t = 1 - theta/pi. Every value is finite and not negative.
+/// Radiance over all directions, constant inside each texel unless a Lookup says that it is
+/// interpolated: column x covers s in [x/W, (x+1)/W), row y covers t in [y/H, (y+1)/H), in the
+/// `z-up` mapping s = 1/2 - phi/2pi, t = 1 - theta/pi. Every value is finite and not negative.
 struct EnvironmentMap {
   std::string name;
   Grid<Rgb> radiance;

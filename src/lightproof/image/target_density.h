@@ -15,10 +15,19 @@ constexpr const char* to_string(Weighting weighting) {
   return weighting == Weighting::A ? "A" : "B";
 }
 
-/// The declared density: every sampler is held against it by the reference.
+/// What the map is taken to be between the centres of its texels.
+enum class Lookup {
+  nearest,   ///< constant inside each texel
+  bilinear,  ///< interpolated between the four nearest centres: s wraps around, t is clamped
+};
+
+/// The declared density: every sampler is held against it by the reference. With a bilinear look-up
+/// it is in proportion to the interpolated grey, at every place: over (s,t) under A, over
+/// directions under B.
 struct TargetDensity {
   Weighting weighting;
   LuminanceWeights grey = kRec709;
+  Lookup lookup = Lookup::nearest;
   friend bool operator==(TargetDensity, TargetDensity) = default;
 };
 

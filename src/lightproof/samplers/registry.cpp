@@ -12,9 +12,9 @@
 namespace lightproof {
 namespace {
 
-template <class Sampler, const LuminanceWeights& kGrey>
+template <class Sampler, const LuminanceWeights& kGrey, Lookup kLookup = Lookup::nearest>
 AnySampler make(const EnvironmentMap& map, Weighting weighting) {
-  return Sampler(map, TargetDensity{weighting, kGrey});
+  return Sampler(map, TargetDensity{weighting, kGrey, kLookup});
 }
 
 double scanned(Extent map) { return map.width + map.height; }
@@ -22,7 +22,7 @@ double halved(Extent map) { return std::log2(map.width) + std::log2(map.height);
 double quartered(Extent map) { return std::log2(std::max(map.width, map.height)); }
 double looked_up(Extent /*map*/) { return 1.0; }
 
-constexpr std::array<SamplerInfo, 10> kSamplers = {{
+constexpr std::array<SamplerInfo, 11> kSamplers = {{
     {.name = "linear_scan_published",
      .source = "lecture \"Image-based Lighting\", GLSL listing",
      .growth = "S + T",
@@ -123,6 +123,17 @@ constexpr std::array<SamplerInfo, 10> kSamplers = {{
      .known_defects = false,
      .inverts_shared_cdf = false,
      .make = make<Hierarchical, kRec709>},
+    {.name = "bilinear",
+     .source = "the bilinear look-up itself: guide table to a patch between four centres, inverted",
+     .growth = "1",
+     .steps = looked_up,
+     .grey = kRec709,
+     .lookup = Lookup::bilinear,
+     .resolution = 0x1p-31,
+     .monotone = true,
+     .known_defects = false,
+     .inverts_shared_cdf = false,
+     .make = make<Bilinear, kRec709, Lookup::bilinear>},
 }};
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "lightproof/samplers/alias.h"
 #include "lightproof/samplers/alias_lines.h"
+#include "lightproof/samplers/bilinear.h"
 #include "lightproof/samplers/binary_search.h"
 #include "lightproof/samplers/eytzinger.h"
 #include "lightproof/samplers/guide_lines.h"
@@ -22,7 +23,7 @@ namespace lightproof {
 /// Visit once per batch, outside the loop.
 using AnySampler =
     std::variant<LinearScanPublished, LinearScan, BinarySearch, Eytzinger, GuideTable, GuideLines,
-                 Alias, PackedAlias, AliasLines, Hierarchical>;
+                 Alias, PackedAlias, AliasLines, Hierarchical, Bilinear>;
 
 struct SamplerInfo {
   std::string_view name;
@@ -30,6 +31,7 @@ struct SamplerInfo {
   std::string_view growth;  ///< steps of one sample on a map of S x T texels, up to a constant
   double (*steps)(Extent);  ///< the same as a function
   LuminanceWeights grey;    ///< the grey value that the sampler declares
+  Lookup lookup = Lookup::nearest;  ///< the look-up whose density it declares
   /// Step of its sums of rows and columns, and of the random numbers that it reads; 0 if it
   /// searches no such sums.
   double resolution;
@@ -39,7 +41,7 @@ struct SamplerInfo {
   /// The map must outlive the sampler. Throws InputError if it is black.
   AnySampler (*make)(const EnvironmentMap& map, Weighting weighting);
 
-  TargetDensity target(Weighting weighting) const { return {weighting, grey}; }
+  TargetDensity target(Weighting weighting) const { return {weighting, grey, lookup}; }
 };
 
 std::span<const SamplerInfo> samplers();

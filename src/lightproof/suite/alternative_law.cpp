@@ -39,6 +39,11 @@ double declared_row_weight(Extent extent, Weighting weighting, int y) {
 template <class Grey>
 Grid<double> with_grey(const DeclaredLaw& declared, const Grey& grey) {
   const Extent extent = declared.map->radiance.extent();
+  if (declared.target.lookup == Lookup::bilinear) {
+    EnvironmentMap other = {declared.map->name, declared.map->radiance};
+    for (Rgb& rgb : other.radiance.values()) rgb = Rgb(static_cast<float>(grey(rgb)));
+    return reference::texel_masses(other, declared.target);
+  }
   return weighted(
       extent, [&](int x, int y) { return grey(declared.map->radiance(x, y)); },
       [&](int y) { return declared_row_weight(extent, declared.target.weighting, y); });
@@ -47,6 +52,13 @@ Grid<double> with_grey(const DeclaredLaw& declared, const Grey& grey) {
 /// The declared law with another weight of the rows.
 template <class RowWeight>
 Grid<double> with_rows(const DeclaredLaw& declared, const RowWeight& weight) {
+  if (declared.target.lookup == Lookup::bilinear) {
+    TargetDensity target = declared.target;
+    target.weighting = Weighting::A;
+    const Grid<double> masses = reference::texel_masses(*declared.map, target);
+    return weighted(
+        masses.extent(), [&](int x, int y) { return masses(x, y); }, weight);
+  }
   return weighted(
       declared.map->radiance.extent(),
       [&](int x, int y) { return luminance(declared.map->radiance(x, y), declared.target.grey); },
@@ -68,6 +80,12 @@ Grid<double> moved(const DeclaredLaw& declared, const From& from) {
 Grid<double> other_weighting(const DeclaredLaw& declared) {
   TargetDensity target = declared.target;
   target.weighting = target.weighting == Weighting::A ? Weighting::B : Weighting::A;
+  return reference::texel_masses(*declared.map, target);
+}
+
+Grid<double> other_lookup(const DeclaredLaw& declared) {
+  TargetDensity target = declared.target;
+  target.lookup = target.lookup == Lookup::nearest ? Lookup::bilinear : Lookup::nearest;
   return reference::texel_masses(*declared.map, target);
 }
 
@@ -263,9 +281,11 @@ Grid<double> half_column(const DeclaredLaw& declared) {
   });
 }
 
-constexpr std::array<AlternativeLaw, 28> kLaws = {{
+constexpr std::array<AlternativeLaw, 29> kLaws = {{
     {"other-weighting", "a missing sin(theta) (or one too many): the other weighting",
      other_weighting},
+    {"other-lookup", "the other look-up: whole texels for interpolated ones, or the reverse",
+     other_lookup},
     {"sine-at-edge", "sin(theta) taken at the row's edge, y/H instead of (y+1/2)/H", sine_at_edge},
     {"sine-to-last-row", "sin(theta) taken at y/(H-1) instead of (y+1/2)/H", sine_to_last_row},
     {"sine-twice", "sin(theta) applied twice", sine_twice},

@@ -73,11 +73,11 @@ std::vector<TexelSample> samples_at(const BoundSampler& sampler,
 
 }  // namespace
 
-OwnDensity integrate_pdf(const BoundSampler& sampler, Extent map) {
+OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells) {
   // Rows higher than 1/64 of the square are split: the rule is then exact to 2e-9 for sin(theta).
-  const std::vector<double> across = edges(map.width, kGateBins.width);
+  const std::vector<double> across = edges(cells.width, kGateBins.width);
   const std::vector<double> along =
-      edges(map.height * std::max(1, 64 / map.height), kGateBins.height);
+      edges(cells.height * std::max(1, 64 / cells.height), kGateBins.height);
   const auto at = [&](std::size_t i, std::size_t j, int u, int v) {
     const double s = across[i] + kNodes[u] * (across[i + 1] - across[i]);
     return sampler.pdf({s, along[j] + kNodes[v] * (along[j + 1] - along[j])}).value;
@@ -170,7 +170,7 @@ std::array<CheckResult, 2> check_edges(const BoundSampler& sampler,
 }
 
 Inspection inspect(const BoundSampler& sampler, const Expectation& expectation) {
-  return {integrate_pdf(sampler, expectation.masses.extent()), check_edges(sampler, expectation)};
+  return {integrate_pdf(sampler, expectation.smooth_cells()), check_edges(sampler, expectation)};
 }
 
 CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,

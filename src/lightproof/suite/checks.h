@@ -25,9 +25,9 @@ struct OwnDensity {
   Grid<double> bins;      ///< masses of kGateBins, over the integral
 };
 
-/// Integrates pdf() by 2 x 2 Gauss-Legendre nodes in every texel, split where bins begin. The pdf
-/// may be any function that is smooth inside a texel.
-OwnDensity integrate_pdf(const BoundSampler& sampler, Extent map);
+/// Integrates pdf() by 2 x 2 Gauss-Legendre nodes in every cell, split where bins begin. The pdf
+/// may be any function that is smooth inside a cell.
+OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells);
 
 /// |∫ pdf ds dt - 1| <= 1e-6.
 CheckResult check_pdf_integral(const OwnDensity& own);

@@ -7,6 +7,7 @@
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/random_batch.h"
+#include "lightproof/image/look_up.h"
 #include "lightproof/stats/uniformity.h"
 #include "lightproof/warp/lat_long.h"
 
@@ -40,7 +41,8 @@ struct Batch {
   std::vector<SquarePoint> points = std::vector<SquarePoint>(kBatch);
   std::vector<TexelSample> samples = std::vector<TexelSample>(kBatch);
   std::size_t size = 0;
-  std::vector<double> radiance = std::vector<double>(kBatch);  ///< of the samples' texels
+  std::vector<double> radiance = std::vector<double>(kBatch);  ///< as it is looked up
+  std::vector<char> is_bright = std::vector<char>(kBatch);     ///< the samples' texels
   std::array<std::vector<double>, kMeanCaseCount> estimates;
   std::vector<double> inverse_pdf;
 };
@@ -71,7 +73,11 @@ void count_texels(Part& part, Batch& batch, const Expectation& expectation) {
   for (std::size_t i = 0; i < batch.size; ++i) {
     const TexelSample& sample = batch.samples[i];
     const double mass = expectation.masses(sample.x, sample.y);
-    batch.radiance[i] = expectation.grey(sample.x, sample.y);
+    const double grey = expectation.grey(sample.x, sample.y);
+    batch.is_bright[i] = expectation.is_bright(grey) ? 1 : 0;
+    batch.radiance[i] = expectation.lookup == Lookup::nearest
+                            ? grey
+                            : look_up_bilinear(expectation.grey, sample.at);
     part.texels.push_back(static_cast<std::uint32_t>(sample.y) * width +
                           static_cast<std::uint32_t>(sample.x));
     if (!(mass > 0.0)) part.draws.dark.add(batch.points[i], sample);
@@ -92,7 +98,7 @@ void count_transformed(Part& part, const Batch& batch, const Expectation& expect
   }
 }
 
-void add_estimates(Draws& draws, Batch& batch, const Expectation& expectation) {
+void add_estimates(Draws& draws, Batch& batch) {
   for (std::vector<double>& estimates : batch.estimates) estimates.clear();
   batch.inverse_pdf.clear();
   for (std::size_t i = 0; i < batch.size; ++i) {
@@ -106,7 +112,7 @@ void add_estimates(Draws& draws, Batch& batch, const Expectation& expectation) {
       const double cosine = std::max(0.0, glm::dot(kMeanCases[k].normal, direction));
       batch.estimates[k].push_back(radiance * cosine * inverse_pdf);
     }
-    batch.inverse_pdf.push_back(expectation.is_bright(radiance) ? inverse_pdf : 0.0);
+    batch.inverse_pdf.push_back(batch.is_bright[i] != 0 ? inverse_pdf : 0.0);
   }
   for (std::size_t k = 0; k < kMeanCaseCount; ++k) draws.estimators[k].add(batch.estimates[k]);
   draws.inverse_pdf.add(batch.inverse_pdf);
@@ -126,7 +132,7 @@ Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
     count_lost(part.draws, batch, expectation.masses.extent());
     count_texels(part, batch, expectation);
     if (expectation.transform) count_transformed(part, batch, expectation);
-    add_estimates(part.draws, batch, expectation);
+    add_estimates(part.draws, batch);
   }
   return part;
 }
@@ -177,7 +183,6 @@ bool is_on_map(const TexelSample& sample, Extent map) {
 
 UniformEstimates draw_uniformly(const Expectation& expectation, const RandomStream& stream,
                                 std::uint64_t count_all) {
-  const Extent extent = expectation.grey.extent();
   UniformEstimates all;
   for_each_part(
       {0, count_all},
@@ -189,8 +194,7 @@ UniformEstimates draw_uniformly(const Expectation& expectation, const RandomStre
           const double sine = 2.0 * std::sqrt(u.t * (1.0 - u.t));
           const double phi = kPi - 2.0 * kPi * u.s;
           const Direction direction = {sine * std::cos(phi), sine * std::sin(phi), 2.0 * u.t - 1.0};
-          const double radiance =
-              expectation.grey(cell_of(at.s, extent.width), cell_of(at.t, extent.height));
+          const double radiance = look_up(expectation.grey, expectation.lookup, at);
           for (std::size_t k = 0; k < kMeanCaseCount; ++k) {
             const double cosine = std::max(0.0, glm::dot(kMeanCases[k].normal, direction));
             part[k].add(kSphere * radiance * cosine);

@@ -1,9 +1,12 @@
 #include "lightproof/suite/expectation.h"
 
+#include <memory>
 #include <numeric>
 
 #include "lightproof/stats/goodness_of_fit.h"
 #include "lightproof/warp/lat_long.h"
+#include "reference/bilinear_law.h"
+#include "reference/bilinear_moments.h"
 #include "reference/texel_masses.h"
 
 namespace lightproof {
@@ -20,6 +23,11 @@ double squared_sine_area(Extent extent, int y) {
 /// First and second moment of 1/p(omega) over the bright texels. Under A the density over (s,t) is
 /// constant in a texel and 1/p(omega) = 2 pi^2 sin(theta) / p(s,t); under B p(omega) is constant.
 reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) {
+  if (expectation.lookup == Lookup::bilinear) {
+    return reference::bilinear_inverse_pdf(
+        expectation.grey, expectation.weighting,
+        [&](double radiance) { return expectation.is_bright(radiance); });
+  }
   const Extent extent = expectation.masses.extent();
   reference::EstimatorMoments moments;
   for (int y = 0; y < extent.height; ++y) {
@@ -41,6 +49,24 @@ reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) 
   return moments;
 }
 
+/// Of the estimators with a cosine kernel.
+reference::LightMoments light_moments(const Expectation& expectation, Direction normal) {
+  const reference::Kernel kernel = reference::cosine_kernel(normal);
+  return expectation.lookup == Lookup::bilinear
+             ? reference::bilinear_light_moments(kernel, expectation.grey)
+             : reference::light_moments(kernel, {&expectation.grey, 1})[0];
+}
+
+void set_transform(Expectation& expectation, const EnvironmentMap& map, TargetDensity target) {
+  if (target.lookup == Lookup::nearest) {
+    expectation.transform = reference::UnitTransform(expectation.masses, target.weighting);
+    return;
+  }
+  // Shared: an expectation is copied, and this holds sums for every texel.
+  const auto transform = std::make_shared<const reference::BilinearTransform>(map, target);
+  expectation.transform = [transform](SquarePoint at, int, int) { return (*transform)(at); };
+}
+
 }  // namespace
 
 const std::array<MeanCase, kMeanCaseCount> kMeanCases = {{
@@ -48,24 +74,29 @@ const std::array<MeanCase, kMeanCaseCount> kMeanCases = {{
     {"irradiance, normal +x", {1.0, 0.0, 0.0}},
 }};
 
+Extent Expectation::smooth_cells() const {
+  const Extent texels = masses.extent();
+  return lookup == Lookup::nearest ? texels : Extent{2 * texels.width, 2 * texels.height};
+}
+
 Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
   Expectation expectation;
   expectation.weighting = target.weighting;
+  expectation.lookup = target.lookup;
   expectation.grey = luminance(map, target.grey);
   expectation.masses = reference::texel_masses(map, target);
-  expectation.bins = reference::bin_masses(expectation.masses, target.weighting, kGateBins);
+  expectation.bins = reference::bin_masses(map, target, kGateBins);
   expectation.rows = reference::row_marginal(expectation.masses);
   expectation.columns = reference::column_marginal(expectation.masses);
-  expectation.transform = reference::UnitTransform(expectation.masses, target.weighting);
+  set_transform(expectation, map, target);
   const auto values = expectation.grey.values();
   expectation.mean_grey =
       std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   for (std::size_t i = 0; i < kMeanCaseCount; ++i) {
-    const auto moments = reference::light_moments(reference::cosine_kernel(kMeanCases[i].normal),
-                                                  {&expectation.grey, 1});
+    const auto moments = light_moments(expectation, kMeanCases[i].normal);
     expectation.estimators[i] =
-        target.weighting == Weighting::A ? moments[0].environment_a : moments[0].environment_b;
-    expectation.uniform[i] = moments[0].uniform;
+        target.weighting == Weighting::A ? moments.environment_a : moments.environment_b;
+    expectation.uniform[i] = moments.uniform;
   }
   expectation.inverse_pdf = inverse_pdf_moments(expectation);
   expectation.is_summed = true;

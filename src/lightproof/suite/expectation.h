@@ -28,27 +28,35 @@ extern const std::array<MeanCase, kMeanCaseCount> kMeanCases;
 
 struct Expectation {
   Weighting weighting = Weighting::B;  ///< how the mass lies inside a texel
+  Lookup lookup = Lookup::nearest;     ///< how the estimators look `grey` up
   Grid<double> grey;                   ///< radiance that the estimators gather
   Grid<double> masses;                 ///< of texels
   Grid<double> bins;                   ///< of kGateBins
   std::vector<double> rows;            ///< marginal
   std::vector<double> columns;         ///< marginal
-  /// Of a place in a texel; empty where the law inside one is not known in closed form.
+  /// Of a place in texel (x, y); empty where the law inside one is not known in closed form.
   std::function<reference::UnitPoint(SquarePoint at, int x, int y)> transform;
   std::array<reference::EstimatorMoments, kMeanCaseCount> estimators;
   std::array<reference::EstimatorMoments, kMeanCaseCount> uniform;  ///< drawn over the sphere
   /// 1/p(omega) over the texels at least a tenth as bright as the mean.
   reference::EstimatorMoments inverse_pdf;
 
-  /// Whether a texel of this radiance belongs to the part of the map over which 1/p is averaged.
+  /// Whether a texel of this radiance (its own, whatever the look-up) belongs to the part of the
+  /// map over which 1/p is averaged.
   bool is_bright(double radiance) const { return radiance >= 0.1 * mean_grey; }
   double mean_grey = 0.0;
+  /// Cells over the square in which the density is smooth: it may have edges between texels, or
+  /// between the quarters around their centres.
+  Extent smooth_cells() const;
+
   /// Whether samplers of this law add up its masses and search the sums.
   bool is_summed = false;
 };
 
 /// The effect w that rounding of all sums to steps of 1 would have on average: it grows in
-/// proportion to the step. Cells are pooled until `samples` expect 25 of each.
+/// proportion to the step. Cells are pooled until `samples` expect 25 of each. Of an interpolated
+/// map the sums are of patches, of which a texel has a quarter of four: where it is smooth, the
+/// effect is half as large.
 struct RoundingEffect {
   double texels = 0.0;
   double rows = 0.0;

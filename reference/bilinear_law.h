@@ -1,0 +1,59 @@
+// The law of a bilinear look-up, in double: every texel's grey spreads as a tent over its
+// neighbours in s (around the seam) and in t (all of it that would lie beyond a pole stays before
+// it), and all integrals are those of products of two tents, each by Gauss-Legendre nodes.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "lightproof/core/grid.h"
+#include "lightproof/image/target_density.h"
+#include "reference/unit_transform.h"
+
+namespace lightproof::reference {
+
+/// The part that one texel of a line contributes to an integral along it.
+struct TentPart {
+  int texel;
+  double integral;
+};
+
+/// ∫ of tent times weight between two places of [0,1], for all tents of a line of `texels` that are
+/// not 0 there. `wraps`: the line is a circle; else the last tents are 1 beyond the last centres.
+/// The weight is smooth; no piece is wider than 1/64.
+std::vector<TentPart> tent_parts(double low, double high, int texels, bool wraps,
+                                 const std::function<double(double)>& weight);
+
+/// Probability of every cell of a `cells` grid laid over the square; they sum to 1. Throws
+/// InputError if the map is black.
+Grid<double> bilinear_masses(const EnvironmentMap& map, TargetDensity target, Extent cells);
+
+/// The probability integral transform of the law.
+class BilinearTransform {
+ public:
+  /// The map is not black.
+  BilinearTransform(const EnvironmentMap& map, TargetDensity target);
+
+  UnitPoint operator()(SquarePoint at) const;
+
+ private:
+  using Sums = std::vector<double>;  ///< up to each edge of the patches across: W + 2
+
+  /// ∫ from 0 to s of the interpolation around a line of texels.
+  double below(const Sums& sums, std::span<const double> line, double s) const;
+  /// ∫ of the marginal over t between two places of one row of patches.
+  double mass_along(double low, double high) const;
+
+  Extent extent_;
+  Weighting weighting_;
+  Grid<double> grey_;
+  std::vector<double> row_means_;
+  std::vector<double> along_;    ///< mass below the lower edge of every row of patches, and 1
+  std::vector<double> columns_;  ///< grey of the columns, weighted as their rows are
+  Sums column_sums_;
+  std::vector<Sums> sums_;  ///< of every row
+  double total_ = 0.0;
+};
+
+}  // namespace lightproof::reference

@@ -1,0 +1,223 @@
+#include "reference/bilinear_moments.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "lightproof/core/parallel.h"
+#include "lightproof/image/look_up.h"
+#include "lightproof/warp/lat_long.h"
+#include "reference/bilinear_law.h"
+#include "reference/quadrature.h"
+
+namespace lightproof::reference {
+namespace {
+
+/// ∫ of the radiance over the square (under A) or in steradian (under B).
+double total_of(const Grid<double>& radiance, Weighting weighting) {
+  const auto weight = [weighting](double t) {
+    return weighting == Weighting::A ? 1.0 : solid_angle_per_square(t);
+  };
+  const auto [width, height] = radiance.extent();
+  double total = 0.0;
+  for (const TentPart& part : tent_parts(0.0, 1.0, height, false, weight)) {
+    const auto row = radiance.row(part.texel);
+    total += part.integral * std::accumulate(row.begin(), row.end(), 0.0) / width;
+  }
+  return total;
+}
+
+/// Adds E[X^m] = ∫ X^(m-1) X p d(omega) of one node, where X p = L k.
+void add(EstimatorMoments& moments, double light, double x) {
+  for (double& raw : moments.raw) {
+    raw += light;
+    light *= x;
+  }
+}
+
+void raise(EstimatorMoments& moments, double x) { moments.largest = std::max(moments.largest, x); }
+
+void merge(EstimatorMoments& into, const EstimatorMoments& from) {
+  for (std::size_t m = 0; m < into.raw.size(); ++m) into.raw[m] += from.raw[m];
+  raise(into, from.largest);
+}
+
+/// The moments of the cells of a quadrature.
+class CellMoments {
+ public:
+  CellMoments(const Kernel& kernel, const Grid<double>& radiance, Extent cells)
+      : kernel_(&kernel),
+        radiance_(&radiance),
+        quadrature_(cells),
+        a_(2.0 * kPi * kPi * total_of(radiance, Weighting::A)),
+        b_(total_of(radiance, Weighting::B)) {}
+
+  void add_cell(LightMoments& moments, int i, int j) const {
+    const double brightest = brightest_of(i, j);
+    if (!(brightest > 0.0)) return;
+    const bool split = kernel_->straddles(quadrature_.centre(i, j), quadrature_.radius());
+    quadrature_.visit(i, j, split, [&](const Node& node) {
+      const auto [k, pdf] = kernel_->at(node.direction);
+      if (k > 0.0) add_node(moments, node, {k, pdf}, brightest);
+    });
+  }
+
+ private:
+  void add_node(LightMoments& moments, const Node& node, KernelValue value,
+                double brightest) const {
+    const auto [k, pdf] = value;
+    const double radiance = look_up_bilinear(*radiance_, node.at);
+    const double light = radiance * k * node.solid_angle;
+    const double over_pdf = pdf > 0.0 ? k / pdf : 0.0;
+    add(moments.uniform, light, kSphere * radiance * k);
+    add(moments.material, light, radiance * over_pdf);
+    add(moments.environment_a, light, a_ * k * node.sin_theta);
+    add(moments.environment_b, light, b_ * k);
+    raise(moments.uniform, kSphere * brightest * k);
+    raise(moments.material, brightest * over_pdf);
+    raise(moments.environment_a, a_ * k * node.sin_theta);
+    raise(moments.environment_b, b_ * k);
+  }
+
+  /// A bilinear function is largest at a corner.
+  double brightest_of(int i, int j) const {
+    const auto [width, height] = quadrature_.extent();
+    double most = 0.0;
+    for (const int x : {i, i + 1}) {
+      for (const int y : {j, j + 1}) {
+        const SquarePoint corner = {static_cast<double>(x) / width,
+                                    static_cast<double>(y) / height};
+        most = std::max(most, look_up_bilinear(*radiance_, corner));
+      }
+    }
+    return most;
+  }
+
+  const Kernel* kernel_;
+  const Grid<double>* radiance_;
+  SphereQuadrature quadrature_;
+  double a_;  ///< X = a k sin(theta) under A
+  double b_;  ///< X = b k under B
+};
+
+/// A quarter of a texel, from its centre to a corner.
+struct Quarter {
+  std::array<double, 2> near;  ///< radiance at the centre's s, at both ends in t
+  std::array<double, 2> far;   ///< at the texel's edge
+  double t;                    ///< of the centre
+  double height;               ///< of the corner above it, signed
+};
+
+double between(const std::array<double, 2>& ends, double v) {
+  return ends[0] + (ends[1] - ends[0]) * v;
+}
+
+/// ∫ du / ((1-u) low + u high) over [0,1].
+double mean_reciprocal(double low, double high) {
+  const double x = (high - low) / low;
+  return (std::abs(x) < 1e-8 ? 1.0 - 0.5 * x : std::log1p(x) / x) / low;
+}
+
+/// Mean of weight(t) / L between two shares of the way: exact along s; along t by three
+/// Gauss-Legendre nodes where L changes by less than a quarter and t by less than 1/64, in which
+/// the rule's error is below 1e-7.
+template <class Weight>
+double mean_over_light(const Quarter& quarter, double from, double to, const Weight& weight) {
+  constexpr double kMostChange = 1.25;
+  constexpr std::array<double, 3> kPlaces = {0.11270166537925831, 0.5, 0.88729833462074169};
+  constexpr std::array<double, 3> kWeights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+  const auto changes = [&](const std::array<double, 2>& ends) {
+    const double a = between(ends, from);
+    const double b = between(ends, to);
+    return std::max(a, b) > kMostChange * std::min(a, b);
+  };
+  const bool wide = (to - from) * std::abs(quarter.height) > 1.0 / 64.0;
+  if (wide || changes(quarter.near) || changes(quarter.far)) {
+    const double middle = 0.5 * (from + to);
+    return mean_over_light(quarter, from, middle, weight) +
+           mean_over_light(quarter, middle, to, weight);
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+    const double v = from + kPlaces[i] * (to - from);
+    sum += kWeights[i] * weight(quarter.t + v * quarter.height) *
+           mean_reciprocal(between(quarter.near, v), between(quarter.far, v));
+  }
+  return (to - from) * sum;
+}
+
+/// The quarters of texel (x, y).
+std::array<Quarter, 4> quarters_of(const Grid<double>& grey, int x, int y) {
+  const auto [width, height] = grey.extent();
+  std::array<Quarter, 4> quarters;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const int beside = (x + (k % 2 == 0 ? width - 1 : 1)) % width;
+    const int up = k < 2 ? -1 : 1;
+    const int above = std::clamp(y + up, 0, height - 1);
+    const double centre = grey(x, y);
+    const double edge = 0.5 * (centre + grey(beside, y));
+    quarters[k] = {{centre, 0.5 * (centre + grey(x, above))},
+                   {edge, 0.5 * (edge + 0.5 * (grey(x, above) + grey(beside, above)))},
+                   (y + 0.5) / height,
+                   0.5 * up / height};
+  }
+  return quarters;
+}
+
+}  // namespace
+
+LightMoments bilinear_light_moments(const Kernel& kernel, const Grid<double>& radiance) {
+  const auto [width, height] = radiance.extent();
+  constexpr Extent kLeast = SphereQuadrature::kLeastCells;
+  // An even number of cells a texel, so that none has a centre inside.
+  const Extent parts = {2 * ((kLeast.width + 2 * width - 1) / (2 * width)),
+                        2 * ((kLeast.height + 2 * height - 1) / (2 * height))};
+  const Extent cells = {width * parts.width, height * parts.height};
+  const CellMoments moments(kernel, radiance, cells);
+  std::vector<LightMoments> rows(static_cast<std::size_t>(cells.height));
+  parallel_for(rows.size(), [&](std::size_t j) {
+    for (int i = 0; i < cells.width; ++i) moments.add_cell(rows[j], i, static_cast<int>(j));
+  });
+  LightMoments sum;
+  for (const LightMoments& row : rows) {
+    merge(sum.uniform, row.uniform);
+    merge(sum.material, row.material);
+    merge(sum.environment_a, row.environment_a);
+    merge(sum.environment_b, row.environment_b);
+  }
+  return sum;
+}
+
+EstimatorMoments bilinear_inverse_pdf(const Grid<double>& radiance, Weighting weighting,
+                                      const std::function<bool(double)>& is_bright) {
+  const Extent extent = radiance.extent();
+  const double total = total_of(radiance, weighting);
+  // 1/p(omega) = factor(t) / L.
+  const auto factor = [&](double t) {
+    return total * (weighting == Weighting::A ? solid_angle_per_square(t) : 1.0);
+  };
+  const auto weight = [&](double t) { return factor(t) * solid_angle_per_square(t); };
+  const double quarter_area = 0.25 / static_cast<double>(extent.count());
+  std::vector<EstimatorMoments> rows(static_cast<std::size_t>(extent.height));
+  parallel_for(rows.size(), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    const double t[2] = {static_cast<double>(y) / extent.height, (y + 1.0) / extent.height};
+    const double middle = std::clamp(0.5, t[0], t[1]);
+    const double most = std::max({factor(t[0]), factor(t[1]), factor(middle)});
+    for (int x = 0; x < extent.width; ++x) {
+      if (!is_bright(radiance(x, y))) continue;
+      rows[row].raw[0] += texel_solid_angle(extent, y);
+      for (const Quarter& quarter : quarters_of(radiance, x, y)) {
+        const auto [near, far, centre, height] = quarter;
+        rows[row].raw[1] += quarter_area * mean_over_light(quarter, 0.0, 1.0, weight);
+        raise(rows[row], most / std::min({near[0], near[1], far[0], far[1]}));
+      }
+    }
+  });
+  EstimatorMoments sum;
+  for (const EstimatorMoments& row : rows) merge(sum, row);
+  return sum;
+}
+
+}  // namespace lightproof::reference
