@@ -56,7 +56,7 @@ std::string session_of_now() {
 /// All files are read before the first is added: a bad one among them changes nothing.
 int add(const AddOptions& options) {
   const std::string session = options.session.empty() ? session_of_now() : options.session;
-  std::vector<Run> runs;
+  std::vector<BenchmarkRun> runs;
   for (const std::string& file : options.files) {
     runs.push_back(read_google_benchmark(file, options.commit));
     runs.back().session = session;
@@ -81,7 +81,7 @@ int compare_commits(const CompareOptions& options) {
   for (const std::string& file : {options.json, options.markdown}) {
     if (!file.empty()) check_writable(file);
   }
-  const std::vector<Run> runs = HistoryStore::open_to_read(options.database).runs();
+  const std::vector<BenchmarkRun> runs = HistoryStore::open_to_read(options.database).runs();
   const Comparison comparison = compare(runs, options.base, options.head);
   if (!options.quiet) fmt::print("{}", comparison_table(comparison));
   if (!options.json.empty()) write_file(options.json, comparison_json(comparison));
@@ -91,7 +91,7 @@ int compare_commits(const CompareOptions& options) {
 
 int trend(const TrendOptions& options) {
   check_writable(options.output);
-  const std::vector<Run> runs = HistoryStore::open_to_read(options.database).runs();
+  const std::vector<BenchmarkRun> runs = HistoryStore::open_to_read(options.database).runs();
   write_file(options.output, trend_page(trend_lines(runs), LIGHTPROOF_VERSION));
   return kPassed;
 }

@@ -14,14 +14,14 @@
 namespace lightproof {
 namespace {
 
-using Runs = std::vector<const Run*>;
+using Runs = std::vector<const BenchmarkRun*>;
 
 /// Interleaved runs keep the shares of both commits that have started together; after one commit
 /// as a whole they are a whole apart.
 constexpr double kLargestLead = 0.5;
 
 /// Distinct commits, the latest first.
-std::vector<std::string> commits_of(std::span<const Run> runs) {
+std::vector<std::string> commits_of(std::span<const BenchmarkRun> runs) {
   std::vector<std::string> commits;
   for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
     if (std::find(commits.begin(), commits.end(), run->commit) == commits.end()) {
@@ -58,16 +58,16 @@ struct Session {
   Runs base;
   Runs head;
 
-  const Run& latest() const {
+  const BenchmarkRun& latest() const {
     return base.back()->started > head.back()->started ? *base.back() : *head.back();
   }
 };
 
 /// Those that hold both commits, the latest last.
-std::vector<Session> sessions_of(std::span<const Run> runs, const std::string& base,
+std::vector<Session> sessions_of(std::span<const BenchmarkRun> runs, const std::string& base,
                                  const std::string& head) {
   std::map<std::string, Session> by_name;
-  for (const Run& run : runs) {
+  for (const BenchmarkRun& run : runs) {
     if (run.commit != base && run.commit != head) continue;
     Session& session = by_name[run.session];
     session.name = run.session;
@@ -87,14 +87,14 @@ std::vector<Session> sessions_of(std::span<const Run> runs, const std::string& b
       base, head));
 }
 
-bool same_setting(const Run& a, const Run& b) {
+bool same_setting(const BenchmarkRun& a, const BenchmarkRun& b) {
   return a.machine == b.machine && a.compiler == b.compiler && a.flags == b.flags;
 }
 
 void require_one_setting(const Session& session) {
-  const Run& first = *session.base.front();
+  const BenchmarkRun& first = *session.base.front();
   for (const Runs& runs : {session.base, session.head}) {
-    for (const Run* run : runs) {
+    for (const BenchmarkRun* run : runs) {
       if (same_setting(first, *run)) continue;
       throw InputError(fmt::format(
           "session {}: runs that cannot be compared: {} was measured on \"{}\" ({}; {}), {} on "
@@ -105,14 +105,14 @@ void require_one_setting(const Session& session) {
   }
 }
 
-bool has_times(const Run& run) {
+bool has_times(const BenchmarkRun& run) {
   return std::any_of(run.measurements.begin(), run.measurements.end(),
                      [](const Measurement& m) { return m.metric == Metric::nanoseconds; });
 }
 
 std::vector<std::int64_t> starts_of(const Runs& runs) {
   std::vector<std::int64_t> starts;
-  for (const Run* run : runs) {
+  for (const BenchmarkRun* run : runs) {
     if (has_times(*run)) starts.push_back(run->started);
   }
   return starts;
@@ -146,7 +146,7 @@ std::set<Key> keys_of(const std::vector<Session>& sessions) {
   std::set<Key> keys;
   for (const Session& session : sessions) {
     for (const Runs& runs : {session.base, session.head}) {
-      for (const Run* run : runs) {
+      for (const BenchmarkRun* run : runs) {
         for (const Measurement& m : run->measurements) keys.emplace(m.metric, m.benchmark);
       }
     }
@@ -156,7 +156,7 @@ std::set<Key> keys_of(const std::vector<Session>& sessions) {
 
 std::vector<double> values_in(const Runs& runs, const Key& key) {
   std::vector<double> values;
-  for (const Run* run : runs) {
+  for (const BenchmarkRun* run : runs) {
     const auto value = run_value(*run, key.first, key.second);
     if (value) values.push_back(*value);
   }
@@ -222,15 +222,15 @@ const char* to_string(RowVerdict verdict) {
   return "";
 }
 
-Comparison compare(std::span<const Run> runs, const std::string& base, const std::string& head,
-                   const RegressionRule& rule) {
+Comparison compare(std::span<const BenchmarkRun> runs, const std::string& base,
+                   const std::string& head, const RegressionRule& rule) {
   const std::vector<std::string> commits = commits_of(runs);
   Comparison result{resolved(commits, base), resolved(commits, head), "", "", "", rule, {}, {}};
   if (result.base == result.head) {
     throw InputError(fmt::format("'{}' and '{}' are the same commit", base, head));
   }
   std::vector<Session> sessions = sessions_of(runs, result.base, result.head);
-  const Run setting = sessions.back().latest();
+  const BenchmarkRun setting = sessions.back().latest();
   std::erase_if(sessions,
                 [&](const Session& session) { return !same_setting(session.latest(), setting); });
   for (const Session& session : sessions) {

@@ -52,8 +52,8 @@ struct Comparison {
 /// compiler or with other flags, than those of the latest one do not count. Throws InputError if a
 /// commit is unknown or not unique, if no session holds both, if the runs of a session differ in
 /// machine, compiler or flags, were not interleaved, or are too few for the rule.
-Comparison compare(std::span<const Run> runs, const std::string& base, const std::string& head,
-                   const RegressionRule& rule = {});
+Comparison compare(std::span<const BenchmarkRun> runs, const std::string& base,
+                   const std::string& head, const RegressionRule& rule = {});
 
 std::size_t count_of(const Comparison& comparison, RowVerdict verdict);
 

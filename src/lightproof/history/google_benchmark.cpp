@@ -130,7 +130,7 @@ std::vector<Measurement> measurements_of(const Json& benchmarks) {
   return all;
 }
 
-Run run_of(const Json& document, const std::string& commit) {
+BenchmarkRun run_of(const Json& document, const std::string& commit) {
   if (!document.is_object()) throw InputError("is no JSON object");
   const auto context = member<Json>(document, "context", "the file");
   const auto benchmarks = member<Json>(document, "benchmarks", "the file");
@@ -148,10 +148,10 @@ Run run_of(const Json& document, const std::string& commit) {
 
 }  // namespace
 
-Run read_google_benchmark(const std::filesystem::path& file, const std::string& commit) {
+BenchmarkRun read_google_benchmark(const std::filesystem::path& file, const std::string& commit) {
   const std::string text = text_of(file);
   try {
-    Run run = run_of(Json::parse(text), commit);
+    BenchmarkRun run = run_of(Json::parse(text), commit);
     run.digest = hash_text(text);
     return run;
   } catch (const Json::exception& error) {

@@ -16,6 +16,7 @@ namespace lightproof {
 /// where the benchmark's name ends in /real_time or /manual_time. A benchmark with a counter called
 /// "instructions" gives that count instead: its time is that of an emulator. Aggregates are left
 /// out. Throws InputError, with the file, the place and the reason.
-Run read_google_benchmark(const std::filesystem::path& file, const std::string& commit = "");
+BenchmarkRun read_google_benchmark(const std::filesystem::path& file,
+                                   const std::string& commit = "");
 
 }  // namespace lightproof

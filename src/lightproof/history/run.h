@@ -25,7 +25,7 @@ struct Measurement {
 
 /// The repetitions in a process share its memory layout and its moment, so they are no independent
 /// values: whoever compares takes the process as one.
-struct Run {
+struct BenchmarkRun {
   std::string session;       ///< runs of a session are interleaved, and may be compared
   std::int64_t started = 0;  ///< seconds since 1970, UTC
   std::string machine;

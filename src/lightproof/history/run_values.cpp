@@ -6,7 +6,8 @@
 
 namespace lightproof {
 
-std::optional<double> run_value(const Run& run, Metric metric, const std::string& benchmark) {
+std::optional<double> run_value(const BenchmarkRun& run, Metric metric,
+                                const std::string& benchmark) {
   std::vector<double> values;
   for (const Measurement& m : run.measurements) {
     if (m.metric == metric && m.benchmark == benchmark) values.push_back(m.value);

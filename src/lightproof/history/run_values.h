@@ -9,6 +9,7 @@
 namespace lightproof {
 
 /// The median over the repetitions of a benchmark in a run; none if it has none.
-std::optional<double> run_value(const Run& run, Metric metric, const std::string& benchmark);
+std::optional<double> run_value(const BenchmarkRun& run, Metric metric,
+                                const std::string& benchmark);
 
 }  // namespace lightproof

@@ -11,25 +11,20 @@ namespace {
 constexpr int kPatienceMilliseconds = 30000;
 
 int flags_of(Mode mode) {
-  switch (mode) {
-    case Mode::read:
-      return SQLITE_OPEN_READONLY;
-    case Mode::write:
-      return SQLITE_OPEN_READWRITE;
-    case Mode::create:
-      break;
-  }
-  return SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  return mode == Mode::create ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE;
 }
 
 }  // namespace
+
+Error::Error(int code, const std::string& message)
+    : std::runtime_error(message), damaged_(code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {}
 
 Database::Database(const std::filesystem::path& file, Mode mode) {
   const int code = sqlite3_open_v2(file.c_str(), &handle_, flags_of(mode), nullptr);
   if (code != SQLITE_OK) {
     const std::string why = handle_ == nullptr ? "out of memory" : sqlite3_errmsg(handle_);
     sqlite3_close(handle_);
-    throw Error(why);
+    throw Error(code, why);
   }
   sqlite3_busy_timeout(handle_, kPatienceMilliseconds);
 }
@@ -39,9 +34,8 @@ Database::~Database() { sqlite3_close(handle_); }
 Database::Database(Database&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
 
 void Database::execute(const char* statements) {
-  if (sqlite3_exec(handle_, statements, nullptr, nullptr, nullptr) != SQLITE_OK) {
-    throw Error(sqlite3_errmsg(handle_));
-  }
+  const int code = sqlite3_exec(handle_, statements, nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK) throw Error(code, sqlite3_errmsg(handle_));
 }
 
 std::int64_t Database::last_row() const { return sqlite3_last_insert_rowid(handle_); }
@@ -53,7 +47,7 @@ Statement::Statement(Database& database, const char* text) : database_(database.
 Statement::~Statement() { sqlite3_finalize(handle_); }
 
 void Statement::require(int code) const {
-  if (code != SQLITE_OK) throw Error(sqlite3_errmsg(database_));
+  if (code != SQLITE_OK) throw Error(code, sqlite3_errmsg(database_));
 }
 
 Statement& Statement::bind(int parameter, std::string_view text) {
@@ -77,7 +71,7 @@ bool Statement::step() {
   if (code == SQLITE_ROW) return true;
   const std::string why = code == SQLITE_DONE ? "" : sqlite3_errmsg(database_);
   sqlite3_reset(handle_);
-  if (code != SQLITE_DONE) throw Error(why);
+  if (code != SQLITE_DONE) throw Error(code, why);
   return false;
 }
 

@@ -16,10 +16,15 @@ namespace lightproof::sqlite {
 /// What SQLite reports, in its words.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  Error(int code, const std::string& message);
+  /// The file is at fault, and not its access.
+  bool damaged() const { return damaged_; }
+
+ private:
+  bool damaged_ = false;
 };
 
-enum class Mode { read, write, create };
+enum class Mode { existing, create };
 
 /// A connection. Other processes may hold others to the same file: whoever finds it locked waits.
 class Database {

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <fstream>
 #include <system_error>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/random.h"
 #include "lightproof/history/sqlite.h"
 
 namespace lightproof {
@@ -30,7 +32,8 @@ CREATE TABLE runs (
   compiler TEXT NOT NULL,
   flags    TEXT NOT NULL,
   "commit" TEXT NOT NULL,
-  digest   INTEGER NOT NULL UNIQUE);
+  digest   INTEGER NOT NULL UNIQUE,
+  checksum INTEGER NOT NULL);
 CREATE TABLE measurements (
   run        INTEGER NOT NULL REFERENCES runs (id),
   benchmark  TEXT NOT NULL,
@@ -46,6 +49,11 @@ CREATE VIEW history AS
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& why) {
   throw InputError(fmt::format("{}: {}", file.string(), why));
+}
+
+/// `what` is said unless the file is damaged.
+[[noreturn]] void refuse(const fs::path& file, const char* what, const sqlite::Error& error) {
+  refuse(file, fmt::format("{}: {}", error.damaged() ? "is damaged" : what, error.what()));
 }
 
 using Header = std::array<unsigned char, 100>;
@@ -102,7 +110,7 @@ void create_history(const fs::path& file) {
     make_history(temporary);
   } catch (const sqlite::Error& error) {
     fs::remove(temporary, ignored);
-    refuse(file, fmt::format("cannot be made: {}", error.what()));
+    refuse(file, "cannot be made", error);
   }
   std::error_code error;
   fs::create_hard_link(temporary, file, error);
@@ -112,15 +120,24 @@ void create_history(const fs::path& file) {
   }
 }
 
+/// Of all that is stored of a run. SQLite notices broken pages, but not a broken number in one.
+std::int64_t checksum_of(const BenchmarkRun& run) {
+  std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n", run.session, run.started,
+                                 run.machine, run.compiler, run.flags, run.commit, run.digest);
+  std::vector<std::string> lines;
+  for (const Measurement& m : run.measurements) {
+    lines.push_back(
+        fmt::format("{}\n{}\n{}\n{}\n", m.benchmark, to_string(m.metric), m.repetition, m.value));
+  }
+  std::sort(lines.begin(), lines.end());
+  for (const std::string& line : lines) text += line;
+  return static_cast<std::int64_t>(hash_text(text));
+}
+
 /// One pass over all pages.
 void require_sound(const fs::path& file, sqlite::Database& database) {
-  std::string found = "ok";
-  try {
-    sqlite::Statement check(database, "PRAGMA quick_check(1)");
-    found = check.step() ? check.text(0) : "no answer";
-  } catch (const sqlite::Error& error) {
-    found = error.what();
-  }
+  sqlite::Statement check(database, "PRAGMA integrity_check(1)");
+  const std::string found = check.step() ? check.text(0) : "no answer";
   if (found != "ok") refuse(file, fmt::format("is damaged: {}", found));
 }
 
@@ -133,13 +150,14 @@ struct HistoryStore::Connection {
 HistoryStore::HistoryStore(fs::path file, bool writable) : file_(std::move(file)) {
   require_history(file_);
   try {
-    connection_ = std::make_unique<Connection>(
-        sqlite::Database(file_, writable ? sqlite::Mode::write : sqlite::Mode::read));
-    // A run that was reported as added survives a power cut too.
-    connection_->database.execute("PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON");
+    connection_ = std::make_unique<Connection>(sqlite::Database(file_, sqlite::Mode::existing));
+    // A run that was reported as added survives a power cut too. Readers are kept from writing here
+    // and not by how the file is opened: the last one to close it tidies the write-ahead log away.
+    connection_->database.execute(writable ? "PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON"
+                                           : "PRAGMA query_only = ON");
     require_sound(file_, connection_->database);
   } catch (const sqlite::Error& error) {
-    refuse(file_, fmt::format("cannot be used: {}", error.what()));
+    refuse(file_, "cannot be used", error);
   }
 }
 
@@ -156,7 +174,7 @@ HistoryStore HistoryStore::open_to_write(const fs::path& file) {
   return {file, true};
 }
 
-std::optional<std::int64_t> HistoryStore::add(const Run& run) {
+std::optional<std::int64_t> HistoryStore::add(const BenchmarkRun& run) {
   try {
     sqlite::Database& database = connection_->database;
     sqlite::Transaction transaction(database);
@@ -164,10 +182,11 @@ std::optional<std::int64_t> HistoryStore::add(const Run& run) {
     sqlite::Statement known(database, "SELECT id FROM runs WHERE digest = ?");
     if (known.bind(0, digest).step()) return std::nullopt;
     sqlite::Statement insert_run(database, R"(INSERT INTO
-      runs (session, started, machine, compiler, flags, "commit", digest)
-      VALUES (?, ?, ?, ?, ?, ?, ?))");
+      runs (session, started, machine, compiler, flags, "commit", digest, checksum)
+      VALUES (?, ?, ?, ?, ?, ?, ?, ?))");
     insert_run.bind(0, run.session).bind(1, run.started).bind(2, run.machine);
-    insert_run.bind(3, run.compiler).bind(4, run.flags).bind(5, run.commit).bind(6, digest).run();
+    insert_run.bind(3, run.compiler).bind(4, run.flags).bind(5, run.commit).bind(6, digest);
+    insert_run.bind(7, checksum_of(run)).run();
     const std::int64_t id = database.last_row();
     sqlite::Statement insert(database, "INSERT INTO measurements VALUES (?, ?, ?, ?, ?)");
     for (const Measurement& m : run.measurements) {
@@ -177,22 +196,24 @@ std::optional<std::int64_t> HistoryStore::add(const Run& run) {
     transaction.commit();
     return id;
   } catch (const sqlite::Error& error) {
-    refuse(file_, fmt::format("cannot write: {}", error.what()));
+    refuse(file_, "cannot write", error);
   }
 }
 
-std::vector<Run> HistoryStore::runs() const {
+std::vector<BenchmarkRun> HistoryStore::runs() const {
   try {
     sqlite::Statement row(connection_->database, R"(
-      SELECT runs.id, session, started, machine, compiler, flags, "commit", digest,
+      SELECT runs.id, session, started, machine, compiler, flags, "commit", digest, checksum,
              benchmark, metric, repetition, value
       FROM runs JOIN measurements ON runs.id = measurements.run
       ORDER BY started, runs.id, benchmark, metric, repetition)");
-    std::vector<Run> runs;
+    std::vector<BenchmarkRun> runs;
+    std::vector<std::int64_t> checksums;
     std::int64_t last = -1;
     while (row.step()) {
       if (row.integer(0) != last) {
         last = row.integer(0);
+        checksums.push_back(row.integer(8));
         runs.push_back({row.text(1),
                         row.integer(2),
                         row.text(3),
@@ -203,13 +224,18 @@ std::vector<Run> HistoryStore::runs() const {
                         {}});
       }
       const Metric metric =
-          row.text(9) == "instructions" ? Metric::instructions : Metric::nanoseconds;
+          row.text(10) == "instructions" ? Metric::instructions : Metric::nanoseconds;
       runs.back().measurements.push_back(
-          {row.text(8), metric, static_cast<int>(row.integer(10)), row.real(11)});
+          {row.text(9), metric, static_cast<int>(row.integer(11)), row.real(12)});
+    }
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      if (checksum_of(runs[i]) == checksums[i]) continue;
+      refuse(file_, fmt::format("is damaged: the run of {} in session {} is not what was added",
+                                runs[i].commit, runs[i].session));
     }
     return runs;
   } catch (const sqlite::Error& error) {
-    refuse(file_, fmt::format("cannot be read: {}", error.what()));
+    refuse(file_, "cannot be read", error);
   }
 }
 

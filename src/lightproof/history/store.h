@@ -32,10 +32,10 @@ class HistoryStore {
 
   /// The number of the new run; none if a run of the same file (digest) is there already. On the
   /// disk once it returns.
-  std::optional<std::int64_t> add(const Run& run);
+  std::optional<std::int64_t> add(const BenchmarkRun& run);
 
   /// Every run, the earliest first.
-  std::vector<Run> runs() const;
+  std::vector<BenchmarkRun> runs() const;
 
  private:
   struct Connection;

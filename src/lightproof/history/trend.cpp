@@ -29,7 +29,7 @@ CommitValues& values_of(std::vector<CommitValues>& commits, const std::string& c
   return found != commits.end() ? *found : commits.emplace_back(CommitValues{commit, {}});
 }
 
-void add(Lines& lines, const Run& run) {
+void add(Lines& lines, const BenchmarkRun& run) {
   std::map<Key, bool> done;
   for (const Measurement& m : run.measurements) {
     const Key key{run.machine, run.compiler, run.flags, m.metric, m.benchmark};
@@ -61,9 +61,9 @@ std::vector<ChangePoint> steps_of(std::span<const double> values) {
 
 }  // namespace
 
-std::vector<TrendLine> trend_lines(std::span<const Run> runs, const ChangeRule& rule) {
+std::vector<TrendLine> trend_lines(std::span<const BenchmarkRun> runs, const ChangeRule& rule) {
   Lines by_key;
-  for (const Run& run : runs) add(by_key, run);
+  for (const BenchmarkRun& run : runs) add(by_key, run);
   std::vector<TrendLine> lines;
   for (const auto& [key, commits] : by_key) {
     const auto& [machine, compiler, flags, metric, benchmark] = key;

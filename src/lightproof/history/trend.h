@@ -31,6 +31,6 @@ struct TrendLine {
 /// session share, the state of the machine, would pass for a change if runs were the values.
 /// Instruction counts change where a commit differs from the one before by more than the limit of
 /// the regression rule. Runs come in the order of their start.
-std::vector<TrendLine> trend_lines(std::span<const Run> runs, const ChangeRule& rule = {});
+std::vector<TrendLine> trend_lines(std::span<const BenchmarkRun> runs, const ChangeRule& rule = {});
 
 }  // namespace lightproof
