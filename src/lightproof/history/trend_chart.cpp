@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -56,10 +57,11 @@ Json level_rows(const TrendLine& line) {
 Json change_rows(const TrendLine& line) {
   Json rows = Json::array();
   for (const ChangePoint& change : line.changes) {
-    rows.push_back({{"at", static_cast<double>(change.first) + 0.5},
-                    {"commit", line.points[change.first].commit},
-                    {"label", fmt::format("{} {:+.0f} %", change.ratio > 1.0 ? "\u25b2" : "\u25bc",
-                                          100.0 * (change.ratio - 1.0))}});
+    rows.push_back(
+        {{"at", static_cast<double>(change.first) + 0.5},
+         {"commit", line.points[change.first].commit},
+         {"label", fmt::format("{}{:.0f} %", change.ratio > 1.0 ? "\u25b2 +" : "\u25bc \u2212",
+                               100.0 * std::abs(change.ratio - 1.0))}});
   }
   return rows;
 }
@@ -71,12 +73,12 @@ Json value_axis(const TrendLine& line, const std::string& field) {
   Json y = quantity(field, line.metric == Metric::nanoseconds ? "ns" : "instructions", "linear");
   y["scale"]["domain"] = {rounded(std::min(*low, (1.0 - kLeastHalfRange) * middle)),
                           rounded(std::max(*high, (1.0 + kLeastHalfRange) * middle))};
-  y["axis"] = {{"tickCount", 4}, {"format", "~g"}};
+  y["axis"] = {{"tickCount", 4}, {"format", ",.4~r"}};
   return y;
 }
 
 Json place_axis(const TrendLine& line, const std::string& field) {
-  Json x = quantity(field, "commit, in the order of measuring", "linear");
+  Json x = quantity(field, "commit, oldest first", "linear");
   x["scale"]["domain"] = {0.5, static_cast<double>(line.points.size()) + 0.5};
   x["scale"]["nice"] = false;
   x["axis"] = {{"tickMinStep", 1}, {"tickCount", 5}, {"format", "d"}, {"grid", false}};
