@@ -10,6 +10,7 @@ namespace lightproof::bench {
 void register_sample_benchmarks();
 void register_render_benchmarks();
 void register_histogram_benchmarks();
+void register_count_benchmarks();
 
 /// Machine, compiler, flags and commit, beside what Google Benchmark says of itself.
 void add_context();
