@@ -18,13 +18,16 @@ run_once() {
     { cat "$folder/log" >&2 && return 1; }
 }
 
-# add_session SESSION: the results that lie in the folder, those of base in the name of its commit.
+# add_session SESSION: the results that lie in the folder, each in the name of its side's commit. A
+# side may have none.
 add_session() {
-  local side commit
+  local side commit files
   for side in base head; do
     commit=${side}_commit
+    files=("$folder/$side"-*.json)
+    [[ -f ${files[0]} ]] || continue
     "$lightproof" history add -q --db "$database" --session "$1" --commit "${!commit}" \
-      "$folder/$side"-*.json
+      "${files[@]}" || return
   done
 }
 
@@ -45,8 +48,10 @@ count_session() {
   rm -f "$folder"/{base,head}-*.json
   node ci/perf.mjs count "$folder/head-0.json" "$2" "${head_command[@]}" &&
     node ci/perf.mjs count "$folder/base-0.json" "$2" "${base_command[@]}" || return
-  [[ -f $folder/head-0.json && -f $folder/base-0.json ]] || return 0
-  node ci/perf.mjs adopt "$folder/head-0.json" "$folder/base-0.json" && add_session "$1"
+  if [[ -f $folder/head-0.json && -f $folder/base-0.json ]]; then
+    node ci/perf.mjs adopt "$folder/head-0.json" "$folder/base-0.json" || return
+  fi
+  add_session "$1"
 }
 
 # exactly NAMES…: a filter of Google Benchmark that fits these names and no other.

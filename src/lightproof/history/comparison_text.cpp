@@ -98,8 +98,7 @@ std::string rule_text(const Comparison& comparison) {
   return fmt::format(
       "Slower: one-sided Mann-Whitney p <= {} and a median beyond the limit, the larger of +{} % "
       "and {} times the A/A noise, in two sessions; instructions: beyond +{} %.",
-      significant(rule.alpha), significant(100.0 * rule.least_effect),
-      significant(rule.noise_factor), significant(100.0 * rule.instruction_effect));
+      rule.alpha, 100.0 * rule.least_effect, rule.noise_factor, 100.0 * rule.instruction_effect);
 }
 
 std::string setting_text(const Comparison& comparison) {
