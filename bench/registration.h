@@ -11,6 +11,10 @@ void register_sample_benchmarks();
 void register_build_benchmarks();
 void register_render_benchmarks();
 void register_histogram_benchmarks();
+void register_count_benchmarks();
+
+/// Machine, compiler, flags and commit, beside what Google Benchmark says of itself.
+void add_context();
 
 /// Skips a benchmark whose subject disagrees with the reference.
 void disagree(benchmark::State& state, const std::string& why);

@@ -9,6 +9,7 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
 find_package(hwy REQUIRED)
+find_package(SQLite3 REQUIRED)
 # Through pkg-config: the CMake package of OpenImageIO 2.4 names OpenCV's include folder, which
 # does not exist unless OpenCV's own headers are installed.
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)

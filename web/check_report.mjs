@@ -1,5 +1,5 @@
 // Opens a report in Chromium, without a network, at two widths, and looks for what a reader would
-// stumble over. Usage: node check_report.mjs PATH_TO_HTML OUT_DIR
+// stumble over. Usage: node check_report.mjs PATH_TO_HTML OUT_DIR [LEAST_SECTIONS]
 // Saves full-page screenshots in OUT_DIR. Exit code 1 with a list if there is any problem.
 import { existsSync, mkdirSync } from "node:fs";
 import { resolve, join } from "node:path";
@@ -21,9 +21,10 @@ const chromiumArguments = [
 ];
 const drawingTimeout = 60_000; // milliseconds
 const longest = 300; // characters of a message that are repeated
+const leastSections = Number(process.argv[4] ?? 7);
 
 /** Runs inside the page: everything about it that can be judged from its elements. */
-function inspect() {
+function inspect(leastSections) {
   const problems = [];
   const root = document.documentElement;
   if (root.scrollWidth > root.clientWidth) {
@@ -34,7 +35,9 @@ function inspect() {
     if (!image.alt) problems.push("picture without a text alternative");
     if (image.clientWidth < 20) problems.push(`picture too small to see: ${image.alt}`);
   }
-  if (document.querySelectorAll("section, header").length < 7) problems.push("sections are missing");
+  if (document.querySelectorAll("section, header").length < leastSections) {
+    problems.push("sections are missing");
+  }
   if (window.injected) problems.push("text of the study was run as code");
   return problems;
 }
@@ -137,7 +140,7 @@ async function inspectPage(context, url, view, folder) {
     .waitForFunction(() => document.documentElement.dataset.charts === "done", null,
       { timeout: drawingTimeout })
     .catch(() => problems.push("the charts were not finished in time"));
-  problems.push(...(await page.evaluate(inspect)));
+  problems.push(...(await page.evaluate(inspect, leastSections)));
   await page.screenshot({ path: join(folder, `${view.name}.png`), fullPage: true });
   for (const figure of await page.$$("figure.chart")) {
     problems.push(...(await figure.evaluate(inspectChart)));
@@ -145,7 +148,7 @@ async function inspectPage(context, url, view, folder) {
   }
   // Opened tables must not widen the page either.
   await page.$$eval("details", (all) => all.forEach((details) => { details.open = true; }));
-  problems.push(...(await page.evaluate(inspect)).map((p) => `${p} (with all tables open)`));
+  problems.push(...(await page.evaluate(inspect, leastSections)).map((p) => `${p} (with all tables open)`));
   const charts = await page.$$eval("figure.chart", (all) => all.length);
   const pictures = await page.evaluate(() => document.images.length);
   console.log(`${view.name}: ${charts} charts, ${pictures} pictures, ${problems.length} problems`);

@@ -42,16 +42,17 @@ Words with_common(Words words) {
 
 INSTANTIATE_TEST_SUITE_P(
     Commands, Help,
-    testing::Values(HelpCase{"", {"study", "gate", "list", "--version", "Usage: lightproof"}},
-                    HelpCase{"gate",
-                             with_common({"--sampler", "--weighting", "--level", "--json",
-                                          "--junit", "--markdown", "--github", "--sequential",
-                                          "--rejections", "Exit codes", "inconclusive"})},
-                    HelpCase{"study", with_common({"-o,--output", "--throughput", "--no-throughput",
-                                                   "--no-self-test", "Exit codes"})},
-                    HelpCase{"list",
-                             {"samplers", "maps", "presets", "materials", "receivers", "strategies",
-                              "--json"}}),
+    testing::Values(
+        HelpCase{"", {"study", "gate", "history", "list", "--version", "Usage: lightproof"}},
+        HelpCase{"gate", with_common({"--sampler", "--weighting", "--level", "--json", "--junit",
+                                      "--markdown", "--github", "--sequential", "--rejections",
+                                      "Exit codes", "inconclusive"})},
+        HelpCase{"study", with_common({"-o,--output", "--throughput", "--no-throughput",
+                                       "--no-self-test", "Exit codes"})},
+        HelpCase{"history", {"add", "compare", "trend"}},
+        HelpCase{
+            "list",
+            {"samplers", "maps", "presets", "materials", "receivers", "strategies", "--json"}}),
     [](const auto& test) {
       return test.param.subcommand.empty() ? "lightproof" : test.param.subcommand;
     });
@@ -116,6 +117,11 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{"UnknownWeighting", {"gate", "--weighting", "C"}, "--weighting"},
         UsageCase{"UnknownRegistry", {"list", "cats"}, "samplers"},
         UsageCase{"NoRegistry", {"list"}, "WHAT"},
+        UsageCase{"NoHistoryCommand", {"history"}, "subcommand is required"},
+        UsageCase{"NoDatabase", {"history", "add", "r.json"}, "--db"},
+        UsageCase{"NoResult", {"history", "add", "--db", "h.db"}, "RESULT"},
+        UsageCase{"NoHead", {"history", "compare", "a", "--db", "h.db"}, "HEAD"},
+        UsageCase{"NoPage", {"history", "trend", "--db", "h.db"}, "--output"},
         UsageCase{
             "BothThroughputs", {"study", "--throughput", "f", "--no-throughput"}, "--throughput"}),
     [](const auto& test) { return test.param.name; });

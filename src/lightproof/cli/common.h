@@ -68,6 +68,7 @@ bool use_color(const CommonOptions& options);
 /// Each registers its subcommand, which writes the exit code when it is run.
 void add_gate(CLI::App& app, int& exit_code);
 void add_study(CLI::App& app, int& exit_code);
+void add_history(CLI::App& app, int& exit_code);
 void add_list(CLI::App& app, int& exit_code);
 
 }  // namespace lightproof::cli

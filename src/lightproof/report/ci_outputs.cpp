@@ -6,6 +6,7 @@
 #include <cctype>
 #include <vector>
 
+#include "lightproof/report/columns.h"
 #include "lightproof/report/gate_summary.h"
 #include "lightproof/report/html.h"
 #include "lightproof/report/numbers.h"
@@ -87,19 +88,11 @@ std::string junit_case(const GateResult& gate, const TestRecord& test, bool coun
   return xml + "    </testcase>\n";
 }
 
-std::string cell(std::string text) {
-  for (const std::string_view bad : {"\n", "|"}) {
-    for (std::size_t at = text.find(bad); at != std::string::npos; at = text.find(bad, at + 1)) {
-      text.replace(at, 1, bad == "|" ? "/" : " ");
-    }
-  }
-  return text;
-}
-
 std::string markdown_row(const GateResult& gate, const TestRecord& test) {
-  return fmt::format("| {} | {} | {}/{} | {} | {} | {} |\n", cell(configuration_name(test)),
-                     cell(test.map), test.oracle, cell(test.test), p_text(test),
-                     significant(test.effect), cell(diagnosis_of(gate, test)));
+  return fmt::format("| {} | {} | {}/{} | {} | {} | {} |\n",
+                     markdown_cell(configuration_name(test)), markdown_cell(test.map), test.oracle,
+                     markdown_cell(test.test), p_text(test), significant(test.effect),
+                     markdown_cell(diagnosis_of(gate, test)));
 }
 
 /// One word for a POSIX shell, whatever is in it.

@@ -2,44 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <vector>
 
 #include "lightproof/report/ci_outputs.h"
+#include "lightproof/report/columns.h"
 #include "lightproof/report/gate_summary.h"
 #include "lightproof/report/numbers.h"
 
 namespace lightproof {
 namespace {
-
-using Row = std::vector<std::string>;
-
-/// Columns on the screen: code points of UTF-8 (no wide or combining characters are printed).
-std::size_t screen_width(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-  }));
-}
-
-std::vector<std::size_t> column_widths(const std::vector<Row>& rows) {
-  std::vector<std::size_t> widths;
-  for (const Row& row : rows) {
-    widths.resize(std::max(widths.size(), row.size()), 0);
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      widths[i] = std::max(widths[i], screen_width(row[i]));
-    }
-  }
-  return widths;
-}
-
-std::string line(const Row& row, const std::vector<std::size_t>& widths) {
-  std::string text;
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    text += row[i];
-    if (i + 1 < row.size()) text.append(widths[i] - screen_width(row[i]) + 2, ' ');
-  }
-  return text;
-}
 
 std::string painted(const std::string& text, Outcome outcome, Colour colour) {
   if (colour == Colour::off) return text;
@@ -62,7 +33,7 @@ std::string tally_text(const Tally& tally) {
 
 std::string summary_lines(const GateResult& gate, Colour colour) {
   const std::vector<GateCell> cells = summarise(gate);
-  std::vector<Row> rows = {
+  TextRows rows = {
       {"verdict", "sampler", "map", "passed", "worst test", "log10 p", "effect", "detectable"}};
   for (const GateCell& cell : cells) {
     const TestRecord& worst = *cell.worst;
@@ -71,10 +42,10 @@ std::string summary_lines(const GateResult& gate, Colour colour) {
                     tally_text(cell.tally), worst.oracle + "/" + worst.test, log10_p_text(worst),
                     significant(worst.effect), detectable_text(worst)});
   }
-  const std::vector<std::size_t> widths = column_widths(rows);
-  std::string text = line(rows[0], widths) + "\n";
+  const std::vector<std::string> lines = aligned_lines(rows);
+  std::string text = lines[0] + "\n";
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    text += painted(line(rows[i + 1], widths), cells[i].tally.outcome(), colour) + "\n";
+    text += painted(lines[i + 1], cells[i].tally.outcome(), colour) + "\n";
   }
   return text;
 }

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
-#include <thread>
 
+#include "lightproof/core/machine.h"
 #include "lightproof/core/random.h"
 #include "lightproof/samplers/binary_search.h"
 #include "lightproof/suite/direction_sampler.h"
@@ -17,18 +16,6 @@ namespace lightproof {
 namespace {
 
 constexpr std::uint64_t kDrawnPoints = 400;
-
-/// "AMD EPYC, 2 cores".
-std::string machine_name() {
-  std::ifstream info("/proc/cpuinfo");
-  std::string model = "unknown processor";
-  for (std::string line; std::getline(info, line);) {
-    if (!line.starts_with("model name")) continue;
-    model = line.substr(line.find(':') + 2);
-    break;
-  }
-  return fmt::format("{}, {} cores", model, std::thread::hardware_concurrency());
-}
 
 }  // namespace
 

@@ -1,0 +1,166 @@
+#include "lightproof/history/google_benchmark.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ctime>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
+
+#include "lightproof/core/error.h"
+#include "lightproof/core/random.h"
+
+namespace lightproof {
+
+const char* to_string(Metric metric) {
+  return metric == Metric::nanoseconds ? "ns" : "instructions";
+}
+
+namespace {
+using Json = nlohmann::json;
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in || text.empty()) {
+    throw InputError(fmt::format("{}: {}", file.string(), in ? "is empty" : "cannot be read"));
+  }
+  return text;
+}
+
+/// `value` as a T. Throws InputError, which names the place.
+template <class T>
+T as(const Json& value, const std::string& place) {
+  try {
+    return value.get<T>();
+  } catch (const Json::exception&) {
+    throw InputError(fmt::format("{}: {} is not of the right type", place, value.dump()));
+  }
+}
+
+template <class T>
+T member(const Json& object, const char* key, const std::string& place) {
+  const auto found = object.find(key);
+  if (found == object.end()) throw InputError(fmt::format("{}: \"{}\" is missing", place, key));
+  return as<T>(*found, fmt::format("{}.{}", place, key));
+}
+
+/// Seconds since 1970 of "2026-01-31T12:00:00+01:00".
+std::int64_t seconds_of(const std::string& date) {
+  std::tm parts{};
+  const char* end = ::strptime(date.c_str(), "%Y-%m-%dT%H:%M:%S%z", &parts);
+  if (end == nullptr || *end != '\0') {
+    throw InputError(
+        fmt::format("context.date: \"{}\" is no date like 2026-01-31T12:00:00+00:00", date));
+  }
+  const long offset = parts.tm_gmtoff;
+  return static_cast<std::int64_t>(::timegm(&parts)) - offset;
+}
+
+std::string machine_of(const Json& context) {
+  if (context.contains("machine")) return member<std::string>(context, "machine", "context");
+  return fmt::format("{}, {} CPUs", member<std::string>(context, "host_name", "context"),
+                     member<int>(context, "num_cpus", "context"));
+}
+
+std::string optional_text(const Json& context, const char* key) {
+  return context.contains(key) ? member<std::string>(context, key, "context") : "unknown";
+}
+
+std::string commit_of(const Json& context, const std::string& given) {
+  if (!given.empty()) return given;
+  const std::string commit = optional_text(context, "commit");
+  if (commit != "unknown" && !commit.empty()) return commit;
+  throw InputError("context.commit is missing: say which commit was measured, with --commit");
+}
+
+double nanoseconds_per(const std::string& unit, const std::string& place) {
+  if (unit == "ns") return 1.0;
+  if (unit == "us") return 1e3;
+  if (unit == "ms") return 1e6;
+  if (unit == "s") return 1e9;
+  throw InputError(fmt::format("{}.time_unit: \"{}\" is none of ns, us, ms, s", place, unit));
+}
+
+double positive(double value, const std::string& place) {
+  if (value > 0.0 && std::isfinite(value)) return value;
+  throw InputError(fmt::format("{}: {} is not a positive number", place, value));
+}
+
+Measurement measurement_of(const Json& entry, const std::string& place) {
+  const std::string name = member<std::string>(entry, "run_name", place);
+  if (name.empty()) throw InputError(fmt::format("{}.run_name: is empty", place));
+  if (entry.value("error_occurred", false)) {
+    throw InputError(fmt::format("{}: {} failed: {}", place, name,
+                                 entry.value("error_message", "no reason is given")));
+  }
+  Measurement measurement{name, Metric::nanoseconds, entry.value("repetition_index", 0), 0.0};
+  if (entry.contains("instructions")) {
+    measurement.metric = Metric::instructions;
+    measurement.value =
+        positive(member<double>(entry, "instructions", place), place + ".instructions");
+    return measurement;
+  }
+  const bool wall = name.ends_with("/real_time") || name.ends_with("/manual_time");
+  const char* key = wall ? "real_time" : "cpu_time";
+  const double unit = nanoseconds_per(member<std::string>(entry, "time_unit", place), place);
+  measurement.value =
+      unit * positive(member<double>(entry, key, place), fmt::format("{}.{}", place, key));
+  return measurement;
+}
+
+std::vector<Measurement> measurements_of(const Json& benchmarks) {
+  std::vector<Measurement> all;
+  std::set<std::tuple<std::string, Metric, int>> seen;
+  for (std::size_t i = 0; i < benchmarks.size(); ++i) {
+    const std::string place = fmt::format("benchmarks[{}]", i);
+    if (!benchmarks[i].is_object()) throw InputError(place + ": is no object");
+    if (benchmarks[i].value("run_type", "iteration") != "iteration") continue;
+    Measurement one = measurement_of(benchmarks[i], place);
+    if (!seen.emplace(one.benchmark, one.metric, one.repetition).second) {
+      throw InputError(fmt::format("{}: repetition {} of {} is there twice", place, one.repetition,
+                                   one.benchmark));
+    }
+    all.push_back(std::move(one));
+  }
+  if (all.empty()) throw InputError("benchmarks: holds no measurement");
+  return all;
+}
+
+BenchmarkRun run_of(const Json& document, const std::string& commit) {
+  if (!document.is_object()) throw InputError("is no JSON object");
+  const auto context = member<Json>(document, "context", "the file");
+  const auto benchmarks = member<Json>(document, "benchmarks", "the file");
+  if (!context.is_object()) throw InputError("context: is no object");
+  if (!benchmarks.is_array()) throw InputError("benchmarks: is no array");
+  return {"",
+          seconds_of(member<std::string>(context, "date", "context")),
+          machine_of(context),
+          optional_text(context, "compiler"),
+          optional_text(context, "flags"),
+          commit_of(context, commit),
+          0,
+          measurements_of(benchmarks)};
+}
+
+}  // namespace
+
+BenchmarkRun read_google_benchmark(const std::filesystem::path& file, const std::string& commit) {
+  const std::string text = text_of(file);
+  try {
+    BenchmarkRun run = run_of(Json::parse(text), commit);
+    run.digest = hash_text(text);
+    return run;
+  } catch (const Json::exception& error) {
+    // The library's message has line and column of what it could not read.
+    throw InputError(fmt::format("{}: not a result of Google Benchmark (--benchmark_out): {}",
+                                 file.string(), error.what()));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace lightproof

@@ -1,0 +1,60 @@
+// The rule by which one benchmark of one session is slower, the same or faster.
+//
+// Times: the runs of head are slower if a one-sided Mann-Whitney test says so at `alpha` AND the
+// medians' ratio is beyond a limit. The test alone finds differences that nobody feels; the effect
+// alone is chance where times scatter. The limit is 1.05, or three times what comparing base with
+// itself would show (A/A noise), whichever is larger. That noise is the standard deviation of the
+// logarithm of the ratio of two medians of runs of the same program:
+//
+//     noise = e sqrt(1 + n/m),    e = standard error of the median of log time of base's n runs,
+//
+// where m runs of head have the error e sqrt(n/m). The error of a median is by Maritz and Jarrett:
+// it needs no assumed distribution, and no luck with how runs are split into halves. Three of them
+// are exceeded once in 740 comparisons of equal programs by normal noise, about as often as alpha.
+//
+// Instructions: a kernel of fixed work, compiled for a fixed instruction set, executes the same
+// number every time, so there is nothing to test. The limit is 1.01: one instruction more in a loop
+// of a hundred, the length of the longer samplers here, shows; what moves a shorter loop by less
+// than one instruction per round is work outside of the loop.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "lightproof/history/run.h"
+
+namespace lightproof {
+
+struct RegressionRule {
+  double alpha = 0.001;
+  double least_effect = 0.05;
+  double noise_factor = 3.0;
+  double instruction_effect = 0.01;
+};
+
+enum class Change { none, slower, faster };
+
+struct Judgement {
+  std::size_t base_runs = 0;
+  std::size_t head_runs = 0;
+  double base = 0.0;  ///< medians over runs
+  double head = 0.0;
+  double ratio = 1.0;             ///< head / base
+  double limit = 1.0;             ///< beyond which the ratio, or its inverse, is an effect
+  double noise = 0.0;             ///< A/A noise, relative; 0 for instructions
+  std::optional<double> log10_p;  ///< that head is not slower; none for instructions
+  Change change = Change::none;
+};
+
+/// One value a run, neither side empty.
+Judgement judge(Metric metric, std::span<const double> base, std::span<const double> head,
+                const RegressionRule& rule);
+
+/// Whether the Mann-Whitney test could reject at all with so many runs.
+bool enough_runs(std::size_t base, std::size_t head, const RegressionRule& rule);
+
+/// The least number of runs on each side that is enough.
+std::size_t least_runs(const RegressionRule& rule);
+
+}  // namespace lightproof

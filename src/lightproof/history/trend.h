@@ -1,0 +1,36 @@
+// Benchmarks over commits.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lightproof/history/run.h"
+#include "lightproof/stats/change_points.h"
+
+namespace lightproof {
+
+struct TrendPoint {
+  std::string commit;
+  double value = 0.0;  ///< median over sessions of the medians over runs
+  std::size_t runs = 0;
+};
+
+/// One benchmark on one machine, by one compiler with one set of flags.
+struct TrendLine {
+  std::string machine;
+  std::string compiler;
+  std::string flags;
+  std::string benchmark;
+  Metric metric = Metric::nanoseconds;
+  std::vector<TrendPoint> points;  ///< in the order in which the commits were first measured
+  std::vector<ChangePoint> changes;
+};
+
+/// Changes of times are found by change_points(), with a commit as one value: what runs of one
+/// session share, the state of the machine, would pass for a change if runs were the values.
+/// Instruction counts change where a commit differs from the one before by more than the limit of
+/// the regression rule. Runs come in the order of their start.
+std::vector<TrendLine> trend_lines(std::span<const BenchmarkRun> runs, const ChangeRule& rule = {});
+
+}  // namespace lightproof

@@ -1,0 +1,67 @@
+#include "lightproof/history/comparison_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "made_up_runs.h"
+
+namespace lightproof {
+namespace {
+
+using test::made_up_session;
+using test::operator+;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+Comparison of_ratio(double ratio, const std::string& kernel = "kernel") {
+  auto runs = made_up_session({.name = "1", .ratio = ratio, .seed = 1}) +
+              made_up_session({.name = "2", .started = 1000, .ratio = ratio, .seed = 2});
+  for (BenchmarkRun& run : runs) {
+    run.measurements[0].benchmark = kernel;
+    run.measurements.push_back({"count", Metric::instructions, 0, 1000.0});
+  }
+  return compare(runs, "base", "head");
+}
+
+TEST(ComparisonTable, ShowsWhatWentWrongFirst) {
+  const std::string table = comparison_table(of_ratio(1.5));
+  EXPECT_LT(table.find("regressed  kernel"), table.find("same       count"));
+  EXPECT_THAT(table, AllOf(HasSubstr("regressed: 1 of 2 measurements regressed"),
+                           HasSubstr("machine; compiler; flags; 2 sessions")));
+}
+
+TEST(ComparisonTable, SaysWhatToDoAboutASuspicion) {
+  const auto runs = made_up_session({.ratio = 1.5});
+  EXPECT_THAT(comparison_table(compare(runs, "base", "head")), HasSubstr("measure both"));
+  EXPECT_THAT(comparison_table(of_ratio(1.0)), Not(HasSubstr("measure both")));
+}
+
+TEST(ComparisonMarkdown, IsATableThatNoNameCanBreak) {
+  const std::string text = comparison_markdown(of_ratio(1.5, "a|b\nc"));
+  EXPECT_THAT(text, HasSubstr("| regressed | a/b c | ns |"));
+  for (std::size_t at = text.find("\n| "); at != std::string::npos;
+       at = text.find("\n| ", at + 1)) {
+    const auto line = text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+    EXPECT_EQ(std::count(line.begin(), line.end(), '|'), 10) << line;
+  }
+}
+
+TEST(ComparisonJson, HasTheRowsAndTheirJudgements) {
+  const auto json = nlohmann::json::parse(comparison_json(of_ratio(1.5)));
+  EXPECT_EQ(json["outcome"], "regressed");
+  EXPECT_EQ(json["sessions"].size(), 2U);
+  ASSERT_EQ(json["rows"].size(), 2U);
+  EXPECT_EQ(json["rows"][0]["benchmark"], "kernel");
+  EXPECT_EQ(json["rows"][0]["latest"]["base_runs"], 15);
+  EXPECT_NEAR(json["rows"][0]["latest"]["ratio"].get<double>(), 1.5, 0.05);
+  EXPECT_EQ(json["rows"][0]["earlier"]["change"], "slower");
+  EXPECT_TRUE(json["rows"][1]["latest"]["log10_p"].is_null());
+  EXPECT_EQ(nlohmann::json::parse(comparison_json(of_ratio(1.0)))["outcome"], "passed");
+}
+
+}  // namespace
+}  // namespace lightproof

@@ -1,0 +1,200 @@
+#include "lightproof/history/store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+
+#include "lightproof/core/error.h"
+#include "lightproof/core/temporary_folder.h"
+#include "lightproof/history/sqlite.h"
+#include "made_up_runs.h"
+
+namespace lightproof {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+BenchmarkRun some_run(int number) {
+  BenchmarkRun run = test::made_up_run("commit", "session", number, {});
+  for (int i = 0; i < 50; ++i) {
+    run.measurements.push_back({"kernel", Metric::nanoseconds, i, 1.0 + 0.1 * i});
+  }
+  run.measurements.push_back({"kernel", Metric::instructions, 0, 1e12 + 1.0});
+  return run;
+}
+
+class History : public testing::Test {
+ protected:
+  fs::path file() const { return folder_ / "history.db"; }
+
+  void fill(int runs) const {
+    HistoryStore store = HistoryStore::open_to_write(file());
+    for (int i = 0; i < runs; ++i) store.add(some_run(i));
+  }
+
+  /// The refusals of both ways to open the file, which must leave it as it is.
+  void expect_refused(const std::string& message) const {
+    const std::string before = bytes_of(file());
+    for (const auto& open : {HistoryStore::open_to_read, HistoryStore::open_to_write}) {
+      try {
+        open(file());
+        ADD_FAILURE() << "opened";
+      } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), AllOf(HasSubstr(file().string()), HasSubstr(message)));
+      }
+    }
+    EXPECT_TRUE(bytes_of(file()) == before) << "the file was touched";
+    std::size_t names = 0;
+    for ([[maybe_unused]] const auto& entry : fs::directory_iterator(file().parent_path())) ++names;
+    EXPECT_EQ(names, 1U) << "files were left beside it";
+  }
+
+  void execute(const char* statements) const {
+    sqlite::Database(file(), sqlite::Mode::create).execute(statements);
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(History, GivesBackWhatWasAdded) {
+  const BenchmarkRun run = some_run(7);
+  HistoryStore::open_to_write(file()).add(run);
+  const std::vector<BenchmarkRun> runs = HistoryStore::open_to_read(file()).runs();
+  ASSERT_EQ(runs.size(), 1U);
+  EXPECT_EQ(runs[0].session, run.session);
+  EXPECT_EQ(runs[0].started, run.started);
+  EXPECT_EQ(runs[0].machine, run.machine);
+  EXPECT_EQ(runs[0].compiler, run.compiler);
+  EXPECT_EQ(runs[0].flags, run.flags);
+  EXPECT_EQ(runs[0].commit, run.commit);
+  EXPECT_EQ(runs[0].digest, run.digest);
+  ASSERT_EQ(runs[0].measurements.size(), run.measurements.size());
+  EXPECT_EQ(runs[0].measurements[0].metric, Metric::instructions);
+  EXPECT_EQ(runs[0].measurements[0].value, 1e12 + 1.0);
+  EXPECT_EQ(runs[0].measurements[3].repetition, 2);
+  EXPECT_EQ(runs[0].measurements[3].value, run.measurements[2].value);
+}
+
+TEST_F(History, KeepsAnyText) {
+  BenchmarkRun run = some_run(0);
+  run.commit = "'; DROP TABLE runs; --\n\u00e9";
+  HistoryStore::open_to_write(file()).add(run);
+  EXPECT_EQ(HistoryStore::open_to_read(file()).runs().at(0).commit, run.commit);
+}
+
+TEST_F(History, TakesAFileOnce) {
+  HistoryStore store = HistoryStore::open_to_write(file());
+  const BenchmarkRun run = some_run(0);
+  EXPECT_EQ(store.add(run), 1);
+  EXPECT_EQ(store.add(run), std::nullopt);
+  EXPECT_EQ(store.runs().size(), 1U);
+}
+
+TEST_F(History, IsInTheOrderOfTime) {
+  HistoryStore store = HistoryStore::open_to_write(file());
+  for (const int started : {30, 10, 20}) store.add(some_run(started));
+  const std::vector<BenchmarkRun> runs = store.runs();
+  EXPECT_EQ(runs[0].started, 10);
+  EXPECT_EQ(runs[2].started, 30);
+}
+
+TEST_F(History, AddsARunWholeOrNotAtAll) {
+  fill(1);
+  BenchmarkRun bad = some_run(1);
+  bad.measurements.push_back({"kernel", Metric::nanoseconds, 99, -1.0});
+  HistoryStore store = HistoryStore::open_to_write(file());
+  EXPECT_THROW(store.add(bad), InputError);
+  EXPECT_EQ(HistoryStore::open_to_read(file()).runs().size(), 1U);
+  EXPECT_EQ(store.add(some_run(2)), 2) << "the lock was not given back";
+}
+
+TEST_F(History, IsReadWhileItIsWritten) {
+  HistoryStore writer = HistoryStore::open_to_write(file());
+  writer.add(some_run(0));
+  const HistoryStore reader = HistoryStore::open_to_read(file());
+  writer.add(some_run(1));
+  EXPECT_EQ(reader.runs().size(), 2U);
+}
+
+TEST_F(History, RefusesAMissingFileToRead) {
+  EXPECT_THROW(HistoryStore::open_to_read(file()), InputError);
+  EXPECT_FALSE(fs::exists(file()));
+}
+
+TEST_F(History, RefusesAFolderThatIsNotThere) {
+  EXPECT_THROW(HistoryStore::open_to_write(file().parent_path() / "none" / "h.db"), InputError);
+}
+
+TEST_F(History, RefusesAFolder) {
+  EXPECT_THROW(HistoryStore::open_to_write(file().parent_path()), InputError);
+}
+
+TEST_F(History, RefusesATextFile) {
+  std::ofstream(file()) << "benchmark,value\n" << std::string(500, 'x');
+  expect_refused("not an SQLite database");
+}
+
+TEST_F(History, RefusesAnEmptyFile) {
+  std::ofstream(file()).flush();
+  expect_refused("not an SQLite database");
+}
+
+TEST_F(History, RefusesTheDatabaseOfAnotherProgram) {
+  execute("CREATE TABLE runs (id INTEGER)");
+  expect_refused("another program");
+}
+
+TEST_F(History, RefusesAnotherVersion) {
+  fill(1);
+  execute("PRAGMA journal_mode = DELETE; PRAGMA user_version = 2");
+  expect_refused("of version 2; this program reads version 1");
+}
+
+std::string values_of(const std::vector<BenchmarkRun>& runs) {
+  std::string text;
+  for (const BenchmarkRun& run : runs) {
+    text += run.commit + run.session + std::to_string(run.started) + "\n";
+    for (const Measurement& m : run.measurements) text += m.benchmark + std::to_string(m.value);
+  }
+  return text;
+}
+
+// Wherever damage falls: refused, or in bytes that hold nothing; never other numbers.
+TEST_F(History, RefusesADamagedFile) {
+  fill(20);
+  const std::string sound = bytes_of(file());
+  const std::string values = values_of(HistoryStore::open_to_read(file()).runs());
+  int refused = 0;
+  for (std::size_t at = 100; at + 8 < sound.size(); at += 321) {
+    std::string bytes = sound;
+    for (std::size_t i = at; i < at + 8; ++i) bytes[i] = static_cast<char>(bytes[i] ^ 0x5a);
+    std::ofstream(file(), std::ios::binary) << bytes;
+    try {
+      EXPECT_EQ(values_of(HistoryStore::open_to_read(file()).runs()), values) << at;
+    } catch (const InputError& error) {
+      ++refused;
+      EXPECT_THAT(error.what(), AllOf(HasSubstr(file().string()), HasSubstr("is damaged"))) << at;
+    }
+    EXPECT_TRUE(bytes_of(file()) == bytes) << "the file was touched";
+  }
+  EXPECT_GT(refused, 50) << "nothing was hit";
+}
+
+TEST_F(History, RefusesAFileThatWasCutShort) {
+  fill(40);
+  fs::resize_file(file(), fs::file_size(file()) / 2);
+  expect_refused("is damaged");
+}
+
+}  // namespace
+}  // namespace lightproof
