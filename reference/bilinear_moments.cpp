@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/image/look_up.h"
@@ -53,45 +54,67 @@ class CellMoments {
         a_(2.0 * kPi * kPi * total_of(radiance, Weighting::A)),
         b_(total_of(radiance, Weighting::B)) {}
 
-  void add_cell(LightMoments& moments, int i, int j) const {
-    const double brightest = brightest_of(i, j);
-    if (!(brightest > 0.0)) return;
-    const bool split = kernel_->straddles(quadrature_.centre(i, j), quadrature_.radius());
-    quadrature_.visit(i, j, split, [&](const Node& node) {
-      const auto [k, pdf] = kernel_->at(node.direction);
-      if (k > 0.0) add_node(moments, node, {k, pdf}, brightest);
-    });
+  void add_row(LightMoments& moments, int j) const {
+    const std::vector<double> low = corners_along(j);
+    const std::vector<double> high = corners_along(j + 1);
+    for (int i = 0; i < quadrature_.extent().width; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      add_cell(moments, {i, j, {{{low[k], low[k + 1]}, {high[k], high[k + 1]}}}});
+    }
   }
 
  private:
+  /// A cell, in which the radiance is bilinear, and what it is at the corners.
+  struct Cell {
+    int i;
+    int j;
+    std::array<std::array<double, 2>, 2> corners;  ///< [t][s]
+
+    double brightest() const {
+      return std::max({corners[0][0], corners[0][1], corners[1][0], corners[1][1]});
+    }
+    double at(double p, double q) const {
+      return (1.0 - q) * ((1.0 - p) * corners[0][0] + p * corners[0][1]) +
+             q * ((1.0 - p) * corners[1][0] + p * corners[1][1]);
+    }
+  };
+
+  /// The radiance at all corners of cells on the lower edge of row j.
+  std::vector<double> corners_along(int j) const {
+    const auto [width, height] = quadrature_.extent();
+    std::vector<double> values;
+    for (int i = 0; i <= width; ++i) {
+      values.push_back(look_up_bilinear(
+          *radiance_, {static_cast<double>(i) / width, static_cast<double>(j) / height}));
+    }
+    return values;
+  }
+
+  void add_cell(LightMoments& moments, const Cell& cell) const {
+    if (!(cell.brightest() > 0.0)) return;
+    const bool split = kernel_->straddles(quadrature_.centre(cell.i, cell.j), quadrature_.radius());
+    quadrature_.visit(cell.i, cell.j, split, [&](const Node& node) {
+      const KernelValue value = kernel_->at(node.direction);
+      if (value.k > 0.0) add_node(moments, node, value, cell);
+    });
+  }
+
   void add_node(LightMoments& moments, const Node& node, KernelValue value,
-                double brightest) const {
+                const Cell& cell) const {
+    const auto [width, height] = quadrature_.extent();
     const auto [k, pdf] = value;
-    const double radiance = look_up_bilinear(*radiance_, node.at);
+    const double radiance = cell.at(node.at.s * width - cell.i, node.at.t * height - cell.j);
     const double light = radiance * k * node.solid_angle;
     const double over_pdf = pdf > 0.0 ? k / pdf : 0.0;
     add(moments.uniform, light, kSphere * radiance * k);
     add(moments.material, light, radiance * over_pdf);
     add(moments.environment_a, light, a_ * k * node.sin_theta);
     add(moments.environment_b, light, b_ * k);
-    raise(moments.uniform, kSphere * brightest * k);
-    raise(moments.material, brightest * over_pdf);
+    // Bilinear functions are largest at a corner.
+    raise(moments.uniform, kSphere * cell.brightest() * k);
+    raise(moments.material, cell.brightest() * over_pdf);
     raise(moments.environment_a, a_ * k * node.sin_theta);
     raise(moments.environment_b, b_ * k);
-  }
-
-  /// A bilinear function is largest at a corner.
-  double brightest_of(int i, int j) const {
-    const auto [width, height] = quadrature_.extent();
-    double most = 0.0;
-    for (const int x : {i, i + 1}) {
-      for (const int y : {j, j + 1}) {
-        const SquarePoint corner = {static_cast<double>(x) / width,
-                                    static_cast<double>(y) / height};
-        most = std::max(most, look_up_bilinear(*radiance_, corner));
-      }
-    }
-    return most;
   }
 
   const Kernel* kernel_;
@@ -176,9 +199,7 @@ LightMoments bilinear_light_moments(const Kernel& kernel, const Grid<double>& ra
   const Extent cells = {width * parts.width, height * parts.height};
   const CellMoments moments(kernel, radiance, cells);
   std::vector<LightMoments> rows(static_cast<std::size_t>(cells.height));
-  parallel_for(rows.size(), [&](std::size_t j) {
-    for (int i = 0; i < cells.width; ++i) moments.add_cell(rows[j], i, static_cast<int>(j));
-  });
+  parallel_for(rows.size(), [&](std::size_t j) { moments.add_row(rows[j], static_cast<int>(j)); });
   LightMoments sum;
   for (const LightMoments& row : rows) {
     merge(sum.uniform, row.uniform);
