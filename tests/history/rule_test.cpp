@@ -19,6 +19,10 @@ using Values = std::vector<double>;
 struct Law {
   double spread = 0.01;  ///< standard deviation of log time
   bool busy = false;
+
+  friend void PrintTo(const Law& law, std::ostream* out) {
+    *out << law.spread << (law.busy ? ", busy" : "");
+  }
 };
 
 Values times(const RandomStream& stream, std::size_t count, double level, const Law& law) {
