@@ -14,28 +14,14 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/maps.h"
 #include "bench/registration.h"
 #include "bench/vose_baseline.h"
 #include "lightproof/core/parallel.h"
-#include "lightproof/image/synthetic.h"
 #include "lightproof/samplers/registry.h"
 
 namespace lightproof::bench {
 namespace {
-
-constexpr std::string_view kMap = "sun-sky";
-constexpr std::array<Extent, 7> kExtents = {
-    {{256, 128}, {512, 256}, {1024, 512}, {2048, 1024}, {4096, 2048}, {8192, 4096}, {16384, 8192}}};
-
-/// Benchmarks of one size follow each other, so one map at a time is enough.
-const EnvironmentMap& map_of(Extent extent) {
-  static EnvironmentMap map;
-  if (!(map.radiance.extent() == extent)) {
-    map = {};
-    map = make_synthetic_map(kMap, extent);
-  }
-  return map;
-}
 
 template <class Build>
 void time_builds(benchmark::State& state, const Build& build) {

@@ -22,11 +22,11 @@
 #include <vector>
 
 #include "bench/bare_gather.h"
+#include "bench/maps.h"
 #include "bench/registration.h"
 #include "bench/upper_bound_baseline.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
-#include "lightproof/image/synthetic.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/registry.h"
 #include "lightproof/stats/goodness_of_fit.h"
@@ -37,9 +37,6 @@
 namespace lightproof::bench {
 namespace {
 
-constexpr std::string_view kMap = "sun-sky";
-constexpr std::array<Extent, 7> kExtents = {
-    {{256, 128}, {512, 256}, {1024, 512}, {2048, 1024}, {4096, 2048}, {8192, 4096}, {16384, 8192}}};
 constexpr std::size_t kPoints = std::size_t{1} << 21U;
 constexpr std::size_t kFitted = std::size_t{1} << 16U;
 /// Far beyond chance: the points are the same in every run.
@@ -48,16 +45,6 @@ constexpr double kLeastLog10P = -6.0;
 constexpr Weighting kWeighting = Weighting::A;
 
 bool disagreed = false;
-
-/// Benchmarks of one size follow each other, so one map at a time is enough.
-const EnvironmentMap& map_of(Extent extent) {
-  static EnvironmentMap map;
-  if (!(map.radiance.extent() == extent)) {
-    map = {};
-    map = make_synthetic_map(kMap, extent);
-  }
-  return map;
-}
 
 const reference::SlowSampler& reference_of(Extent extent, TargetDensity target) {
   static std::unique_ptr<reference::SlowSampler> sampler;

@@ -106,9 +106,9 @@ TEST(TableChart, MarksTheFrontOfTheLargestMap) {
   const json rows =
       json::parse(table_chart(tables, &TableRecord::bytes_per_texel, "size"))["data"]["values"];
   ASSERT_EQ(rows.size(), 6U);
-  EXPECT_EQ(rows[0]["sampler"], "upper_bound_baseline");
+  EXPECT_EQ(rows[0]["series"], "upper_bound_baseline");
   EXPECT_EQ(rows[0]["front"], "beaten in both");
-  EXPECT_EQ(rows[3]["sampler"], "alias_lines");
+  EXPECT_EQ(rows[3]["series"], "alias_lines");
   EXPECT_EQ(rows[3]["front"], "on the front");
 }
 

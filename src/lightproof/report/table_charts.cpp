@@ -13,10 +13,9 @@ namespace lightproof {
 namespace {
 
 constexpr const char* kFrontColour = "#1d232a";
-constexpr const char* kOtherColour = "#8a939c";
 
 Json row_of(const TableRecord& record, TableCost cost, bool on_front) {
-  return {{"sampler", record.sampler},
+  return {{"series", record.sampler},
           {"cost", rounded(record.*cost)},
           {"ns", rounded(record.ns_per_sample)},
           {"bytes", rounded(record.bytes_per_texel)},
@@ -42,30 +41,25 @@ Json front_line() {
           {"encoding", {{"order", {{"field", "cost"}, {"type", "quantitative"}}}}}};
 }
 
-Json dots() {
-  const Json domain = {"on the front", "beaten in both"};
-  const Json legend = {{"title", nullptr}};
-  return {{"mark", {{"type", "point"}, {"filled", true}, {"size", 80}, {"opacity", 1}}},
-          {"encoding",
-           {{"color",
-             {{"field", "front"},
-              {"type", "nominal"},
-              {"legend", legend},
-              {"scale", {{"domain", domain}, {"range", {kFrontColour, kOtherColour}}}}}},
-            {"shape",
-             {{"field", "front"},
-              {"type", "nominal"},
-              {"legend", legend},
-              {"scale", {{"domain", domain}, {"range", {"circle", "cross"}}}}}},
-            {"tooltip",
-             {tooltip("sampler", "sampler", ""), tooltip("ns", "ns per sample", ".3~g"),
-              tooltip("bytes", "bytes per texel", ".3~g"),
-              tooltip("error", "worst texel's relative error", ".2~g")}}}}};
+/// Rings around what is on the front.
+Json rings() {
+  return {
+      {"transform", {{{"filter", "datum.front == 'on the front'"}}}},
+      {"mark", {{"type", "point"}, {"shape", "circle"}, {"size", 220}, {"color", kFrontColour}}},
+      {"encoding", Json::object()}};
 }
 
-Json names() {
-  return {{"mark", {{"type", "text"}, {"align", "left"}, {"dx", 8}, {"dy", -6}, {"fontSize", 11}}},
-          {"encoding", {{"text", {{"field", "sampler"}, {"type", "nominal"}}}}}};
+Json dots(const std::vector<SeriesStyle>& styles) {
+  const Json legend = {{"title", nullptr}, {"columns", 3}};
+  return {{"mark", {{"type", "point"}, {"filled", true}, {"size", 70}, {"opacity", 1}}},
+          {"encoding",
+           {{"color", series(styles, &SeriesStyle::colour, legend)},
+            {"shape", series(styles, &SeriesStyle::shape, legend)},
+            {"tooltip",
+             {tooltip("series", "sampler", ""), tooltip("ns", "ns per sample", ".3~g"),
+              tooltip("bytes", "bytes per texel", ".3~g"),
+              tooltip("error", "worst texel's relative error", ".2~g"),
+              tooltip("front", "Pareto front", "")}}}}};
 }
 
 }  // namespace
@@ -77,11 +71,13 @@ std::string table_chart(const std::vector<TableRecord>& records, TableCost cost,
   Json rows = Json::array();
   LogRange costs;
   LogRange times;
+  std::vector<std::string> names;
   for (const TableRecord& record : drawn) {
     if (!drawable(record.*cost) || !drawable(record.ns_per_sample)) continue;
     const bool on_front = std::any_of(front.begin(), front.end(), [&](const TableRecord& best) {
       return best.sampler == record.sampler;
     });
+    names.push_back(record.sampler);
     rows.push_back(row_of(record, cost, on_front));
     costs.add(record.*cost);
     times.add(record.ns_per_sample);
@@ -91,7 +87,7 @@ std::string table_chart(const std::vector<TableRecord>& records, TableCost cost,
   chart["encoding"] = {
       {"x", axis_of("cost", cost_name.c_str(), costs)},
       {"y", axis_of("ns", "time per sample, random numbers included (ns, log)", times)}};
-  chart["layer"] = {front_line(), dots(), names()};
+  chart["layer"] = {front_line(), rings(), dots(series_styles(names))};
   return text_of(chart);
 }
 

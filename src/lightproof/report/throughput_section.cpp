@@ -69,7 +69,9 @@ constexpr std::string_view kTablesNote =
     "Batches of samples on one thread, random numbers included. The error is the largest relative "
     "difference between the probability with which a texel is drawn and its share of the light; "
     "samplers return the probability that they draw with, so the error costs variance, no bias. "
-    "Along the dashed line nothing gets better in one way without getting worse in the other.";
+    "Along the dashed line, from ring to ring, nothing gets better in one way without getting "
+    "worse "
+    "in the other.";
 
 /// The costs that are held against speed.
 std::string table_figures(const std::vector<TableRecord>& tables) {

@@ -33,24 +33,13 @@ concept CellFinder = requires(const T finder, const CdfTable& table, int y, std:
   { finder.bytes() } -> std::same_as<std::size_t>;
 };
 
-/// Finders for vectors show what they keep.
-template <class Finder>
-inline constexpr bool kHasView = requires(const Finder finder) {
-  finder.view();
+/// What an inversion sampler keeps, for code that works on many samples at once.
+template <class FinderView>
+struct CdfInversionView {
+  CdfTable::View table;
+  FinderView finder;
+  TexelPlacesView places;
 };
-template <class Finder>
-struct NoView {};
-template <class Finder>
-struct FinderViewOf {
-  using Type = NoView<Finder>;
-};
-template <class Finder>
-requires kHasView<Finder>
-struct FinderViewOf<Finder> {
-  using Type = typename Finder::View;
-};
-template <class Finder>
-using FinderView = typename FinderViewOf<Finder>::Type;
 
 /// An inversion sampler. Monotone: it keeps stratification.
 template <CellFinder Finder>
@@ -75,13 +64,11 @@ class CdfInversion {
 
   const CdfTable& table() const { return table_; }
 
-  struct View {
-    CdfTable::View table;
-    FinderView<Finder> finder;
-    TexelPlacesView places;
-  };
-  View view() const requires kHasView<Finder> {
-    return {table_.view(), finder_.view(), places_.view()};
+  /// Of finders that show what they keep.
+  auto view() const requires requires(const Finder& finder) { finder.view(); }
+  {
+    return CdfInversionView<decltype(finder_.view())>{table_.view(), finder_.view(),
+                                                      places_.view()};
   }
 
   std::size_t table_bytes() const { return table_.bytes() + finder_.bytes() + places_.bytes(); }

@@ -92,10 +92,11 @@ class GuidedKnots {
 };
 
 using GuideTable = CdfInversion<GuidedKnots>;
+using GuideTableView = CdfInversionView<GuidedKnots::View>;
 static_assert(EnvSampler<GuideTable>);
 
 /// Whole vectors of a batch; returns how many samples these are.
-std::size_t sample_vectors(const GuideTable::View& table, const BatchPoints& points,
+std::size_t sample_vectors(const GuideTableView& table, const BatchPoints& points,
                            std::span<TexelSample> samples);
 
 }  // namespace lightproof

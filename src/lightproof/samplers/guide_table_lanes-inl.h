@@ -144,7 +144,7 @@ class GuideTableLanes {
     GuidedLanes::Block cells;
   };
 
-  explicit GuideTableLanes(const GuideTable::View& view)
+  explicit GuideTableLanes(const GuideTableView& view)
       : guided_(view.table, view.finder), places_(view.places) {}
 
   template <int kStage>

@@ -56,7 +56,7 @@ std::size_t draw_guide_lines(const GuideLines::View& table, const BatchPoints& p
                              std::span<TexelSample> samples) {
   return draw<GuideLinesLanes>(table, points, samples);
 }
-std::size_t draw_guide_table(const GuideTable::View& table, const BatchPoints& points,
+std::size_t draw_guide_table(const GuideTableView& table, const BatchPoints& points,
                              std::span<TexelSample> samples) {
   return draw<GuideTableLanes>(table, points, samples);
 }
@@ -96,7 +96,7 @@ std::size_t sample_vectors(const GuideLines::View& table, const BatchPoints& poi
   return HWY_DYNAMIC_DISPATCH(draw_guide_lines)(table, points, samples);
 }
 
-std::size_t sample_vectors(const GuideTable::View& table, const BatchPoints& points,
+std::size_t sample_vectors(const GuideTableView& table, const BatchPoints& points,
                            std::span<TexelSample> samples) {
   return HWY_DYNAMIC_DISPATCH(draw_guide_table)(table, points, samples);
 }
