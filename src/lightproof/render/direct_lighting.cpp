@@ -1,61 +1,66 @@
 #include "lightproof/render/direct_lighting.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <variant>
 
 #include "lightproof/core/random_batch.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/warp/lat_long.h"
+#include "lightproof/warp/lat_long_batch.h"
 
 namespace lightproof {
 namespace {
-
-/// What drawing one sample yields.
-struct Drawn {
-  Direction direction;
-  double pdf;
-  double reflected_cosine;  ///< if the material drew it
-  std::uint32_t texel;      ///< if the map or the sphere did
-};
 
 std::uint32_t texel_index(int x, int y, Extent map) {
   return static_cast<std::uint32_t>(y * map.width + x);
 }
 
-Drawn from_environment(const TexelSample& drawn, Extent map) {
-  return {direction_from_square(drawn.at), to_solid_angle(drawn.pdf, drawn.at).value, 0.0,
-          texel_index(drawn.x, drawn.y, map)};
+}  // namespace
+
+template <class Surface>
+void LightBatch::fill_from_material(std::size_t count, const Surface& surface,
+                                    const ShadingPoint& at) {
+  assert(count <= kCapacity);
+  count_ = count;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [direction, scattering] = surface.sample(at, points_[i]);
+    x_[i] = direction.x;
+    y_[i] = direction.y;
+    z_[i] = direction.z;
+    pdf_[i] = scattering.pdf.value;
+    reflected_cosine_[i] = scattering.reflected_cosine;
+  }
 }
 
 /// With density 1/4pi: cos(theta) uniform, so the place on the map needs no inverse of a warp but
 /// one arc cosine.
-Drawn from_sphere(Extent map, SquarePoint u) {
-  const SquarePoint at = {u.s, std::acos(1.0 - 2.0 * u.t) / kPi};
-  return {direction_from_square(at), 1.0 / kSphere, 0.0,
-          texel_index(cell_of(at.s, map.width), cell_of(at.t, map.height), map)};
+void LightBatch::fill_from_sphere(std::size_t count, Extent map) {
+  for (std::size_t i = 0; i < count; ++i) {
+    t_[i] = std::acos(1.0 - 2.0 * t_[i]) / kPi;
+    texel_[i] = texel_index(cell_of(s_[i], map.width), cell_of(t_[i], map.height), map);
+  }
+  fill_directions(count);
+  std::fill_n(pdf_.begin(), count, 1.0 / kSphere);
 }
 
-template <class Surface>
-Drawn from_material(const Surface& surface, const ShadingPoint& at, SquarePoint u) {
-  const auto [direction, scattering] = surface.sample(at, u);
-  return {direction, scattering.pdf.value, scattering.reflected_cosine, 0};
+void LightBatch::fill_from_samples(std::size_t count, Extent map) {
+  for (std::size_t i = 0; i < count; ++i) {
+    s_[i] = samples_[i].at.s;
+    t_[i] = samples_[i].at.t;
+    texel_[i] = texel_index(samples_[i].x, samples_[i].y, map);
+  }
+  fill_directions(count);
+  for (std::size_t i = 0; i < count; ++i) pdf_[i] = samples_[i].pdf.value / steradian_[i];
 }
 
-}  // namespace
-
-template <class Draw>
-void LightBatch::fill(std::size_t count, const Draw& draw) {
+void LightBatch::fill_directions(std::size_t count) {
   assert(count <= kCapacity);
   count_ = count;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Drawn drawn = draw(i);
-    x_[i] = drawn.direction.x;
-    y_[i] = drawn.direction.y;
-    z_[i] = drawn.direction.z;
-    pdf_[i] = drawn.pdf;
-    reflected_cosine_[i] = drawn.reflected_cosine;
-    texel_[i] = drawn.texel;
-  }
+  directions_from_squares(std::span(s_).first(count), std::span(t_).first(count),
+                          {std::span(x_).first(count), std::span(y_).first(count),
+                           std::span(z_).first(count), std::span(steradian_).first(count)});
 }
 
 void LightBatch::draw(const Lighting& lighting, const ShadingPoint& at, const RandomStream& stream,
@@ -63,21 +68,18 @@ void LightBatch::draw(const Lighting& lighting, const ShadingPoint& at, const Ra
   const Extent extent = lighting.light->map().radiance.extent();
   switch (lighting.strategy) {
     case Strategy::uniform:
-      fill_points(stream, first, std::span(points_).first(count));
-      return fill(count, [&](std::size_t i) { return from_sphere(extent, points_[i]); });
+      fill_points(stream, first, std::span(s_).first(count), std::span(t_).first(count));
+      return fill_from_sphere(count, extent);
     case Strategy::material:
       fill_points(stream, first, std::span(points_).first(count));
-      return std::visit(
-          [&](const auto& surface) {
-            fill(count, [&](std::size_t i) { return from_material(surface, at, points_[i]); });
-          },
-          lighting.material);
+      return std::visit([&](const auto& surface) { fill_from_material(count, surface, at); },
+                        lighting.material);
     case Strategy::environment_a:
     case Strategy::environment_b: {
       const bool a = lighting.strategy == Strategy::environment_a;
       sample(lighting.light->sampler(a ? Weighting::A : Weighting::B), stream, first,
              std::span(samples_).first(count));
-      return fill(count, [&](std::size_t i) { return from_environment(samples_[i], extent); });
+      return fill_from_samples(count, extent);
     }
   }
 }

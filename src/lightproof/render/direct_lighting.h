@@ -53,16 +53,23 @@ class LightBatch {
     std::uint32_t sample;
   };
 
-  template <class Draw>
-  void fill(std::size_t count, const Draw& draw);
+  template <class Surface>
+  void fill_from_material(std::size_t count, const Surface& surface, const ShadingPoint& at);
+  void fill_from_sphere(std::size_t count, Extent map);
+  void fill_from_samples(std::size_t count, Extent map);
+  /// Directions of s_ and t_.
+  void fill_directions(std::size_t count);
   Direction direction(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
   /// The texels that the directions meet.
   void locate(Extent map);
 
   // Of every sample. Apart, so that loops over them run on vectors.
   std::size_t count_ = 0;
-  std::array<SquarePoint, kCapacity> points_;   ///< unless the map draws
-  std::array<TexelSample, kCapacity> samples_;  ///< if it does
+  std::array<SquarePoint, kCapacity> points_;   ///< if the material draws
+  std::array<TexelSample, kCapacity> samples_;  ///< if the map does
+  std::array<double, kCapacity> s_;             ///< where on the map, if not the material draws
+  std::array<double, kCapacity> t_;
+  std::array<double, kCapacity> steradian_;  ///< per unit square there
   std::array<double, kCapacity> x_;
   std::array<double, kCapacity> y_;
   std::array<double, kCapacity> z_;
