@@ -14,7 +14,7 @@
 namespace lightproof {
 namespace {
 
-using Masses = std::vector<std::uint64_t>;
+using Masses = TableVector<std::uint64_t>;
 
 std::uint64_t sum_of(const Masses& masses) {
   return std::accumulate(masses.begin(), masses.end(), std::uint64_t{0});
@@ -71,24 +71,58 @@ TEST(WholeMasses, ASkyBesideASunIsNotDrawnTooOften) {
   EXPECT_NEAR(static_cast<double>(sky), 0.01 * 512000.0, 1.0);
 }
 
-TEST(SweepAliases, EveryColumnIsFilledAndEveryCellDrawnByItsMass) {
+/// The columns of a table, after a check that they draw these masses.
+std::vector<AliasColumn> columns_of(const Masses& masses, unsigned bits) {
+  EXPECT_EQ(sum_of(masses), masses.size() << bits);
+  std::vector<AliasColumn> columns(masses.size());
+  std::vector<int> visits(masses.size());
+  AliasSweep(masses, bits).for_columns([&](std::size_t cell, const AliasColumn& column) {
+    ++visits[cell];
+    columns[cell] = column;
+  });
+  EXPECT_EQ(visits, std::vector<int>(masses.size(), 1));
+  Masses drawn(masses.size(), 0);
+  for (std::size_t cell = 0; cell < columns.size(); ++cell) {
+    drawn[cell] += columns[cell].threshold;
+    drawn[columns[cell].alias] += (std::uint64_t{1} << bits) - columns[cell].threshold;
+  }
+  EXPECT_TRUE(drawn == masses);
+  return columns;
+}
+
+TEST(AliasSweep, EveryColumnIsFilledAndEveryCellDrawnByItsMass) {
   const std::vector<Masses> cases = {{8},           {8, 8},
                                      {0, 16},       {16, 0},
                                      {1, 15, 8},    {20, 1, 1, 17, 1, 8},
                                      {0, 0, 0, 32}, {9, 9, 6},
                                      {7, 9, 7, 9},  {48, 0, 0, 0, 0, 0}};
   for (const Masses& masses : cases) {
-    constexpr unsigned kBits = 3;
-    ASSERT_EQ(sum_of(masses), masses.size() << kBits);
-    Masses drawn(masses.size());
-    std::vector<int> visits(masses.size());
-    sweep_aliases(masses, kBits, [&](std::size_t cell, const AliasColumn& column) {
-      ++visits[cell];
-      drawn[cell] += column.threshold;
-      drawn[column.alias] += (1U << kBits) - column.threshold;
-    });
-    EXPECT_EQ(drawn, masses) << testing::PrintToString(masses);
-    EXPECT_EQ(visits, std::vector<int>(masses.size(), 1)) << testing::PrintToString(masses);
+    SCOPED_TRACE(testing::PrintToString(masses));
+    columns_of(masses, 3);
+  }
+}
+
+// Large ones before all small ones, behind them, between them, and averages among them.
+TEST(AliasSweep, GoesOnAlikeInManyPlacesAtOnce) {
+  constexpr std::size_t kCells = 100'000;  // of several tasks
+  constexpr unsigned kBits = 8;
+  std::vector<Masses> cases;
+  for (const std::size_t sun : {std::size_t{0}, kCells / 2, kCells - 1}) {
+    cases.emplace_back(kCells, 250);
+    cases.back()[sun] += 6 * kCells;
+  }
+  cases.emplace_back(kCells, 0);
+  for (std::size_t i = 0; i < kCells; ++i) cases.back()[i] = i < kCells / 2 ? 1 : 511;
+  cases.emplace_back(cases.back().rbegin(), cases.back().rend());
+  cases.emplace_back(kCells, 256);
+  for (std::size_t i = 0; i < kCells; i += 10) {
+    cases.back()[i] -= i % 256;
+    cases.back()[kCells - 1 - i] += i % 256;
+  }
+  for (const Masses& masses : cases) {
+    const std::vector<AliasColumn> all_threads = columns_of(masses, kBits);
+    const ThreadLimit one(1);
+    EXPECT_TRUE(columns_of(masses, kBits) == all_threads);
   }
 }
 

@@ -1,6 +1,5 @@
 // Batches give the texels of the scalar interface, whatever vectors the processor has.
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
 
 #include <cmath>
 #include <cstdint>
@@ -11,22 +10,10 @@
 #include "lightproof/image/synthetic.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/registry.h"
+#include "tests/samplers/kinds_of_vectors.h"
 
 namespace lightproof {
 namespace {
-
-/// Calls body(name) once for every kind of vector that this processor has, with only that one; the
-/// last is none at all.
-template <class Body>
-void for_each_kind_of_vector(const Body& body) {
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(target);
-    body(hwy::TargetName(target));
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
 
 /// Off by the rounding of vectorised sines and arc sines, some 10^-15 of a quarter circle each, in
 /// a map of up to 64 rows.

@@ -5,6 +5,10 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <new>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace lightproof {
@@ -25,12 +29,22 @@ struct LargePageAllocator {
   explicit(false) LargePageAllocator(const LargePageAllocator<U>& /*other*/) {}
 
   T* allocate(std::size_t count) { return static_cast<T*>(allocate_table(count * sizeof(T))); }
+  /// Elements that are made without a value have none: whoever writes them is the first to touch
+  /// their pages.
+  template <class U, class... Arguments>
+  void construct(U* at, Arguments&&... arguments) {
+    if constexpr (sizeof...(Arguments) == 0 && std::is_trivially_default_constructible_v<U>) {
+      ::new (static_cast<void*>(at)) U;
+    } else {
+      std::construct_at(at, std::forward<Arguments>(arguments)...);
+    }
+  }
   void deallocate(T* memory, std::size_t count) noexcept { free_table(memory, count * sizeof(T)); }
 
   friend bool operator==(const LargePageAllocator&, const LargePageAllocator&) { return true; }
 };
 
-/// A vector on large pages.
+/// A vector on large pages. Elements that are made without a value have none.
 template <class T>
 using TableVector = std::vector<T, LargePageAllocator<T>>;
 

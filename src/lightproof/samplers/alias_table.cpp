@@ -1,71 +1,79 @@
 #include "lightproof/samplers/alias_table.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
-#include "lightproof/core/parallel.h"
+#include "lightproof/samplers/weight_vectors.h"
 
 namespace lightproof {
 namespace {
 
 /// Cells of one task; fixed, so that the split does not depend on the threads.
 constexpr std::size_t kChunk = std::size_t{1} << 16U;
+/// Weights that are rounded while they are in the nearest cache.
+constexpr std::size_t kBlock = 512;
 
-std::size_t chunks_of(std::size_t count) { return (count + kChunk - 1) / kChunk; }
+std::size_t chunks_of(std::size_t count, std::size_t chunk) { return (count + chunk - 1) / chunk; }
 
 /// Calls body(chunk, first cell, last cell + 1) for all chunks, in parallel.
 template <class Body>
 void for_chunks(std::size_t count, const Body& body) {
-  parallel_for(chunks_of(count), [&](std::size_t chunk) {
+  parallel_for(chunks_of(count, kChunk), [&](std::size_t chunk) {
     body(chunk, chunk * kChunk, std::min(count, (chunk + 1) * kChunk));
   });
 }
 
-/// Neumaier's sum: off by one rounding, however many terms.
-double exact_sum(std::span<const double> values) {
+/// Of weights that are positive; some are less than a unit.
+struct Bright {
+  std::size_t faint = 0;  ///< how many of the others
   double sum = 0.0;
-  double lost = 0.0;
-  for (const double value : values) {
-    const double next = sum + value;
-    lost += std::abs(sum) >= value ? (sum - next) + value : (value - next) + sum;
-    sum = next;
-  }
-  return sum + lost;
-}
-
-double sum_of_weights(std::span<const double> weights) {
-  std::vector<double> sums(chunks_of(weights.size()));
-  for_chunks(weights.size(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
-    sums[chunk] = exact_sum(weights.subspan(first, end - first));
-  });
-  return exact_sum(sums);
-}
-
-/// Cells of less than a unit, which get one, and the weight of the others.
-struct Parts {
-  std::uint64_t faint = 0;
-  double bright = 0.0;
 };
 
-bool is_faint(double weight, double unit) { return weight > 0.0 && weight < unit; }
-
-Parts parts_of(std::span<const double> weights, double unit) {
-  std::vector<Parts> parts(chunks_of(weights.size()));
+Bright bright_of(std::span<const double> weights, double unit) {
+  std::vector<Bright> parts(chunks_of(weights.size(), kChunk));
   for_chunks(weights.size(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
-    Parts sum;
+    Bright part;
     for (const double weight : weights.subspan(first, end - first)) {
-      const bool faint = is_faint(weight, unit);
-      sum.faint += faint ? 1 : 0;
-      sum.bright += faint ? 0.0 : weight;
+      const bool faint = weight > 0.0 && weight < unit;
+      part.faint += faint ? 1 : 0;
+      part.sum += faint ? 0.0 : weight;
     }
-    parts[chunk] = sum;
+    parts[chunk] = part;
   });
-  Parts all;
-  for (const Parts& part : parts) {
+  Bright all;
+  for (const Bright& part : parts) {
     all.faint += part.faint;
-    all.bright += part.bright;
+    all.sum += part.sum;
   }
   return all;
+}
+
+/// What turns weights into masses.
+struct Scale {
+  unsigned fraction_bits;  ///< below the unit, of the shares that are added up
+  double fixed;            ///< of a weight, to its share in units of 2^-fraction_bits
+};
+
+Scale scale_of(std::span<const double> weights, std::uint64_t total) {
+  std::vector<double> sums(chunks_of(weights.size(), kChunk));
+  std::vector<double> least(sums.size());
+  for_chunks(weights.size(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
+    const WeightSums part(weights.subspan(first, end - first));
+    sums[chunk] = part.sum();
+    least[chunk] = part.least_positive();
+  });
+  const double sum = WeightSums(sums).sum();
+  const double unit = sum / static_cast<double>(total);
+  const bool any_faint = *std::ranges::min_element(least) < unit;
+  const Bright bright = any_faint ? bright_of(weights, unit) : Bright{0, sum};
+  constexpr unsigned kMostBits = 62;
+  constexpr unsigned kMostFractionBits = 20;
+  const unsigned bits =
+      std::min(kMostFractionBits, kMostBits - static_cast<unsigned>(std::bit_width(total)));
+  const double shared = static_cast<double>(total - bright.faint);
+  return {bits, std::ldexp(shared, static_cast<int>(bits)) / bright.sum};
 }
 
 /// What one chunk's masses come to.
@@ -75,37 +83,39 @@ struct Rounded {
 };
 
 /// What rounding leaves of a cell goes on to the next.
-Rounded round_masses(std::span<const double> weights, double unit, double scale,
+Rounded round_masses(std::span<const double> weights, const Scale& scale,
                      std::span<std::uint64_t> masses) {
+  const FixedPoint form = {scale.fixed, std::int64_t{1} << scale.fraction_bits, 0};
+  std::array<std::int64_t, kBlock> shares;
+  std::int64_t sum = 0;
+  std::uint64_t most = 0;
   Rounded rounded;
-  double carry = 0.0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    if (!(weights[i] > 0.0)) continue;
-    if (is_faint(weights[i], unit)) {
-      masses[i] = 1;
-    } else {
-      const double share = scale * weights[i] + carry;
-      const double whole = std::max(1.0, std::floor(share));
-      carry = share - whole;
-      masses[i] = static_cast<std::uint64_t>(whole);
+  for (std::size_t first = 0; first < weights.size(); first += kBlock) {
+    const auto block = weights.subspan(first, std::min(kBlock, weights.size() - first));
+    to_fixed_point(block, form, std::span(shares).first(block.size()));
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const std::int64_t before = sum >> scale.fraction_bits;
+      sum += shares[i];
+      const auto mass = static_cast<std::uint64_t>((sum >> scale.fraction_bits) - before);
+      masses[first + i] = mass;
+      if (mass <= most) continue;
+      most = mass;
+      rounded.largest = first + i;
     }
-    rounded.sum += masses[i];
-    if (masses[i] > masses[rounded.largest]) rounded.largest = i;
   }
+  rounded.sum = static_cast<std::uint64_t>(sum >> scale.fraction_bits);
   return rounded;
 }
 
 }  // namespace
 
-std::vector<std::uint64_t> whole_masses(std::span<const double> weights, unsigned bits) {
+TableVector<std::uint64_t> whole_masses(std::span<const double> weights, unsigned bits) {
   const std::uint64_t total = weights.size() << bits;
-  const double unit = sum_of_weights(weights) / static_cast<double>(total);
-  const Parts parts = parts_of(weights, unit);
-  const double scale = static_cast<double>(total - parts.faint) / parts.bright;
-  std::vector<std::uint64_t> masses(weights.size());
-  std::vector<Rounded> chunks(chunks_of(weights.size()));
+  const Scale scale = scale_of(weights, total);
+  TableVector<std::uint64_t> masses(weights.size());
+  std::vector<Rounded> chunks(chunks_of(weights.size(), kChunk));
   for_chunks(weights.size(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
-    chunks[chunk] = round_masses(weights.subspan(first, end - first), unit, scale,
+    chunks[chunk] = round_masses(weights.subspan(first, end - first), scale,
                                  std::span(masses).subspan(first, end - first));
     chunks[chunk].largest += first;
   });
@@ -119,15 +129,54 @@ std::vector<std::uint64_t> whole_masses(std::span<const double> weights, unsigne
   return masses;
 }
 
+AliasSweep::AliasSweep(std::span<const std::uint64_t> masses, unsigned bits)
+    : masses_(masses), full_(std::uint64_t{1} << bits), before_(chunks_of(masses.size(), kChunk)) {
+  parallel_for(before_.size(), [&](std::size_t chunk) {
+    before_[chunk] = balance(chunk * kChunk, std::min(masses.size(), (chunk + 1) * kChunk));
+  });
+  Balance sum{0, 0};
+  for (Balance& chunk : before_) {
+    const Balance before = sum;
+    sum.lack += chunk.lack;
+    sum.excess += chunk.excess;
+    chunk = before;
+  }
+}
+
+AliasSweep::Balance AliasSweep::balance(std::size_t first, std::size_t end) const {
+  Balance sum{0, 0};
+  for (const std::uint64_t mass : masses_.subspan(first, end - first)) {
+    sum.lack += full_ - std::min(mass, full_);
+    sum.excess += std::max(mass, full_) - full_;
+  }
+  return sum;
+}
+
+AliasSweep::Filling AliasSweep::start_of(std::size_t chunk) const {
+  // What the small cells before the chunk lack has come from the first large ones, up to the first
+  // with which all of these have as much above the average.
+  const std::uint64_t lack = before_[chunk].lack;
+  const auto beyond = std::ranges::lower_bound(before_, lack, {}, &Balance::excess);
+  const auto from =
+      static_cast<std::size_t>(std::max(beyond - before_.begin() - 1, std::ptrdiff_t{0}));
+  std::uint64_t excess = before_[from].excess;
+  for (std::size_t large = next_large(from * kChunk);; large = next_large(large + 1)) {
+    excess += masses_[large] - full_;
+    if (excess >= lack) return {large, full_ + (excess - lack)};
+  }
+}
+
 AliasTable::AliasTable(std::span<const double> weights) : entries_(weights.size()) {
-  const std::vector<std::uint64_t> masses = whole_masses(weights, kBits);
-  const auto probability = [unit = kUnit / static_cast<double>(weights.size())](std::uint64_t m) {
-    return static_cast<float>(unit * static_cast<double>(m));
+  const TableVector<std::uint64_t> masses = whole_masses(weights, kBits);
+  const double unit = kUnit / static_cast<double>(weights.size());
+  const auto probability = [&](std::size_t cell) {
+    // Quicker of signed numbers.
+    return static_cast<float>(unit * static_cast<double>(static_cast<std::int64_t>(masses[cell])));
   };
-  sweep_aliases(masses, kBits, [&](std::size_t cell, const AliasColumn& column) {
+  AliasSweep(masses, kBits).for_columns([&](std::size_t cell, const AliasColumn& column) {
     entries_[cell] = {static_cast<std::uint32_t>(column.threshold),
-                      static_cast<std::uint32_t>(column.alias), probability(masses[cell]),
-                      probability(masses[column.alias])};
+                      static_cast<std::uint32_t>(column.alias), probability(cell),
+                      probability(column.alias)};
   });
 }
 

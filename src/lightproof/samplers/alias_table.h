@@ -14,50 +14,90 @@
 #include <vector>
 
 #include "lightproof/core/large_pages.h"
+#include "lightproof/core/parallel.h"
 
 namespace lightproof {
 
 /// Masses in units of 2^-bits / weights.size(), that is with a sum of weights.size() << bits.
 /// Positive weights of less than one unit get one; the others share the rest in proportion, to
-/// within one unit, but for the largest, which takes what the rounding of the sum leaves: less than
-/// a unit of every 65536 cells. In parallel, the same for any number of threads. All weights are >=
-/// 0 and one is positive; (weights.size() << bits) < 2^62.
-std::vector<std::uint64_t> whole_masses(std::span<const double> weights, unsigned bits);
+/// within one unit and 2^-20 of one (more if the sum is above 2^42), but for the largest, which
+/// takes what the rounding of the sum leaves: about a unit of every 65536 cells. In parallel, the
+/// same for any number of threads. All weights are >= 0 and one is positive;
+/// (weights.size() << bits) < 2^62.
+TableVector<std::uint64_t> whole_masses(std::span<const double> weights, unsigned bits);
 
 /// A column of the method: its own cell below the threshold, else the alias.
 struct AliasColumn {
   std::uint64_t
       threshold;  ///< in [0, 2^bits); 0 if the alias, which may be the cell itself, is all
   std::uint64_t alias;
+
+  friend bool operator==(const AliasColumn&, const AliasColumn&) = default;
 };
 
-/// Calls take(column index, AliasColumn) for every column of a table that draws these masses, of
-/// sum masses.size() << bits: two pointers sweep the cells below and above the average once,
-/// without queues or rounding.
-template <class Take>
-void sweep_aliases(std::span<const std::uint64_t> masses, unsigned bits, const Take& take) {
-  const std::uint64_t full = std::uint64_t{1} << bits;
-  const auto next_large = [&](std::size_t i) {
-    while (i < masses.size() && masses[i] < full) ++i;
-    return i;
-  };
-  std::size_t large = next_large(0);
-  std::uint64_t left = large < masses.size() ? masses[large] : 0;  // of the large one
-  for (std::size_t small = 0; small < masses.size(); ++small) {
-    if (masses[small] >= full) continue;
-    take(small, AliasColumn{masses[small], large});
-    left -= full - masses[small];
-    // What has fallen below the average is filled up by the next.
-    while (left < full) {
-      const std::size_t next = next_large(large + 1);
-      if (next == masses.size()) break;
-      take(large, AliasColumn{left, next});
-      left += masses[next] - full;
-      large = next;
-    }
+/// The pairing of the cells below the average mass with those above it: two pointers sweep both
+/// once, without queues or rounding. Where they stand at any cell follows from what the cells
+/// before it lack of the average, so the sweep goes on in many places at once (Huebschle-Schneider
+/// and Sanders 2019, "Parallel weighted random sampling"), and gives the same table for any number
+/// of threads.
+class AliasSweep {
+ public:
+  /// Masses of sum masses.size() << bits, which outlive this.
+  AliasSweep(std::span<const std::uint64_t> masses, unsigned bits);
+
+  /// Calls take(column index, AliasColumn) once for every column, from several threads.
+  template <class Take>
+  void for_columns(const Take& take) const {
+    parallel_for(before_.size(), [&](std::size_t chunk) { sweep(chunk, take); });
   }
-  for (; large < masses.size(); large = next_large(large + 1)) take(large, AliasColumn{0, large});
-}
+
+ private:
+  /// A large cell, and what is left of it; at least the average.
+  struct Filling {
+    std::size_t large;
+    std::uint64_t left;
+  };
+  /// What cells lack of the average, and what they have above it.
+  struct Balance {
+    std::uint64_t lack;
+    std::uint64_t excess;
+  };
+
+  Balance balance(std::size_t first, std::size_t end) const;
+  /// What fills the columns of the small cells of a chunk, at its beginning.
+  Filling start_of(std::size_t chunk) const;
+  std::size_t next_large(std::size_t cell) const {
+    while (cell < masses_.size() && masses_[cell] < full_) ++cell;
+    return cell;
+  }
+
+  template <class Take>
+  void sweep(std::size_t chunk, const Take& take) const {
+    auto [large, left] = start_of(chunk);
+    const std::size_t end = std::min(masses_.size(), (chunk + 1) * kChunk);
+    for (std::size_t small = chunk * kChunk; small < end; ++small) {
+      if (masses_[small] >= full_) continue;
+      take(small, AliasColumn{masses_[small], large});
+      left -= full_ - masses_[small];
+      // What has fallen below the average is filled up by the next.
+      while (left < full_) {
+        const std::size_t next = next_large(large + 1);
+        take(large, AliasColumn{left, next});
+        left += masses_[next] - full_;
+        large = next;
+      }
+    }
+    if (end < masses_.size()) return;
+    for (; large < end; large = next_large(large + 1)) take(large, AliasColumn{0, large});
+  }
+
+  /// Cells of one task; fixed, so that the split does not depend on the threads.
+  static constexpr std::size_t kChunk = std::size_t{1} << 14U;
+
+  std::span<const std::uint64_t> masses_;
+  std::uint64_t full_;
+  std::vector<Balance> before_;  ///< each chunk, of all cells
+};
 
 /// What is left of a uniform number in [0,1) that has chosen the part below or above `share`: a
 /// uniform one in [0,1).

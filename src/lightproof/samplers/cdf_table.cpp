@@ -1,30 +1,50 @@
 #include "lightproof/samplers/cdf_table.h"
 
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <cmath>
+#include <memory>
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/samplers/texel_weights.h"
-#include "lightproof/warp/lat_long.h"
+#include "lightproof/samplers/weight_vectors.h"
 
 namespace lightproof {
 
-void quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> knots,
-                  std::uint32_t one) {
-  std::vector<double> sums(weights.size());
-  std::inclusive_scan(weights.begin(), weights.end(), sums.begin());
-  const double total = sums.empty() ? 0.0 : sums.back();
-  const auto positive =
-      std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0; });
-  const auto shared = static_cast<double>(one - static_cast<std::uint32_t>(positive));
-  std::uint32_t reserved = 0;
+namespace {
+
+/// Knots are summed in units of 2^-20 of theirs, and rounded at the end.
+constexpr unsigned kFractionBits = 20;
+/// Weights that are summed while they are in the nearest cache.
+constexpr std::size_t kBlock = 512;
+
+}  // namespace
+
+double quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> knots,
+                    std::uint32_t one) {
   knots[0] = 0;
-  for (std::size_t k = 0; k < weights.size(); ++k) {
-    if (weights[k] > 0) ++reserved;
-    // sums[k] / total is exactly 1 from the last positive weight on, so the end is exact.
-    knots[k + 1] =
-        total > 0 ? reserved + static_cast<std::uint32_t>(shared * (sums[k] / total)) : 0;
+  const WeightSums sums(weights);
+  const double total = sums.sum();
+  if (!(total > 0.0)) {
+    std::ranges::fill(knots, 0U);
+    return total;
   }
+  const auto shared = static_cast<double>(one - static_cast<std::uint32_t>(sums.positive()));
+  // Whole numbers, so that their sums are exact; the shares' ends within half a unit of `one`, and
+  // is rounded to it.
+  constexpr std::int64_t kUnit = std::int64_t{1} << kFractionBits;
+  const FixedPoint form = {std::ldexp(shared, kFractionBits) / total, 0, kUnit};
+  std::int64_t sum = kUnit / 2;
+  std::array<std::int64_t, kBlock> shares;
+  for (std::size_t first = 0; first < weights.size(); first += kBlock) {
+    const auto block = weights.subspan(first, std::min(kBlock, weights.size() - first));
+    to_fixed_point(block, form, std::span(shares).first(block.size()));
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      sum += shares[i];
+      knots[first + i + 1] = static_cast<std::uint32_t>(sum >> kFractionBits);
+    }
+  }
+  return total;
 }
 
 /// weigh(y, weights) writes the weights of a row.
@@ -35,22 +55,18 @@ void CdfTable::fill(const Weigh& weigh) {
   columns_.resize(stride * static_cast<std::size_t>(extent_.height));
   std::vector<double> row_weights(static_cast<std::size_t>(extent_.height));
   parallel_for(row_weights.size(), [&](std::size_t row) {
-    std::vector<double> weights(static_cast<std::size_t>(extent_.width));
+    const auto width = static_cast<std::size_t>(extent_.width);
+    const auto memory = std::make_unique_for_overwrite<double[]>(width);
+    const std::span<double> weights(memory.get(), width);
     weigh(static_cast<int>(row), weights);
-    quantise_cdf(weights, {columns_.data() + row * stride, stride});
-    row_weights[row] = std::accumulate(weights.begin(), weights.end(), 0.0);
+    row_weights[row] = quantise_cdf(weights, {columns_.data() + row * stride, stride});
   });
   quantise_cdf(row_weights, rows_);
 }
 
 CdfTable::CdfTable(const EnvironmentMap& map, TargetDensity target)
     : extent_(map.radiance.extent()) {
-  fill([&](int y, std::span<double> weights) {
-    const double area = target.weighting == Weighting::B ? texel_solid_angle(extent_, y) : 1.0;
-    const auto texels = map.radiance.row(y);
-    std::transform(texels.begin(), texels.end(), weights.begin(),
-                   [&](Rgb rgb) { return area * luminance(rgb, target.grey); });
-  });
+  fill([&](int y, std::span<double> weights) { weigh_row(map, target, y, weights); });
   if (rows_.back() == 0) refuse_black(map);
 }
 

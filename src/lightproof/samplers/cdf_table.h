@@ -24,10 +24,10 @@ inline constexpr std::uint32_t kCdfOne = 1U << 31U;
 /// Probability of a row and of a column in it, both in units of 2^-31.
 inline double cdf_mass(double row, double column) { return 0x1p-62 * row * column; }
 
-/// Writes weights.size() + 1 knots, the last of which is `one`, more than there are weights. All
-/// zero if every weight is zero.
-void quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> knots,
-                  std::uint32_t one = kCdfOne);
+/// Writes weights.size() + 1 knots, the last of which is `one`, more than there are weights, of
+/// which there are at most 2^18. All zero if every weight is zero. Returns the sum of the weights.
+double quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> knots,
+                    std::uint32_t one = kCdfOne);
 
 /// Marginal over rows and conditional over columns of a map's target density.
 class CdfTable {

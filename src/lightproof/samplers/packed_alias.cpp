@@ -149,7 +149,7 @@ PackedAlias::PackedAlias(const EnvironmentMap& map, TargetDensity target)
       layout_(map.radiance.extent().count()),
       words_(map.radiance.extent().count()) {
   const unsigned threshold_bits = layout_.threshold_bits;
-  std::vector<std::uint64_t> masses =
+  TableVector<std::uint64_t> masses =
       whole_masses(texel_weights(map, target).values(), threshold_bits);
   const MassPalette palette(masses, layout_.code_bits);
   for (std::size_t i = 0; i < masses.size(); ++i) masses[i] = palette.masses[palette.codes[i]];
@@ -158,7 +158,7 @@ PackedAlias::PackedAlias(const EnvironmentMap& map, TargetDensity target)
     palette_.push_back(static_cast<float>(probability * static_cast<double>(mass)));
   }
   palette_.push_back(0.0F);  // vectors read two at a time
-  sweep_aliases(masses, threshold_bits, [&](std::size_t cell, const AliasColumn& column) {
+  AliasSweep(masses, threshold_bits).for_columns([&](std::size_t cell, const AliasColumn& column) {
     words_[cell] = column.alias | std::uint64_t{palette.codes[column.alias]} << layout_.alias_at |
                    std::uint64_t{palette.codes[cell]} << layout_.own_at |
                    column.threshold << layout_.threshold_at;

@@ -6,6 +6,7 @@
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/samplers/weight_vectors.h"
 #include "lightproof/warp/lat_long.h"
 
 namespace lightproof {
@@ -15,16 +16,19 @@ Grid<double> texel_weights(const EnvironmentMap& map, TargetDensity target) {
   Grid<double> weights(extent);
   parallel_for(static_cast<std::size_t>(extent.height), [&](std::size_t row) {
     const int y = static_cast<int>(row);
-    const double area = target.weighting == Weighting::B ? texel_solid_angle(extent, y) : 1.0;
-    const auto texels = map.radiance.row(y);
-    std::transform(texels.begin(), texels.end(), weights.row(y).begin(),
-                   [&](Rgb rgb) { return area * luminance(rgb, target.grey); });
+    weigh_row(map, target, y, weights.row(y));
   });
   const auto values = weights.values();
   if (std::none_of(values.begin(), values.end(), [](double w) { return w > 0.0; })) {
     refuse_black(map);
   }
   return weights;
+}
+
+void weigh_row(const EnvironmentMap& map, TargetDensity target, int y, std::span<double> weights) {
+  const Extent extent = map.radiance.extent();
+  const double area = target.weighting == Weighting::B ? texel_solid_angle(extent, y) : 1.0;
+  weigh(map.radiance.row(y), target.grey, area, weights);
 }
 
 void refuse_black(const EnvironmentMap& map) {

@@ -1,0 +1,206 @@
+#include "lightproof/samplers/weight_vectors.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lightproof/samplers/weight_vectors.cpp"
+#include <hwy/foreach_target.h>
+// Highway asks for this order.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace lightproof::HWY_NAMESPACE {
+namespace {
+
+// Each does whole vectors from the front, and returns how many numbers that were.
+
+#if HWY_TARGET == HWY_SCALAR
+
+std::size_t weigh_front(std::span<const Rgb> /*texels*/, LuminanceWeights /*grey*/, double /*area*/,
+                        double* /*weights*/) {
+  return 0;
+}
+std::size_t sum_front(std::span<const double> /*weights*/, WeightSums::Lanes& /*lanes*/) {
+  return 0;
+}
+std::size_t to_fixed_point_front(std::span<const double> /*weights*/, const FixedPoint& /*form*/,
+                                 std::int64_t* /*fixed*/) {
+  return 0;
+}
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Numbers = hn::ScalableTag<double>;
+using Whole = hn::ScalableTag<std::int64_t>;
+using Number = hn::Vec<Numbers>;
+using Halves = hn::Vec<hn::Half<hn::ScalableTag<float> > >;
+
+/// What turns a texel into its weight.
+struct Weigher {
+  Number red;
+  Number green;
+  Number blue;
+  Number area;
+
+  HWY_INLINE Number operator()(Halves r, Halves g, Halves b) const {
+    const Numbers d;
+    const Number reds = hn::Mul(red, hn::PromoteTo(d, r));
+    const Number greens = hn::Mul(green, hn::PromoteTo(d, g));
+    const Number blues = hn::Mul(blue, hn::PromoteTo(d, b));
+    return hn::Mul(area, hn::Add(hn::Add(reds, greens), blues));
+  }
+};
+
+/// Texels that are asked for before they are read: the processor itself reads ahead to the end of a
+/// page only.
+constexpr std::size_t kAhead = 2048;
+
+/// The lines of two vectors of texels. They may lie beyond the map.
+HWY_INLINE void fetch(const Rgb* texels) {
+  constexpr std::size_t kLine = 64;
+  const char* bytes = reinterpret_cast<const char*>(texels);
+  for (std::size_t at = 0; at < 2 * hn::MaxLanes(Numbers()) * sizeof(Rgb); at += kLine) {
+    __builtin_prefetch(bytes + at);
+  }
+}
+
+std::size_t weigh_front(std::span<const Rgb> texels, LuminanceWeights grey, double area,
+                        double* weights) {
+  const Numbers d;
+  const hn::ScalableTag<float> floats;
+  const hn::Half<decltype(floats)> half;
+  const std::size_t lanes = hn::Lanes(d);
+  const Weigher weigh = {hn::Set(d, grey.red), hn::Set(d, grey.green), hn::Set(d, grey.blue),
+                         hn::Set(d, area)};
+  std::size_t done = 0;
+  for (; done + 2 * lanes <= texels.size(); done += 2 * lanes) {
+    fetch(texels.data() + done + kAhead);
+    hn::Vec<decltype(floats)> r;
+    hn::Vec<decltype(floats)> g;
+    hn::Vec<decltype(floats)> b;
+    hn::LoadInterleaved3(floats, &texels[done].r, r, g, b);
+    hn::StoreU(weigh(hn::LowerHalf(half, r), hn::LowerHalf(half, g), hn::LowerHalf(half, b)), d,
+               weights + done);
+    hn::StoreU(weigh(hn::UpperHalf(half, r), hn::UpperHalf(half, g), hn::UpperHalf(half, b)), d,
+               weights + done + lanes);
+  }
+  return done;
+}
+
+std::size_t sum_front(std::span<const double> weights, WeightSums::Lanes& lanes) {
+  const Numbers numbers;
+  const Whole whole;
+  constexpr std::size_t kVectors = WeightSums::kLanes / hn::MaxLanes(Numbers());
+  const auto zero = hn::Zero(numbers);
+  const auto none = hn::Set(numbers, std::numeric_limits<double>::infinity());
+  hn::Vec<Numbers> sum[kVectors];
+  hn::Vec<Numbers> least[kVectors];
+  hn::Vec<Whole> positive[kVectors];
+  for (std::size_t k = 0; k < kVectors; ++k) {
+    sum[k] = zero;
+    least[k] = none;
+    positive[k] = hn::Zero(whole);
+  }
+  std::size_t done = 0;
+  for (; done + WeightSums::kLanes <= weights.size(); done += WeightSums::kLanes) {
+    for (std::size_t k = 0; k < kVectors; ++k) {
+      const auto weight = hn::LoadU(numbers, weights.data() + done + k * hn::Lanes(numbers));
+      const auto any = hn::Gt(weight, zero);
+      sum[k] = hn::Add(sum[k], weight);
+      least[k] = hn::Min(least[k], hn::IfThenElse(any, weight, none));
+      positive[k] = hn::Sub(positive[k], hn::VecFromMask(whole, hn::RebindMask(whole, any)));
+    }
+  }
+  for (std::size_t k = 0; k < kVectors; ++k) {
+    hn::StoreU(sum[k], numbers, lanes.sum.data() + k * hn::Lanes(numbers));
+    hn::StoreU(least[k], numbers, lanes.least_positive.data() + k * hn::Lanes(numbers));
+    hn::StoreU(positive[k], whole, lanes.positive.data() + k * hn::Lanes(numbers));
+  }
+  return done;
+}
+
+std::size_t to_fixed_point_front(std::span<const double> weights, const FixedPoint& form,
+                                 std::int64_t* fixed) {
+  const Numbers numbers;
+  const Whole whole;
+  const auto factor = hn::Set(numbers, form.scale);
+  const auto half = hn::Set(numbers, 0.5);
+  const auto least = hn::Set(whole, form.least);
+  const auto more = hn::Set(whole, form.more);
+  std::size_t done = 0;
+  for (; done + hn::Lanes(numbers) <= weights.size(); done += hn::Lanes(numbers)) {
+    const auto weight = hn::LoadU(numbers, weights.data() + done);
+    const auto any = hn::RebindMask(whole, hn::Gt(weight, hn::Zero(numbers)));
+    const auto rounded = hn::ConvertTo(whole, hn::Add(hn::Mul(factor, weight), half));
+    const auto raised = hn::Add(hn::Max(rounded, least), more);
+    hn::StoreU(hn::IfThenElseZero(any, raised), whole, fixed + done);
+  }
+  return done;
+}
+
+#endif
+
+}  // namespace
+}  // namespace lightproof::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lightproof {
+namespace {
+
+HWY_EXPORT(weigh_front);
+HWY_EXPORT(sum_front);
+HWY_EXPORT(to_fixed_point_front);
+
+/// In the order of a vector of eight.
+template <class T, class Combine>
+T combined(const std::array<T, WeightSums::kLanes>& lanes, const Combine& combine) {
+  return combine(combine(combine(lanes[0], lanes[1]), combine(lanes[2], lanes[3])),
+                 combine(combine(lanes[4], lanes[5]), combine(lanes[6], lanes[7])));
+}
+
+}  // namespace
+
+void weigh(std::span<const Rgb> texels, LuminanceWeights grey, double area,
+           std::span<double> weights) {
+  std::size_t i = HWY_DYNAMIC_DISPATCH(weigh_front)(texels, grey, area, weights.data());
+  for (; i < texels.size(); ++i) weights[i] = area * luminance(texels[i], grey);
+}
+
+WeightSums::WeightSums(std::span<const double> weights) : lanes_{} {
+  lanes_.least_positive.fill(std::numeric_limits<double>::infinity());
+  std::size_t i = HWY_DYNAMIC_DISPATCH(sum_front)(weights, lanes_);
+  for (; i < weights.size(); ++i) {
+    const std::size_t lane = i % kLanes;
+    lanes_.sum[lane] += weights[i];
+    if (!(weights[i] > 0.0)) continue;
+    lanes_.least_positive[lane] = std::min(lanes_.least_positive[lane], weights[i]);
+    ++lanes_.positive[lane];
+  }
+}
+
+double WeightSums::sum() const { return combined(lanes_.sum, std::plus<>()); }
+
+std::size_t WeightSums::positive() const {
+  return static_cast<std::size_t>(combined(lanes_.positive, std::plus<>()));
+}
+
+double WeightSums::least_positive() const {
+  return combined(lanes_.least_positive, [](double a, double b) { return std::min(a, b); });
+}
+
+void to_fixed_point(std::span<const double> weights, const FixedPoint& form,
+                    std::span<std::int64_t> fixed) {
+  std::size_t i = HWY_DYNAMIC_DISPATCH(to_fixed_point_front)(weights, form, fixed.data());
+  for (; i < weights.size(); ++i) {
+    const auto rounded = static_cast<std::int64_t>(form.scale * weights[i] + 0.5);
+    fixed[i] = weights[i] > 0.0 ? std::max(rounded, form.least) + form.more : 0;
+  }
+}
+
+}  // namespace lightproof
+#endif

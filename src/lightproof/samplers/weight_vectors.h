@@ -1,0 +1,53 @@
+// Loops over weights that every table is built with, vectorised (Highway): the same bits for every
+// kind of vector.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "lightproof/image/environment_map.h"
+
+namespace lightproof {
+
+/// weights[i] = area * luminance(texels[i], grey); both spans are of one size.
+void weigh(std::span<const Rgb> texels, LuminanceWeights grey, double area,
+           std::span<double> weights);
+
+/// Sums of weights >= 0, which run side by side in a fixed order: weight i is added to the sum
+/// i % kLanes.
+class WeightSums {
+ public:
+  explicit WeightSums(std::span<const double> weights);
+
+  double sum() const;
+  std::size_t positive() const;
+  /// Infinite if none is positive.
+  double least_positive() const;
+
+  static constexpr std::size_t kLanes = 8;
+  struct Lanes {
+    std::array<double, kLanes> sum;
+    std::array<double, kLanes> least_positive;
+    std::array<std::int64_t, kLanes> positive;
+  };
+
+ private:
+  Lanes lanes_;
+};
+
+/// How weights become whole numbers.
+struct FixedPoint {
+  double scale;
+  std::int64_t least;  ///< that a positive weight gives
+  std::int64_t more;   ///< that a positive weight gives besides
+};
+
+/// fixed[i] = scale * weights[i], rounded to the nearest whole number, of two the higher, below
+/// 2^62; at least `least`, and `more` beside it, if the weight is positive. Both spans are of one
+/// size.
+void to_fixed_point(std::span<const double> weights, const FixedPoint& form,
+                    std::span<std::int64_t> fixed);
+
+}  // namespace lightproof

@@ -1,0 +1,94 @@
+// The same bits for every kind of vector and every number of weights.
+#include "lightproof/samplers/weight_vectors.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "lightproof/core/random.h"
+#include "tests/samplers/kinds_of_vectors.h"
+
+namespace lightproof {
+namespace {
+
+constexpr std::size_t kMost = 40;
+
+/// Of very different brightness, and some black.
+std::vector<Rgb> texels_of(std::size_t count) {
+  const RandomStream stream("weights", 1);
+  std::vector<Rgb> texels;
+  for (std::size_t i = 0; i < count; ++i) {
+    const SquarePoint u = stream.point(i);
+    const auto light = static_cast<float>(std::exp(20.0 * u.s - 10.0));
+    texels.push_back(i % 5 == 3 ? Rgb{} : Rgb{light, static_cast<float>(u.t), 0.5F * light});
+  }
+  return texels;
+}
+
+std::vector<double> weights_of(std::size_t count) {
+  std::vector<double> weights;
+  for (const Rgb rgb : texels_of(count)) weights.push_back(luminance(rgb));
+  return weights;
+}
+
+TEST(WeightVectors, WeighByLuminanceAndArea) {
+  const std::vector<Rgb> texels = texels_of(kMost);
+  for_each_kind_of_vector([&](const char* vectors) {
+    SCOPED_TRACE(vectors);
+    for (std::size_t count = 0; count <= kMost; ++count) {
+      std::vector<double> weights(kMost + 1, -1.0);
+      weigh(std::span(texels).first(count), kRec709, 0.3, std::span(weights).first(count));
+      for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(weights[i], 0.3 * luminance(texels[i]));
+      EXPECT_EQ(weights[count], -1.0);
+    }
+  });
+}
+
+TEST(WeightVectors, SumsAreTheSameWhateverTheVectors) {
+  const std::vector<double> all = weights_of(kMost);
+  for_each_kind_of_vector([&](const char* vectors) {
+    SCOPED_TRACE(vectors);
+    for (std::size_t count = 0; count <= kMost; ++count) {
+      const std::span<const double> weights = std::span(all).first(count);
+      double lanes[8] = {};
+      double least = std::numeric_limits<double>::infinity();
+      std::size_t positive = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        lanes[i % 8] += weights[i];
+        if (weights[i] == 0.0) continue;
+        least = std::min(least, weights[i]);
+        ++positive;
+      }
+      const WeightSums sums(weights);
+      EXPECT_EQ(sums.sum(), ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) +
+                                ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7])));
+      EXPECT_EQ(sums.least_positive(), least);
+      EXPECT_EQ(sums.positive(), positive);
+    }
+  });
+}
+
+TEST(WeightVectors, FixedPointIsTheNearest) {
+  const std::vector<double> weights = weights_of(kMost);
+  for_each_kind_of_vector([&](const char* vectors) {
+    SCOPED_TRACE(vectors);
+    for (const FixedPoint form : {FixedPoint{1.0, 0, 0}, FixedPoint{0x1p20, 0, 1024},
+                                  FixedPoint{0x1p45, std::int64_t{1} << 44U, 0}}) {
+      for (std::size_t count = 0; count <= kMost; ++count) {
+        std::vector<std::int64_t> fixed(kMost + 1, -1);
+        to_fixed_point(std::span(weights).first(count), form, std::span(fixed).first(count));
+        for (std::size_t i = 0; i < count; ++i) {
+          const auto nearest = static_cast<std::int64_t>(std::floor(form.scale * weights[i] + 0.5));
+          EXPECT_EQ(fixed[i], weights[i] > 0.0 ? std::max(nearest, form.least) + form.more : 0);
+        }
+        EXPECT_EQ(fixed[count], -1);
+      }
+    }
+  });
+}
+
+}  // namespace
+}  // namespace lightproof
