@@ -4,7 +4,8 @@
 #include <cassert>
 #include <cstddef>
 #include <span>
-#include <vector>
+
+#include "lightproof/core/large_pages.h"
 
 namespace lightproof {
 
@@ -25,6 +26,13 @@ class Grid {
  public:
   Grid() = default;
   explicit Grid(Extent extent, T value = T{}) : extent_(extent), values_(extent.count(), value) {}
+  /// For whoever writes every cell.
+  static Grid without_values(Extent extent) {
+    Grid grid;
+    grid.extent_ = extent;
+    grid.values_.resize(extent.count());
+    return grid;
+  }
 
   Extent extent() const { return extent_; }
   T& operator()(int x, int y) { return values_[index(x, y)]; }
@@ -44,7 +52,7 @@ class Grid {
   }
 
   Extent extent_;
-  std::vector<T> values_;
+  TableVector<T> values_;
 };
 
 }  // namespace lightproof

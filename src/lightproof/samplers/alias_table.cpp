@@ -131,8 +131,10 @@ TableVector<std::uint64_t> whole_masses(std::span<const double> weights, unsigne
 
 AliasSweep::AliasSweep(std::span<const std::uint64_t> masses, unsigned bits)
     : masses_(masses), full_(std::uint64_t{1} << bits), before_(chunks_of(masses.size(), kChunk)) {
-  parallel_for(before_.size(), [&](std::size_t chunk) {
-    before_[chunk] = balance(chunk * kChunk, std::min(masses.size(), (chunk + 1) * kChunk));
+  for_chunks(masses.size(), [&](std::size_t /*task*/, std::size_t first, std::size_t end) {
+    for (std::size_t cell = first; cell < end; cell += kChunk) {
+      before_[cell / kChunk] = balance(cell, std::min(end, cell + kChunk));
+    }
   });
   Balance sum{0, 0};
   for (Balance& chunk : before_) {
@@ -144,12 +146,13 @@ AliasSweep::AliasSweep(std::span<const std::uint64_t> masses, unsigned bits)
 }
 
 AliasSweep::Balance AliasSweep::balance(std::size_t first, std::size_t end) const {
-  Balance sum{0, 0};
+  std::uint64_t sum = 0;
+  std::uint64_t lack = 0;
   for (const std::uint64_t mass : masses_.subspan(first, end - first)) {
-    sum.lack += full_ - std::min(mass, full_);
-    sum.excess += std::max(mass, full_) - full_;
+    sum += mass;
+    lack += full_ - std::min(mass, full_);
   }
-  return sum;
+  return {lack, sum + lack - (end - first) * full_};
 }
 
 AliasSweep::Filling AliasSweep::start_of(std::size_t chunk) const {

@@ -48,7 +48,9 @@ class AliasSweep {
   /// Calls take(column index, AliasColumn) once for every column, from several threads.
   template <class Take>
   void for_columns(const Take& take) const {
-    parallel_for(before_.size(), [&](std::size_t chunk) { sweep(chunk, take); });
+    parallel_for((masses_.size() + kTask - 1) / kTask, [&](std::size_t task) {
+      sweep(task * kTask, std::min(masses_.size(), (task + 1) * kTask), take);
+    });
   }
 
  private:
@@ -64,18 +66,18 @@ class AliasSweep {
   };
 
   Balance balance(std::size_t first, std::size_t end) const;
-  /// What fills the columns of the small cells of a chunk, at its beginning.
+  /// What fills the columns of the small cells from the first of a chunk on.
   Filling start_of(std::size_t chunk) const;
   std::size_t next_large(std::size_t cell) const {
     while (cell < masses_.size() && masses_[cell] < full_) ++cell;
     return cell;
   }
 
+  /// The columns of the small cells from one to another, and of the large ones that they use up.
   template <class Take>
-  void sweep(std::size_t chunk, const Take& take) const {
-    auto [large, left] = start_of(chunk);
-    const std::size_t end = std::min(masses_.size(), (chunk + 1) * kChunk);
-    for (std::size_t small = chunk * kChunk; small < end; ++small) {
+  void sweep(std::size_t first, std::size_t end, const Take& take) const {
+    auto [large, left] = start_of(first / kChunk);
+    for (std::size_t small = first; small < end; ++small) {
       if (masses_[small] >= full_) continue;
       take(small, AliasColumn{masses_[small], large});
       left -= full_ - masses_[small];
@@ -91,8 +93,10 @@ class AliasSweep {
     for (; large < end; large = next_large(large + 1)) take(large, AliasColumn{0, large});
   }
 
-  /// Cells of one task; fixed, so that the split does not depend on the threads.
-  static constexpr std::size_t kChunk = std::size_t{1} << 14U;
+  /// Cells whose balance is known, and cells of one task: fixed, so that the split does not depend
+  /// on the threads.
+  static constexpr std::size_t kChunk = std::size_t{1} << 11U;
+  static constexpr std::size_t kTask = 32 * kChunk;
 
   std::span<const std::uint64_t> masses_;
   std::uint64_t full_;

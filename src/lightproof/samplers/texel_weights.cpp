@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
@@ -13,15 +14,14 @@ namespace lightproof {
 
 Grid<double> texel_weights(const EnvironmentMap& map, TargetDensity target) {
   const Extent extent = map.radiance.extent();
-  Grid<double> weights(extent);
-  parallel_for(static_cast<std::size_t>(extent.height), [&](std::size_t row) {
+  Grid<double> weights = Grid<double>::without_values(extent);
+  std::vector<char> has_light(static_cast<std::size_t>(extent.height));
+  parallel_for(has_light.size(), [&](std::size_t row) {
     const int y = static_cast<int>(row);
     weigh_row(map, target, y, weights.row(y));
+    has_light[row] = std::ranges::any_of(weights.row(y), [](double w) { return w > 0.0; }) ? 1 : 0;
   });
-  const auto values = weights.values();
-  if (std::none_of(values.begin(), values.end(), [](double w) { return w > 0.0; })) {
-    refuse_black(map);
-  }
+  if (std::ranges::find(has_light, 1) == has_light.end()) refuse_black(map);
   return weights;
 }
 
