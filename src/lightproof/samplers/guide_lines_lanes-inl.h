@@ -19,7 +19,9 @@ class GuideLinesLanes {
   struct Block : BlockPoints {
     GuidedLanes::Block runs;
     CdfLinesLanes::Block lines;
-    alignas(64) double within[kBatchBlock];  ///< the run
+    alignas(64) double across[kBatchBlock];  ///< the run
+    alignas(64) double along[kBatchBlock];
+    alignas(64) double mass[kBatchBlock];  ///< of the run
   };
 
   explicit GuideLinesLanes(const GuideLines::View& view)
@@ -35,25 +37,27 @@ class GuideLinesLanes {
     } else if constexpr (kStage == 1) {
       guided_.choose_columns(block.runs, count);
       for_vectors(count, [&](std::size_t i) HWY_ATTR {
-        const GuidedLanes::Found run = guided_.cells(block.runs, i);
+        const GuidedLanes::Found run = guided_.cells(block, block.runs, i);
         const Number index = hn::Add(hn::Mul(run.y, number(across_)), run.x);
         store(hn::ShiftLeft<6>(to_whole(index)), block.lines.offset + i);
-        store(run.across, block.within + i);
+        store(run.across, block.across + i);
+        store(run.along, block.along + i);
+        store(run.mass, block.mass + i);
       });
       lines_.choose_runs(block.lines, count);
     } else {
-      lines_.choose_texels(block.within, block.lines, count);
+      lines_.choose_texels(block.across, block.lines, count);
       for_vectors(count, [&](std::size_t i) HWY_ATTR { place(block, i, out + i); });
     }
   }
 
  private:
   HWY_INLINE void place(const Block& block, std::size_t i, TexelSample* out) const {
-    const CdfLinesLanes::Texel texel = lines_.texels(block.within, block.lines, i);
-    const GuidedLanes::Found run = guided_.cells(block.runs, i);
-    const Number x = hn::Add(hn::Mul(run.x, number(kRunTexels)), texel.index);
-    places_.store_samples({x, run.y}, texel.fraction, run.along, hn::Mul(run.mass, texel.mass),
-                          out);
+    const CdfLinesLanes::Texel texel = lines_.texels(block.across, block.lines, i);
+    const Number run = to_number(load(block.runs.x + i));
+    const Number x = hn::Add(hn::Mul(run, number(kRunTexels)), texel.index);
+    places_.store_samples({x, to_number(load(block.runs.y + i))}, texel.fraction,
+                          load(block.along + i), hn::Mul(load(block.mass + i), texel.mass), out);
   }
 
   GuidedLanes guided_;

@@ -16,15 +16,14 @@ namespace lightproof::HWY_NAMESPACE {
 class GuidedLanes {
  public:
   struct Block {
-    alignas(64) double scaled_s[kBatchBlock];  ///< in units of 2^-31
-    alignas(64) double scaled_t[kBatchBlock];
-    alignas(64) std::int64_t whole_s[kBatchBlock];  ///< the same without fractions
-    alignas(64) std::int64_t whole_t[kBatchBlock];
+    alignas(64) std::int32_t whole_s[kBatchBlock];  ///< in units of 2^-31, without fractions
+    alignas(64) std::int32_t whole_t[kBatchBlock];
+    alignas(64) std::int64_t part[kBatchBlock];  ///< of the guides of rows, then of columns
     alignas(64) std::int64_t y[kBatchBlock];
-    alignas(64) std::int64_t row[kBatchBlock];   ///< its knots: the lower and the upper one
-    alignas(64) std::int64_t part[kBatchBlock];  ///< of the guides of columns
     alignas(64) std::int64_t x[kBatchBlock];
-    alignas(64) std::int64_t column[kBatchBlock];  ///< its knots
+    alignas(64) std::int64_t columns[kBatchBlock];  ///< where the knots of the row's columns begin
+    alignas(64) std::int64_t row[kBatchBlock];      ///< its knots: the lower and the upper one
+    alignas(64) std::int64_t column[kBatchBlock];   ///< its knots
   };
   /// Where in which cells the points lie.
   struct Found {
@@ -40,96 +39,101 @@ class GuidedLanes {
 
   HWY_INLINE void choose_rows(const BlockPoints& points, Block& block, std::size_t count) const {
     for_vectors(count, [&](std::size_t i) HWY_ATTR {
-      const Number s = hn::Mul(load(points.s + i), number(kCdfOne));
-      const Number t = hn::Mul(load(points.t + i), number(kCdfOne));
-      store(s, block.scaled_s + i);
-      store(t, block.scaled_t + i);
-      store(to_whole(s), block.whole_s + i);
-      store(to_whole(t), block.whole_t + i);
+      const Half s = to_half(scaled(points.s + i));
+      const Half t = to_half(scaled(points.t + i));
+      store(s, block.whole_s + i);
+      store(t, block.whole_t + i);
+      store(part_of(guides_.rows, t), block.part + i);
     });
-    find_cells(guides_.rows, count, block.whole_t, {block.y, block.row},
-               [&](std::size_t /*i*/, std::uint32_t u) HWY_ATTR {
-                 return Where{guides_.rows.part(0, u), table_.rows};
-               });
+    find_cells(guides_.rows, count, {block.whole_t, block.part, block.y, block.row},
+               [&](std::size_t /*i*/) HWY_ATTR { return table_.rows; });
+    for_vectors(count, [&](std::size_t i) HWY_ATTR {
+      const Int y = load(block.y + i);
+      store(product(y, table_.stride), block.columns + i);
+      const Int guide = product(y, guides_.columns.parts);
+      store(hn::Add(guide, part_of(guides_.columns, load(block.whole_s + i))), block.part + i);
+    });
     for (std::size_t i = 0; i < count; ++i) {
-      const auto u = static_cast<std::uint32_t>(block.whole_s[i]);
-      const std::size_t part = guides_.columns.part(static_cast<std::size_t>(block.y[i]), u);
-      block.part[i] = static_cast<std::int64_t>(part);
-      __builtin_prefetch(guides_.columns.first + part);
+      __builtin_prefetch(guides_.columns.first + block.part[i]);
     }
   }
 
   /// Asks for the knots that a column's guide names.
   HWY_INLINE void fetch_columns(const Block& block, std::size_t count) const {
     for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t* knots = table_.row(static_cast<std::size_t>(block.y[i]));
-      const std::size_t first = guides_.columns.first[block.part[i]];
-      __builtin_prefetch(knots + first);
-      __builtin_prefetch(knots + first + 2);
+      const std::uint32_t* knots =
+          table_.columns + block.columns[i] + guides_.columns.first[block.part[i]];
+      __builtin_prefetch(knots);
+      __builtin_prefetch(knots + 2);
     }
   }
 
   HWY_INLINE void choose_columns(Block& block, std::size_t count) const {
-    find_cells(guides_.columns, count, block.whole_s, {block.x, block.column},
-               [&](std::size_t i, std::uint32_t /*u*/) HWY_ATTR {
-                 return Where{static_cast<std::size_t>(block.part[i]),
-                              table_.row(static_cast<std::size_t>(block.y[i]))};
-               });
+    find_cells(guides_.columns, count, {block.whole_s, block.part, block.x, block.column},
+               [&](std::size_t i) HWY_ATTR { return table_.columns + block.columns[i]; });
   }
 
-  HWY_INLINE Found cells(const Block& block, std::size_t i) const {
-    const Share along = share(block.row + i, block.scaled_t + i);
-    const Share across = share(block.column + i, block.scaled_s + i);
+  HWY_INLINE Found cells(const BlockPoints& points, const Block& block, std::size_t i) const {
+    const Share along = share(block.row + i, scaled(points.t + i));
+    const Share across = share(block.column + i, scaled(points.s + i));
     return {to_number(load(block.x + i)), to_number(load(block.y + i)), across.fraction,
             along.fraction, hn::Mul(hn::Mul(number(0x1p-62), along.units), across.units)};
   }
 
  private:
+  /// In units of 2^-31.
+  static HWY_INLINE Number scaled(const double* points) {
+    return hn::Mul(load(points), number(kCdfOne));
+  }
+  static HWY_INLINE Int part_of(const Guides::View& guides, Half whole) {
+    return hn::PromoteTo(Whole(), hn::ShiftRightSame(whole, static_cast<int>(guides.shift)));
+  }
+
   struct Share {
     Number units;
     Number fraction;
   };
-  static HWY_INLINE Share share(const std::int64_t* knots, const double* scaled) {
+  static HWY_INLINE Share share(const std::int64_t* knots, Number scaled) {
     const Int pair = load(knots);
     const Number low = to_number(low_half(pair));
     const Number units = hn::Sub(to_number(high_half(pair)), low);
-    return {units, hn::Div(hn::Sub(load(scaled), low), units)};
+    return {units, hn::Div(hn::Sub(scaled, low), units)};
   }
 
-  struct Where {
-    std::size_t part;  ///< of the guide
-    const std::uint32_t* knots;
-  };
-  /// Cells and their lower and upper knots.
-  struct Cells {
-    std::int64_t* index;
-    std::int64_t* knots;
+  /// What is looked for, and what is found.
+  struct Search {
+    const std::int32_t* whole;
+    const std::int64_t* part;
+    std::int64_t* cell;
+    std::int64_t* knots;  ///< of the cell, the lower and the upper one
   };
 
-  /// Guesses all cells without a branch, then corrects the few wrong ones.
-  template <class Locate>
+  /// Guesses all cells without a branch, then corrects the few wrong ones. knots_of(i): where the
+  /// knots of that sample's distribution begin.
+  template <class KnotsOf>
   static HWY_INLINE void find_cells(const Guides::View& guides, std::size_t count,
-                                    const std::int64_t* whole, Cells cells, const Locate& locate) {
+                                    const Search& search, const KnotsOf& knots_of) {
     std::array<std::uint16_t, kBatchBlock> wrong;
     std::size_t wrongs = 0;
     const auto set = [&](std::size_t i, std::size_t cell, const std::uint32_t* knots) HWY_ATTR {
-      cells.index[i] = static_cast<std::int64_t>(cell);
-      std::memcpy(cells.knots + i, knots + cell, sizeof cells.knots[i]);
+      search.cell[i] = static_cast<std::int64_t>(cell);
+      std::memcpy(search.knots + i, knots + cell, sizeof search.knots[i]);
     };
     for (std::size_t i = 0; i < count; ++i) {
-      const auto u = static_cast<std::uint32_t>(whole[i]);
-      const Where where = locate(i, u);
-      const std::size_t cell = guides.guess(where.part, where.knots, u);
-      set(i, cell, where.knots);
+      const auto u = static_cast<std::uint32_t>(search.whole[i]);
+      const std::uint32_t* knots = knots_of(i);
+      const std::size_t cell = guides.guess(static_cast<std::size_t>(search.part[i]), knots, u);
+      set(i, cell, knots);
       wrong[wrongs] = static_cast<std::uint16_t>(i);
-      wrongs += where.knots[cell + 1] <= u ? 1 : 0;
+      wrongs += knots[cell + 1] <= u ? 1 : 0;
     }
     for (std::size_t k = 0; k < wrongs; ++k) {
       const std::size_t i = wrong[k];
-      const auto u = static_cast<std::uint32_t>(whole[i]);
-      const Where where = locate(i, u);
-      const auto from = static_cast<std::size_t>(cells.index[i]);
-      set(i, guides.find_from(from, where.part, where.knots, u), where.knots);
+      const auto from = static_cast<std::size_t>(search.cell[i]);
+      const auto part = static_cast<std::size_t>(search.part[i]);
+      const std::uint32_t* knots = knots_of(i);
+      set(i, guides.find_from(from, part, knots, static_cast<std::uint32_t>(search.whole[i])),
+          knots);
     }
   }
 
@@ -156,7 +160,7 @@ class GuideTableLanes {
     } else {
       guided_.choose_columns(block.cells, count);
       for_vectors(count, [&](std::size_t i) HWY_ATTR {
-        const GuidedLanes::Found found = guided_.cells(block.cells, i);
+        const GuidedLanes::Found found = guided_.cells(block, block.cells, i);
         places_.store_samples({found.x, found.y}, found.across, found.along, found.mass, out + i);
       });
     }

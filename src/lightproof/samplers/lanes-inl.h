@@ -33,12 +33,25 @@ using Whole = hn::ScalableTag<std::int64_t>;
 using Number = hn::Vec<Numbers>;
 using Int = hn::Vec<Whole>;
 using Which = hn::Mask<Numbers>;
+/// As many 32-bit integers.
+using Halves = hn::Rebind<std::int32_t, Numbers>;
+using Half = hn::Vec<Halves>;
 
 HWY_INLINE Number number(double value) { return hn::Set(Numbers(), value); }
 HWY_INLINE Number to_number(Int value) { return hn::ConvertTo(Numbers(), value); }
 HWY_INLINE Int whole(std::int64_t value) { return hn::Set(Whole(), value); }
 /// Towards zero.
 HWY_INLINE Int to_whole(Number value) { return hn::ConvertTo(Whole(), value); }
+HWY_INLINE Half to_half(Number value) { return hn::DemoteTo(Halves(), value); }
+HWY_INLINE Half load(const std::int32_t* from) { return hn::Load(Halves(), from); }
+HWY_INLINE void store(Half value, std::int32_t* to) { hn::Store(value, Halves(), to); }
+/// Of numbers below 2^32.
+HWY_INLINE Int product(Int a, std::size_t b) {
+  const hn::RepartitionToNarrow<hn::RebindToUnsigned<Whole>> narrow;
+  return hn::BitCast(Whole(),
+                     hn::MulEven(hn::BitCast(narrow, a),
+                                 hn::BitCast(narrow, whole(static_cast<std::int64_t>(b)))));
+}
 HWY_INLINE Number load(const double* from) { return hn::Load(Numbers(), from); }
 HWY_INLINE Int load(const std::int64_t* from) { return hn::Load(Whole(), from); }
 HWY_INLINE void store(Number value, double* to) { hn::Store(value, Numbers(), to); }
