@@ -45,7 +45,7 @@ class BareGatherLanes {
       : numbers_(numbers), texels_(static_cast<double>(texels)) {}
 
   template <int kStage>
-  HWY_INLINE void stage(Block& block, std::size_t count, TexelSample* /*out*/) {
+  HWY_INLINE void stage(Block& block, std::size_t count, std::size_t /*first*/) {
     if constexpr (kStage == 0) {
       for_vectors(count, [&](std::size_t i) HWY_ATTR {
         const Int texel = to_whole(hn::Mul(load(block.s + i), number(texels_)));
@@ -70,7 +70,7 @@ class BareGatherLanes {
 std::uint64_t read(std::span<const std::uint16_t> numbers, std::size_t texels,
                    const BatchPoints& points, std::size_t count) {
   BareGatherLanes lanes(numbers, texels);
-  draw_vectors(lanes, points, std::span<TexelSample>(static_cast<TexelSample*>(nullptr), count));
+  draw_vectors(lanes, points, count, std::size_t{0});
   return lanes.sum();
 }
 

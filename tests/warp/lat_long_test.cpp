@@ -6,8 +6,6 @@
 #include <numbers>
 #include <vector>
 
-#include "lightproof/warp/lat_long_batch.h"
-
 namespace lightproof {
 namespace {
 
@@ -74,31 +72,6 @@ TEST(LatLong, JacobianIntegratesToTheSphere) {
   double sum = 0.0;
   for (int j = 0; j < kRows; ++j) sum += solid_angle_per_square((j + 0.5) / kRows) / kRows;
   EXPECT_NEAR(sum / kSphere, 1.0, 1e-8);
-}
-
-/// Vectorised sines are off by up to 3 units in the last place, the angles by one rounding of pi.
-TEST(DirectionsFromSquares, AreThoseOfOnePointAtATime) {
-  for (const std::size_t size : {0U, 1U, 7U, 8U, 61U}) {
-    std::vector<double> s(size);
-    std::vector<double> t(size);
-    for (std::size_t i = 0; i < size; ++i) {
-      s[i] = std::fmod(0.6180339887498949 * static_cast<double>(i), 1.0);
-      t[i] = size == 1 ? 0.0 : static_cast<double>(i) / static_cast<double>(size - 1);
-    }
-    std::vector<double> x(size);
-    std::vector<double> y(size);
-    std::vector<double> z(size);
-    std::vector<double> steradian(size);
-    directions_from_squares(s, t, {x, y, z, steradian});
-    for (std::size_t i = 0; i < size; ++i) {
-      const Direction expected = direction_from_square({s[i], t[i]});
-      EXPECT_NEAR(x[i], expected.x, 2e-15);
-      EXPECT_NEAR(y[i], expected.y, 2e-15);
-      EXPECT_NEAR(z[i], expected.z, 2e-15);
-      const double exact = solid_angle_per_square(t[i]);
-      EXPECT_NEAR(steradian[i], exact, 2e-15 * exact) << "t = " << t[i];
-    }
-  }
 }
 
 }  // namespace

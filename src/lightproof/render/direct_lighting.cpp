@@ -8,17 +8,9 @@
 #include "lightproof/core/random_batch.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/warp/lat_long.h"
-#include "lightproof/warp/lat_long_batch.h"
+#include "lightproof/warp/sphere_batch.h"
 
 namespace lightproof {
-namespace {
-
-std::uint32_t texel_index(int x, int y, Extent map) {
-  return static_cast<std::uint32_t>(y * map.width + x);
-}
-
-}  // namespace
-
 template <class Surface>
 void LightBatch::fill_from_material(std::size_t count, const Surface& surface,
                                     const ShadingPoint& at) {
@@ -34,83 +26,87 @@ void LightBatch::fill_from_material(std::size_t count, const Surface& surface,
   }
 }
 
-/// With density 1/4pi: cos(theta) uniform, so the place on the map needs no inverse of a warp but
-/// one arc cosine.
-void LightBatch::fill_from_sphere(std::size_t count, Extent map) {
-  for (std::size_t i = 0; i < count; ++i) {
-    t_[i] = std::acos(1.0 - 2.0 * t_[i]) / kPi;
-    texel_[i] = texel_index(cell_of(s_[i], map.width), cell_of(t_[i], map.height), map);
-  }
-  fill_directions(count);
+/// With density 1/4pi.
+void LightBatch::fill_from_sphere(std::size_t count) {
+  assert(count <= kCapacity);
+  count_ = count;
+  uniform_directions(std::span(s_).first(count), std::span(u_).first(count),
+                     {std::span(x_).first(count), std::span(y_).first(count),
+                      std::span(z_).first(count), std::span(t_).first(count)});
   std::fill_n(pdf_.begin(), count, 1.0 / kSphere);
 }
 
-void LightBatch::fill_from_samples(std::size_t count, Extent map) {
-  for (std::size_t i = 0; i < count; ++i) {
-    s_[i] = samples_[i].at.s;
-    t_[i] = samples_[i].at.t;
-    texel_[i] = texel_index(samples_[i].x, samples_[i].y, map);
-  }
-  fill_directions(count);
-  for (std::size_t i = 0; i < count; ++i) pdf_[i] = samples_[i].pdf.value / steradian_[i];
-}
-
-void LightBatch::fill_directions(std::size_t count) {
+void LightBatch::fill_from_map(std::size_t count, const GuideTable& sampler,
+                               const RandomStream& stream, std::uint64_t first) {
   assert(count <= kCapacity);
   count_ = count;
-  directions_from_squares(std::span(s_).first(count), std::span(t_).first(count),
-                          {std::span(x_).first(count), std::span(y_).first(count),
-                           std::span(z_).first(count), std::span(steradian_).first(count)});
+  sample_directions(sampler, stream, first,
+                    {std::span(x_).first(count), std::span(y_).first(count),
+                     std::span(z_).first(count), std::span(pdf_).first(count),
+                     std::span(column_).first(count), std::span(row_).first(count)});
 }
 
 void LightBatch::draw(const Lighting& lighting, const ShadingPoint& at, const RandomStream& stream,
                       std::uint64_t first, std::size_t count) {
-  const Extent extent = lighting.light->map().radiance.extent();
   switch (lighting.strategy) {
     case Strategy::uniform:
-      fill_points(stream, first, std::span(s_).first(count), std::span(t_).first(count));
-      return fill_from_sphere(count, extent);
+      fill_points(stream, first, std::span(s_).first(count), std::span(u_).first(count));
+      return fill_from_sphere(count);
     case Strategy::material:
       fill_points(stream, first, std::span(points_).first(count));
       return std::visit([&](const auto& surface) { fill_from_material(count, surface, at); },
                         lighting.material);
     case Strategy::environment_a:
-    case Strategy::environment_b: {
-      const bool a = lighting.strategy == Strategy::environment_a;
-      sample(lighting.light->sampler(a ? Weighting::A : Weighting::B), stream, first,
-             std::span(samples_).first(count));
-      return fill_from_samples(count, extent);
-    }
+      return fill_from_map(count, lighting.light->sampler(Weighting::A), stream, first);
+    case Strategy::environment_b:
+      return fill_from_map(count, lighting.light->sampler(Weighting::B), stream, first);
   }
 }
 
-void LightBatch::locate(Extent map) {
-  for (std::size_t i = 0; i < count_; ++i) {
-    const SquarePoint at = approximate_square_from_direction({x_[i], y_[i], z_[i]});
-    texel_[i] = texel_index(cell_of(at.s, map.width), cell_of(at.t, map.height), map);
+void LightBatch::locate(Strategy strategy, Extent map) {
+  switch (strategy) {
+    case Strategy::uniform:
+      for (std::size_t i = 0; i < count_; ++i) {
+        column_[i] = cell_of(s_[i], map.width);
+        row_[i] = cell_of(t_[i], map.height);
+      }
+      return;
+    case Strategy::material:
+      for (std::size_t i = 0; i < count_; ++i) {
+        const SquarePoint at = approximate_square_from_direction({x_[i], y_[i], z_[i]});
+        column_[i] = cell_of(at.s, map.width);
+        row_[i] = cell_of(at.t, map.height);
+      }
+      return;
+    case Strategy::environment_a:
+    case Strategy::environment_b:
+      return;  // the sampler says where
   }
+}
+
+void LightBatch::weigh(const Material& material, const ShadingPoint& at) {
+  std::visit(
+      // Copies, which no store in the loop can change: what depends on them alone is done once.
+      [this, at](const auto surface) {
+        for (std::size_t i = 0; i < count_; ++i) {
+          reflected_cosine_[i] = surface.evaluate(at, direction(i)).reflected_cosine;
+        }
+      },
+      material);
 }
 
 void LightBatch::shade(const Lighting& lighting, const ShadingPoint& at) {
   const Grid<Rgb>& radiance = lighting.light->map().radiance;
-  if (lighting.strategy == Strategy::material) {
-    locate(radiance.extent());
-  } else {
-    std::visit(
-        // Copies, which no store in the loop can change: what depends on them alone is done once.
-        [this, at](const auto surface) {
-          for (std::size_t i = 0; i < count_; ++i) {
-            reflected_cosine_[i] = surface.evaluate(at, direction(i)).reflected_cosine;
-          }
-        },
-        lighting.material);
-  }
+  locate(lighting.strategy, radiance.extent());
+  if (lighting.strategy != Strategy::material) weigh(lighting.material, at);
+  const auto width = static_cast<std::size_t>(radiance.extent().width);
   // Every sample is written; those that do not matter are overwritten by the next.
   ray_count_ = 0;
   for (std::size_t i = 0; i < count_; ++i) {
     estimates_[i] = Rgb(0.0F);
     rays_[ray_count_] = shadow_ray(at.position, direction(i));
-    arrivals_[ray_count_] = {radiance.values().data() + texel_[i],
+    arrivals_[ray_count_] = {radiance.values().data() + static_cast<std::size_t>(row_[i]) * width +
+                                 static_cast<std::size_t>(column_[i]),
                              static_cast<float>(reflected_cosine_[i] / pdf_[i]),
                              static_cast<std::uint32_t>(i)};
     __builtin_prefetch(arrivals_[ray_count_].radiance);

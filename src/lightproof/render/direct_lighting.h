@@ -55,27 +55,28 @@ class LightBatch {
 
   template <class Surface>
   void fill_from_material(std::size_t count, const Surface& surface, const ShadingPoint& at);
-  void fill_from_sphere(std::size_t count, Extent map);
-  void fill_from_samples(std::size_t count, Extent map);
-  /// Directions of s_ and t_.
-  void fill_directions(std::size_t count);
+  void fill_from_sphere(std::size_t count);
+  void fill_from_map(std::size_t count, const GuideTable& sampler, const RandomStream& stream,
+                     std::uint64_t first);
   Direction direction(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
   /// The texels that the directions meet.
-  void locate(Extent map);
+  void locate(Strategy strategy, Extent map);
+  /// f_r cos of every direction.
+  void weigh(const Material& material, const ShadingPoint& at);
 
   // Of every sample. Apart, so that loops over them run on vectors.
   std::size_t count_ = 0;
-  std::array<SquarePoint, kCapacity> points_;   ///< if the material draws
-  std::array<TexelSample, kCapacity> samples_;  ///< if the map does
-  std::array<double, kCapacity> s_;             ///< where on the map, if not the material draws
+  std::array<SquarePoint, kCapacity> points_;  ///< if the material draws
+  std::array<double, kCapacity> s_;            ///< where on the map, if the sphere is drawn from
   std::array<double, kCapacity> t_;
-  std::array<double, kCapacity> steradian_;  ///< per unit square there
+  std::array<double, kCapacity> u_;  ///< what t comes from
   std::array<double, kCapacity> x_;
   std::array<double, kCapacity> y_;
   std::array<double, kCapacity> z_;
   std::array<double, kCapacity> pdf_;  ///< per steradian; 0: no sample
   std::array<double, kCapacity> reflected_cosine_;
-  std::array<std::uint32_t, kCapacity> texel_;  ///< row by row
+  std::array<std::int32_t, kCapacity> column_;  ///< of the texel
+  std::array<std::int32_t, kCapacity> row_;
   std::array<Rgb, kCapacity> estimates_;
 
   // Of those that matter.

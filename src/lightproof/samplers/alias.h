@@ -48,6 +48,6 @@ static_assert(EnvSampler<Alias>);
 
 /// Whole vectors of a batch; returns how many samples these are.
 std::size_t sample_vectors(const Alias::View& table, const BatchPoints& points,
-                           std::span<TexelSample> samples);
+                           const BatchOutput& output);
 
 }  // namespace lightproof

@@ -21,8 +21,8 @@ class AliasLanes {
 
   explicit AliasLanes(const Alias::View& view) : table_(view.entries), places_(view.places) {}
 
-  template <int kStage>
-  HWY_INLINE void stage(Block& block, std::size_t count, TexelSample* out) const {
+  template <int kStage, class Output>
+  HWY_INLINE void stage(Block& block, std::size_t count, const Output& out) const {
     AliasTableLanes::Block& texels = block.texels;
     if constexpr (kStage == 0) {
       table_.choose_columns(block.s, texels, count);

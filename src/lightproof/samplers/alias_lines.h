@@ -55,6 +55,6 @@ static_assert(EnvSampler<AliasLines>);
 
 /// Whole vectors of a batch; returns how many samples these are.
 std::size_t sample_vectors(const AliasLines::View& table, const BatchPoints& points,
-                           std::span<TexelSample> samples);
+                           const BatchOutput& output);
 
 }  // namespace lightproof

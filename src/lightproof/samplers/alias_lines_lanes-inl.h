@@ -28,8 +28,8 @@ class AliasLinesLanes {
         across_(view.lines.runs),
         inverse_across_(1.0 / view.lines.runs) {}
 
-  template <int kStage>
-  HWY_INLINE void stage(Block& block, std::size_t count, TexelSample* out) const {
+  template <int kStage, class Output>
+  HWY_INLINE void stage(Block& block, std::size_t count, const Output& out) const {
     if constexpr (kStage == 0) {
       runs_.choose_columns(block.s, block.runs, count);
     } else if constexpr (kStage == 1) {
@@ -45,7 +45,8 @@ class AliasLinesLanes {
   }
 
  private:
-  HWY_INLINE void place(const Block& block, std::size_t i, TexelSample* out) const {
+  template <class Output>
+  HWY_INLINE void place(const Block& block, std::size_t i, const Output& out) const {
     const CdfLinesLanes::Texel found = lines_.texels(block.t, block.lines, i);
     const Cell run = cell_at(load(block.runs.cell + i), number(across_), number(inverse_across_));
     const Number x = hn::Add(hn::Mul(run.x, number(kRunTexels)), found.index);

@@ -9,9 +9,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <variant>
 
 #include "lightproof/core/random.h"
 #include "lightproof/samplers/sampler.h"
+#include "lightproof/warp/lat_long.h"
 
 namespace lightproof {
 
@@ -37,19 +39,47 @@ class BatchPoints {
 /// Samples between two fetches of points.
 inline constexpr std::size_t kBatchBlock = 128;
 
-/// Draws samples[i] at the i-th of these points.
-template <EnvSampler Sampler>
-void sample(const Sampler& sampler, const BatchPoints& points, std::span<TexelSample> samples) {
+/// Samples as directions, each number in an array of its own; all of one size.
+struct DirectionBatch {
+  std::span<double> x;  ///< of the unit vectors
+  std::span<double> y;
+  std::span<double> z;
+  std::span<double> pdf;           ///< per steradian
+  std::span<std::int32_t> column;  ///< of the texels
+  std::span<std::int32_t> row;
+
+  std::size_t size() const { return pdf.size(); }
+};
+
+/// Where a batch goes.
+using BatchOutput = std::variant<std::span<TexelSample>, DirectionBatch>;
+
+inline void put(const TexelSample& sample, std::size_t i, std::span<TexelSample> samples) {
+  samples[i] = sample;
+}
+inline void put(const TexelSample& sample, std::size_t i, const DirectionBatch& directions) {
+  const Direction direction = direction_from_square(sample.at);
+  directions.x[i] = direction.x;
+  directions.y[i] = direction.y;
+  directions.z[i] = direction.z;
+  directions.pdf[i] = to_solid_angle(sample.pdf, sample.at).value;
+  directions.column[i] = sample.x;
+  directions.row[i] = sample.y;
+}
+
+/// Draws the i-th sample of the output at the i-th of these points.
+template <EnvSampler Sampler, class Output>
+void draw_batch(const Sampler& sampler, const BatchPoints& points, const Output& output) {
   std::size_t done = 0;
   if constexpr (requires { sampler.view(); }) {
-    done = sample_vectors(sampler.view(), points, samples);
+    done = sample_vectors(sampler.view(), points, output);
   }
   alignas(64) std::array<double, kBatchBlock> s;
   alignas(64) std::array<double, kBatchBlock> t;
-  while (done < samples.size()) {
-    const std::size_t count = std::min(kBatchBlock, samples.size() - done);
+  while (done < output.size()) {
+    const std::size_t count = std::min(kBatchBlock, output.size() - done);
     points.fill(done, std::span(s).first(count), std::span(t).first(count));
-    for (std::size_t i = 0; i < count; ++i) samples[done + i] = sampler.sample({s[i], t[i]});
+    for (std::size_t i = 0; i < count; ++i) put(sampler.sample({s[i], t[i]}), done + i, output);
     done += count;
   }
 }
@@ -58,14 +88,22 @@ void sample(const Sampler& sampler, const BatchPoints& points, std::span<TexelSa
 template <EnvSampler Sampler>
 void sample(const Sampler& sampler, std::span<const SquarePoint> points,
             std::span<TexelSample> samples) {
-  sample(sampler, BatchPoints(points), samples);
+  draw_batch(sampler, BatchPoints(points), samples);
 }
 
 /// Draws samples[i] at the point first + i of the stream.
 template <EnvSampler Sampler>
 void sample(const Sampler& sampler, const RandomStream& stream, std::uint64_t first,
             std::span<TexelSample> samples) {
-  sample(sampler, BatchPoints(stream, first), samples);
+  draw_batch(sampler, BatchPoints(stream, first), samples);
+}
+
+/// The same as directions: those of the samples' places and their densities per steradian, to some
+/// roundings.
+template <EnvSampler Sampler>
+void sample_directions(const Sampler& sampler, const RandomStream& stream, std::uint64_t first,
+                       const DirectionBatch& directions) {
+  draw_batch(sampler, BatchPoints(stream, first), directions);
 }
 
 }  // namespace lightproof

@@ -58,6 +58,6 @@ static_assert(EnvSampler<GuideLines>);
 
 /// Whole vectors of a batch; returns how many samples these are.
 std::size_t sample_vectors(const GuideLines::View& table, const BatchPoints& points,
-                           std::span<TexelSample> samples);
+                           const BatchOutput& output);
 
 }  // namespace lightproof

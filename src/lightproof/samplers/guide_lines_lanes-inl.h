@@ -30,8 +30,8 @@ class GuideLinesLanes {
         places_(view.places),
         across_(view.lines.runs) {}
 
-  template <int kStage>
-  HWY_INLINE void stage(Block& block, std::size_t count, TexelSample* out) const {
+  template <int kStage, class Output>
+  HWY_INLINE void stage(Block& block, std::size_t count, const Output& out) const {
     if constexpr (kStage == 0) {
       guided_.choose_rows(block, block.runs, count);
     } else if constexpr (kStage == 1) {
@@ -52,7 +52,8 @@ class GuideLinesLanes {
   }
 
  private:
-  HWY_INLINE void place(const Block& block, std::size_t i, TexelSample* out) const {
+  template <class Output>
+  HWY_INLINE void place(const Block& block, std::size_t i, const Output& out) const {
     const CdfLinesLanes::Texel texel = lines_.texels(block.across, block.lines, i);
     const Number run = to_number(load(block.runs.x + i));
     const Number x = hn::Add(hn::Mul(run, number(kRunTexels)), texel.index);

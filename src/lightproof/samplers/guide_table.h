@@ -97,6 +97,6 @@ static_assert(EnvSampler<GuideTable>);
 
 /// Whole vectors of a batch; returns how many samples these are.
 std::size_t sample_vectors(const GuideTableView& table, const BatchPoints& points,
-                           std::span<TexelSample> samples);
+                           const BatchOutput& output);
 
 }  // namespace lightproof

@@ -151,8 +151,8 @@ class GuideTableLanes {
   explicit GuideTableLanes(const GuideTableView& view)
       : guided_(view.table, view.finder), places_(view.places) {}
 
-  template <int kStage>
-  HWY_INLINE void stage(Block& block, std::size_t count, TexelSample* out) const {
+  template <int kStage, class Output>
+  HWY_INLINE void stage(Block& block, std::size_t count, const Output& out) const {
     if constexpr (kStage == 0) {
       guided_.choose_rows(block, block.cells, count);
     } else if constexpr (kStage == 1) {

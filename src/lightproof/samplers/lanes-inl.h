@@ -20,6 +20,7 @@
 
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/texel_places.h"
+#include "lightproof/warp/sin_cos-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lightproof::HWY_NAMESPACE {
@@ -104,6 +105,35 @@ HWY_INLINE Cell cell_at(Number cell, Number width, Number inverse_width) {
   return {hn::Sub(cell, hn::Mul(y, width)), y};
 }
 
+/// A DirectionBatch from some sample on.
+struct DirectionPointers {
+  explicit DirectionPointers(const DirectionBatch& batch)
+      : x(batch.x.data()),
+        y(batch.y.data()),
+        z(batch.z.data()),
+        pdf(batch.pdf.data()),
+        column(batch.column.data()),
+        row(batch.row.data()) {}
+
+  DirectionPointers operator+(std::size_t i) const {
+    DirectionPointers later = *this;
+    later.x += i;
+    later.y += i;
+    later.z += i;
+    later.pdf += i;
+    later.column += i;
+    later.row += i;
+    return later;
+  }
+
+  double* x;
+  double* y;
+  double* z;
+  double* pdf;
+  std::int32_t* column;
+  std::int32_t* row;
+};
+
 /// TexelPlaces, for a vector of samples.
 class LanePlaces {
  public:
@@ -127,13 +157,27 @@ class LanePlaces {
       t = place_by_solid_angle(cell.y, along);
       const Number near = hn::Min(t, hn::Sub(number(1.0), t));
       const Number sine = hn::Sin(Numbers(), hn::Mul(number(kPi), near));
-      const Number density =
-          hn::Mul(mass, gather_numbers(view_.texels_per_steradian, to_whole(cell.y)));
-      pdf = hn::Mul(density, hn::Mul(number(2.0 * kPi * kPi), sine));
+      pdf = hn::Mul(density_by_solid_angle(cell.y, mass), hn::Mul(number(2.0 * kPi * kPi), sine));
     }
     const Int texel = hn::Or(to_whole(cell.x), hn::ShiftLeft<32>(to_whole(cell.y)));
     hn::StoreInterleaved4(s, t, hn::BitCast(Numbers(), texel), pdf, Numbers(),
                           reinterpret_cast<double*>(to));
+  }
+
+  /// The same samples as directions: neither arc sine nor sine of an arc sine is needed.
+  HWY_INLINE void store_samples(Cell cell, Number across, Number along, Number mass,
+                                const DirectionPointers& to) const {
+    const Number s = hn::Mul(hn::Add(cell.x, inside(across)), number(view_.texel_width));
+    const auto azimuth = sin_cos_of_turns(Numbers(), s);
+    const Height height = view_.weighting == Weighting::A
+                              ? height_by_place(cell.y, along, mass)
+                              : height_by_solid_angle(cell.y, along, mass);
+    store_anywhere(hn::Neg(hn::Mul(height.sine, azimuth.cos)), to.x);
+    store_anywhere(hn::Mul(height.sine, azimuth.sin), to.y);
+    store_anywhere(height.z, to.z);
+    store_anywhere(height.pdf, to.pdf);
+    hn::StoreU(to_half(cell.x), Halves(), to.column);
+    hn::StoreU(to_half(cell.y), Halves(), to.row);
   }
 
  private:
@@ -141,8 +185,46 @@ class LanePlaces {
     return hn::Clamp(fraction, number(kCellMargin), number(1.0 - kCellMargin));
   }
 
-  /// SolidAngleRows::place.
-  HWY_INLINE Number place_by_solid_angle(Number y, Number fraction) const {
+  static HWY_INLINE void store_anywhere(Number value, double* to) {
+    hn::StoreU(value, Numbers(), to);
+  }
+
+  /// A direction but for its azimuth.
+  struct Height {
+    Number sine;  ///< of the angle from a pole
+    Number z;
+    Number pdf;  ///< per steradian
+  };
+
+  /// Under A.
+  HWY_INLINE Height height_by_place(Number y, Number along, Number mass) const {
+    const Number t = hn::Mul(hn::Add(y, inside(along)), number(view_.texel_height));
+    const auto from_nadir = sin_cos_of_turns(Numbers(), hn::Mul(t, number(0.5)));
+    const Number density = hn::Mul(mass, number(view_.texels / (2.0 * kPi * kPi)));
+    return {from_nadir.sin, hn::Neg(from_nadir.cos), hn::Div(density, from_nadir.sin)};
+  }
+
+  /// Under B: of half the angle from the nearer pole the sine is known.
+  HWY_INLINE Height height_by_solid_angle(Number y, Number along, Number mass) const {
+    const HalfAngle half = half_angle(y, along);
+    const Number rest = hn::Sub(number(1.0), half.squared_sine);
+    const Number sine = hn::Mul(number(2.0), hn::Sqrt(hn::Mul(half.squared_sine, rest)));
+    const Number from_pole = hn::Sub(rest, half.squared_sine);
+    return {sine, hn::IfThenElse(half.upper, from_pole, hn::Neg(from_pole)),
+            density_by_solid_angle(y, mass)};
+  }
+
+  /// Per steradian.
+  HWY_INLINE Number density_by_solid_angle(Number y, Number mass) const {
+    return hn::Mul(mass, gather_numbers(view_.texels_per_steradian, to_whole(y)));
+  }
+
+  struct HalfAngle {
+    Which upper;          ///< whether the nearer pole is the zenith
+    Number row;           ///< counted from it
+    Number squared_sine;  ///< of half the angle from it
+  };
+  HWY_INLINE HalfAngle half_angle(Number y, Number fraction) const {
     const Number height = number(view_.extent.height);
     const Which upper = hn::Ge(hn::Add(y, y), height);
     const Number row = hn::IfThenElse(upper, hn::Sub(hn::Sub(height, number(1.0)), y), y);
@@ -150,10 +232,17 @@ class LanePlaces {
     const Int index = to_whole(row);
     const Number low = gather_numbers(view_.squared_sines, index);
     const Number high = gather_numbers(view_.squared_sines + 1, index);
-    const Number sine = hn::Sqrt(hn::Add(low, hn::Mul(f, hn::Sub(high, low))));
+    return {upper, row, hn::Add(low, hn::Mul(f, hn::Sub(high, low)))};
+  }
+
+  /// SolidAngleRows::place.
+  HWY_INLINE Number place_by_solid_angle(Number y, Number fraction) const {
+    const HalfAngle half = half_angle(y, fraction);
+    const Number sine = hn::Sqrt(half.squared_sine);
     const Number angle = hn::Asin(Numbers(), hn::Min(sine, number(1.0)));
-    const Number within = hn::Sub(hn::Mul(hn::Mul(number(2.0 / kPi), angle), height), row);
-    const Number share = inside(hn::IfThenElse(upper, hn::Sub(number(1.0), within), within));
+    const Number height = number(view_.extent.height);
+    const Number within = hn::Sub(hn::Mul(hn::Mul(number(2.0 / kPi), angle), height), half.row);
+    const Number share = inside(hn::IfThenElse(half.upper, hn::Sub(number(1.0), within), within));
     return hn::Mul(hn::Add(y, share), number(view_.texel_height));
   }
 
@@ -183,16 +272,16 @@ HWY_INLINE void for_vectors(std::size_t count, const Body& body) {
 /// each of which asks for the lines that the next one reads; while these come, other blocks go
 /// through theirs.
 ///
-/// Kernel: kStages, struct Block : BlockPoints, and stage<k>(Block&, count, TexelSample* out), of
-/// which the last writes the samples.
-template <class Kernel>
-std::size_t draw_vectors(Kernel&& kernel, const BatchPoints& points,
-                         std::span<TexelSample> samples) {
+/// Kernel: kStages, struct Block : BlockPoints, and stage<k>(Block&, count, output + first sample),
+/// of which the last writes the samples.
+template <class Kernel, class Output>
+std::size_t draw_vectors(Kernel&& kernel, const BatchPoints& points, std::size_t samples,
+                         const Output& output) {
   using Block = typename std::remove_reference_t<Kernel>::Block;
   constexpr int kStages = std::remove_reference_t<Kernel>::kStages;
   Block ring[kStages];
   const std::size_t lanes = hn::Lanes(Numbers());
-  const std::size_t total = samples.size() / lanes * lanes;
+  const std::size_t total = samples / lanes * lanes;
   const std::size_t blocks = (total + kBatchBlock - 1) / kBatchBlock;
   const auto count_of = [&](std::size_t block) {
     return std::min(kBatchBlock, total - block * kBatchBlock);
@@ -203,18 +292,18 @@ std::size_t draw_vectors(Kernel&& kernel, const BatchPoints& points,
       const std::size_t count = count_of(step);
       points.fill(step * kBatchBlock, std::span(block.s).first(count),
                   std::span(block.t).first(count));
-      kernel.template stage<0>(block, count, nullptr);
+      kernel.template stage<0>(block, count, output + step * kBatchBlock);
     }
     if constexpr (kStages > 1) {
       if (step >= 1 && step - 1 < blocks) {
         kernel.template stage<1>(ring[(step - 1) % kStages], count_of(step - 1),
-                                 samples.data() + (step - 1) * kBatchBlock);
+                                 output + (step - 1) * kBatchBlock);
       }
     }
     if constexpr (kStages > 2) {
       if (step >= 2 && step - 2 < blocks) {
         kernel.template stage<2>(ring[(step - 2) % kStages], count_of(step - 2),
-                                 samples.data() + (step - 2) * kBatchBlock);
+                                 output + (step - 2) * kBatchBlock);
       }
     }
   }

@@ -31,38 +31,42 @@ class PackedAliasLanes;
 
 template <class Lanes, class View>
 std::size_t draw(const View& /*table*/, const BatchPoints& /*points*/,
-                 std::span<TexelSample> /*samples*/) {
+                 const BatchOutput& /*output*/) {
   return 0;
 }
 
 #else
 
 template <class Lanes, class View>
-std::size_t draw(const View& table, const BatchPoints& points, std::span<TexelSample> samples) {
-  return draw_vectors(Lanes(table), points, samples);
+std::size_t draw(const View& table, const BatchPoints& points, const BatchOutput& output) {
+  if (const auto* samples = std::get_if<std::span<TexelSample> >(&output)) {
+    return draw_vectors(Lanes(table), points, samples->size(), samples->data());
+  }
+  const auto& directions = std::get<DirectionBatch>(output);
+  return draw_vectors(Lanes(table), points, directions.size(), DirectionPointers(directions));
 }
 
 #endif
 
 std::size_t draw_alias(const Alias::View& table, const BatchPoints& points,
-                       std::span<TexelSample> samples) {
-  return draw<AliasLanes>(table, points, samples);
+                       const BatchOutput& output) {
+  return draw<AliasLanes>(table, points, output);
 }
 std::size_t draw_alias_lines(const AliasLines::View& table, const BatchPoints& points,
-                             std::span<TexelSample> samples) {
-  return draw<AliasLinesLanes>(table, points, samples);
+                             const BatchOutput& output) {
+  return draw<AliasLinesLanes>(table, points, output);
 }
 std::size_t draw_guide_lines(const GuideLines::View& table, const BatchPoints& points,
-                             std::span<TexelSample> samples) {
-  return draw<GuideLinesLanes>(table, points, samples);
+                             const BatchOutput& output) {
+  return draw<GuideLinesLanes>(table, points, output);
 }
 std::size_t draw_guide_table(const GuideTableView& table, const BatchPoints& points,
-                             std::span<TexelSample> samples) {
-  return draw<GuideTableLanes>(table, points, samples);
+                             const BatchOutput& output) {
+  return draw<GuideTableLanes>(table, points, output);
 }
 std::size_t draw_packed_alias(const PackedAlias::View& table, const BatchPoints& points,
-                              std::span<TexelSample> samples) {
-  return draw<PackedAliasLanes>(table, points, samples);
+                              const BatchOutput& output) {
+  return draw<PackedAliasLanes>(table, points, output);
 }
 
 }  // namespace
@@ -82,28 +86,28 @@ HWY_EXPORT(draw_packed_alias);
 }  // namespace
 
 std::size_t sample_vectors(const Alias::View& table, const BatchPoints& points,
-                           std::span<TexelSample> samples) {
-  return HWY_DYNAMIC_DISPATCH(draw_alias)(table, points, samples);
+                           const BatchOutput& output) {
+  return HWY_DYNAMIC_DISPATCH(draw_alias)(table, points, output);
 }
 
 std::size_t sample_vectors(const AliasLines::View& table, const BatchPoints& points,
-                           std::span<TexelSample> samples) {
-  return HWY_DYNAMIC_DISPATCH(draw_alias_lines)(table, points, samples);
+                           const BatchOutput& output) {
+  return HWY_DYNAMIC_DISPATCH(draw_alias_lines)(table, points, output);
 }
 
 std::size_t sample_vectors(const GuideLines::View& table, const BatchPoints& points,
-                           std::span<TexelSample> samples) {
-  return HWY_DYNAMIC_DISPATCH(draw_guide_lines)(table, points, samples);
+                           const BatchOutput& output) {
+  return HWY_DYNAMIC_DISPATCH(draw_guide_lines)(table, points, output);
 }
 
 std::size_t sample_vectors(const GuideTableView& table, const BatchPoints& points,
-                           std::span<TexelSample> samples) {
-  return HWY_DYNAMIC_DISPATCH(draw_guide_table)(table, points, samples);
+                           const BatchOutput& output) {
+  return HWY_DYNAMIC_DISPATCH(draw_guide_table)(table, points, output);
 }
 
 std::size_t sample_vectors(const PackedAlias::View& table, const BatchPoints& points,
-                           std::span<TexelSample> samples) {
-  return HWY_DYNAMIC_DISPATCH(draw_packed_alias)(table, points, samples);
+                           const BatchOutput& output) {
+  return HWY_DYNAMIC_DISPATCH(draw_packed_alias)(table, points, output);
 }
 
 }  // namespace lightproof

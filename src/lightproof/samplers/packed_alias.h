@@ -99,6 +99,6 @@ static_assert(EnvSampler<PackedAlias>);
 
 /// Whole vectors of a batch; returns how many samples these are.
 std::size_t sample_vectors(const PackedAlias::View& table, const BatchPoints& points,
-                           std::span<TexelSample> samples);
+                           const BatchOutput& output);
 
 }  // namespace lightproof

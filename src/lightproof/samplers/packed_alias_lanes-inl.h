@@ -26,8 +26,8 @@ class PackedAliasLanes {
   explicit PackedAliasLanes(const PackedAlias::View& table)
       : table_(table), places_(table.places) {}
 
-  template <int kStage>
-  HWY_INLINE void stage(Block& block, std::size_t count, TexelSample* out) const {
+  template <int kStage, class Output>
+  HWY_INLINE void stage(Block& block, std::size_t count, const Output& out) const {
     if constexpr (kStage == 0) {
       for_vectors(count, [&](std::size_t i) HWY_ATTR { choose_column(block, i); });
       fetch(table_.words.data(), block.offset, count);

@@ -1,0 +1,81 @@
+#include "lightproof/warp/sphere_batch.h"
+
+#include <cmath>
+
+#include "lightproof/core/measure.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lightproof/warp/sphere_batch.cpp"
+#include <hwy/foreach_target.h>
+// Highway asks for this order.
+#include <hwy/contrib/math/math-inl.h>
+#include <hwy/highway.h>
+
+#include "lightproof/warp/sin_cos-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lightproof::HWY_NAMESPACE {
+namespace {
+
+#if HWY_TARGET == HWY_SCALAR
+
+std::size_t convert(std::span<const double> /*s*/, std::span<const double> /*u*/,
+                    const DirectionSpans& /*directions*/) {
+  return 0;
+}
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Whole vectors from the front; returns how many points that were.
+std::size_t convert(std::span<const double> s, std::span<const double> u,
+                    const DirectionSpans& directions) {
+  const hn::ScalableTag<double> d;
+  const auto one = hn::Set(d, 1.0);
+  const auto two = hn::Set(d, 2.0);
+  std::size_t done = 0;
+  for (; done + hn::Lanes(d) <= s.size(); done += hn::Lanes(d)) {
+    const auto share = hn::LoadU(d, u.data() + done);
+    const auto azimuth = sin_cos_of_turns(d, hn::LoadU(d, s.data() + done));
+    const auto root = hn::Sqrt(hn::Mul(share, hn::Sub(one, share)));
+    const auto sine = hn::Mul(two, root);
+    const auto z = hn::Sub(hn::Mul(two, share), one);
+    hn::StoreU(hn::Neg(hn::Mul(sine, azimuth.cos)), d, directions.x.data() + done);
+    hn::StoreU(hn::Mul(sine, azimuth.sin), d, directions.y.data() + done);
+    hn::StoreU(z, d, directions.z.data() + done);
+    const auto angle = hn::Acos(d, hn::Neg(z));
+    hn::StoreU(hn::Mul(angle, hn::Set(d, 1.0 / kPi)), d, directions.t.data() + done);
+  }
+  return done;
+}
+
+#endif
+
+}  // namespace
+}  // namespace lightproof::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lightproof {
+namespace {
+
+HWY_EXPORT(convert);
+
+}  // namespace
+
+void uniform_directions(std::span<const double> s, std::span<const double> u,
+                        const DirectionSpans& directions) {
+  std::size_t i = HWY_DYNAMIC_DISPATCH(convert)(s, u, directions);
+  for (; i < s.size(); ++i) {
+    const double sine = 2.0 * std::sqrt(u[i] * (1.0 - u[i]));
+    const double z = 2.0 * u[i] - 1.0;
+    directions.x[i] = -sine * std::cos(2.0 * kPi * s[i]);
+    directions.y[i] = sine * std::sin(2.0 * kPi * s[i]);
+    directions.z[i] = z;
+    directions.t[i] = std::acos(-z) / kPi;
+  }
+}
+
+}  // namespace lightproof
+#endif

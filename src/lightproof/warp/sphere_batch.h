@@ -1,0 +1,24 @@
+// Many directions uniform over the sphere at once, with vectors.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace lightproof {
+
+/// Where uniform_directions writes: unit vectors, and the place of each on the map. All of one
+/// size.
+struct DirectionSpans {
+  std::span<double> x;
+  std::span<double> y;
+  std::span<double> z;
+  std::span<double> t;
+};
+
+/// The directions of density 1/4pi at uniform numbers: s[i] chooses the azimuth, and is the place
+/// on the map, u[i] chooses z = 2 u[i] - 1 (Archimedes: equal heights, equal areas). As
+/// direction_from_square({s[i], t[i]}), to some roundings. All spans are of one size.
+void uniform_directions(std::span<const double> s, std::span<const double> u,
+                        const DirectionSpans& directions);
+
+}  // namespace lightproof
