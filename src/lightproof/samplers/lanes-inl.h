@@ -154,10 +154,11 @@ class LanePlaces {
       t = hn::Mul(hn::Add(cell.y, inside(along)), number(view_.texel_height));
       pdf = hn::Mul(mass, number(view_.texels));
     } else {
-      t = place_by_solid_angle(cell.y, along);
+      const HalfAngle half = half_angle(cell.y, along);
+      t = place_by_solid_angle(cell.y, half);
       const Number near = hn::Min(t, hn::Sub(number(1.0), t));
       const Number sine = hn::Sin(Numbers(), hn::Mul(number(kPi), near));
-      pdf = hn::Mul(density_by_solid_angle(cell.y, mass), hn::Mul(number(2.0 * kPi * kPi), sine));
+      pdf = hn::Mul(density_by_solid_angle(half, mass), hn::Mul(number(2.0 * kPi * kPi), sine));
     }
     const Int texel = hn::Or(to_whole(cell.x), hn::ShiftLeft<32>(to_whole(cell.y)));
     hn::StoreInterleaved4(s, t, hn::BitCast(Numbers(), texel), pdf, Numbers(),
@@ -211,17 +212,14 @@ class LanePlaces {
     const Number sine = hn::Mul(number(2.0), hn::Sqrt(hn::Mul(half.squared_sine, rest)));
     const Number from_pole = hn::Sub(rest, half.squared_sine);
     return {sine, hn::IfThenElse(half.upper, from_pole, hn::Neg(from_pole)),
-            density_by_solid_angle(y, mass)};
+            density_by_solid_angle(half, mass)};
   }
 
-  /// Per steradian.
-  HWY_INLINE Number density_by_solid_angle(Number y, Number mass) const {
-    return hn::Mul(mass, gather_numbers(view_.texels_per_steradian, to_whole(y)));
-  }
-
+  /// SolidAngleRows, at a share of a row.
   struct HalfAngle {
     Which upper;          ///< whether the nearer pole is the zenith
     Number row;           ///< counted from it
+    Number span;          ///< of the row
     Number squared_sine;  ///< of half the angle from it
   };
   HWY_INLINE HalfAngle half_angle(Number y, Number fraction) const {
@@ -231,13 +229,16 @@ class LanePlaces {
     const Number f = inside(hn::IfThenElse(upper, hn::Sub(number(1.0), fraction), fraction));
     const Int index = to_whole(row);
     const Number low = gather_numbers(view_.squared_sines, index);
-    const Number high = gather_numbers(view_.squared_sines + 1, index);
-    return {upper, row, hn::Add(low, hn::Mul(f, hn::Sub(high, low)))};
+    const Number span = gather_numbers(view_.spans, index);
+    return {upper, row, span, hn::Add(low, hn::Mul(f, span))};
   }
 
-  /// SolidAngleRows::place.
-  HWY_INLINE Number place_by_solid_angle(Number y, Number fraction) const {
-    const HalfAngle half = half_angle(y, fraction);
+  /// Per steradian.
+  HWY_INLINE Number density_by_solid_angle(const HalfAngle& half, Number mass) const {
+    return hn::Div(mass, hn::Mul(number(view_.solid_angle), half.span));
+  }
+
+  HWY_INLINE Number place_by_solid_angle(Number y, const HalfAngle& half) const {
     const Number sine = hn::Sqrt(half.squared_sine);
     const Number angle = hn::Asin(Numbers(), hn::Min(sine, number(1.0)));
     const Number height = number(view_.extent.height);

@@ -35,7 +35,7 @@ float to_shader_random(double u) { return static_cast<float>(std::floor(u * 0x1p
 LinearScanPublished::LinearScanPublished(const EnvironmentMap& map, TargetDensity target)
     : map_(&map),
       weighting_(target.weighting),
-      solid_angle_rows_(map.radiance.extent().height),
+      solid_angle_rows_(map.radiance.extent()),
       grey_(target.grey.red, target.grey.green, target.grey.blue) {
   const Extent extent = map.radiance.extent();
   const auto columns = static_cast<float>(extent.width);

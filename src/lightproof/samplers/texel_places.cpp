@@ -1,8 +1,19 @@
 #include "lightproof/samplers/texel_places.h"
 
-#include "lightproof/warp/lat_long.h"
-
 namespace lightproof {
+
+SolidAngleRows::SolidAngleRows(Extent extent)
+    : height_(extent.height),
+      row_height_(1.0 / extent.height),
+      solid_angle_(4.0 * kPi / extent.width) {
+  // sin^2 b - sin^2 a = sin(b + a) sin(b - a): written so, nothing cancels.
+  const double half_row = 0.5 * kPi * row_height_;
+  for (int row = 0; 2 * row < extent.height; ++row) {
+    const double sine = std::sin(half_row * row);
+    squared_sines_.push_back(sine * sine);
+    spans_.push_back(std::sin(half_row * (2 * row + 1)) * std::sin(half_row));
+  }
+}
 
 TexelPlaces::TexelPlaces(Extent extent, Weighting weighting)
     : extent_(extent),
@@ -10,11 +21,6 @@ TexelPlaces::TexelPlaces(Extent extent, Weighting weighting)
       texel_width_(1.0 / extent.width),
       texel_height_(1.0 / extent.height),
       texels_(static_cast<double>(extent.count())),
-      solid_angle_rows_(weighting == Weighting::B ? extent.height : 0) {
-  if (weighting == Weighting::A) return;
-  for (int y = 0; y < extent.height; ++y) {
-    texels_per_steradian_.push_back(1.0 / texel_solid_angle(extent, y));
-  }
-}
+      solid_angle_rows_(weighting == Weighting::B ? extent : Extent{1, 0}) {}
 
 }  // namespace lightproof

@@ -27,38 +27,44 @@ inline double place_in_cell(int index, double fraction, int count) {
 }
 
 /// Chooses t inside a row so that cos(theta) is uniform: equal solid angles are equally likely.
+/// sin^2 of half the angle from a pole is linear in the share of the row's solid angle; rows are
+/// counted from the nearer pole, where its inverse loses no precision.
 class SolidAngleRows {
  public:
-  explicit SolidAngleRows(int height) : height_(height), row_height_(1.0 / height) {
-    if (height == 0) return;
-    for (int edge = 0; edge <= height; ++edge) {
-      const double sine = std::sin(0.5 * kPi * edge / height);
-      squared_sines_.push_back(sine * sine);
-    }
-  }
+  explicit SolidAngleRows(Extent extent);
 
   /// The t in row `y` below which lies the share `fraction` of the row's solid angle.
-  /// sin^2(pi t / 2) is linear in the fraction; the row is mirrored to the lower half first, where
-  /// its inverse loses no precision.
   double place(int y, double fraction) const {
     const bool upper = 2 * y >= height_;
-    const int row = upper ? height_ - 1 - y : y;
+    const int row = from_pole(y);
     const double f = std::clamp(upper ? 1.0 - fraction : fraction, kCellMargin, 1.0 - kCellMargin);
     const double low = squared_sines_[static_cast<std::size_t>(row)];
-    const double high = squared_sines_[static_cast<std::size_t>(row) + 1];
-    const double sine = std::sqrt(low + f * (high - low));
+    const double sine = std::sqrt(low + f * spans_[static_cast<std::size_t>(row)]);
     const double within = 2.0 / kPi * std::asin(std::min(sine, 1.0)) * height_ - row;
     return place_in_cell(y, upper ? 1.0 - within : within, row_height_);
   }
 
-  /// sin^2 of half the angle from the nadir at the lower edge of every row, and at the zenith.
+  /// Of row `y`, in steradian.
+  double texel_solid_angle(int y) const {
+    return solid_angle_ * spans_[static_cast<std::size_t>(from_pole(y))];
+  }
+
+  /// sin^2 of half the angle from the pole where rows begin, counted from it.
   std::span<const double> squared_sines() const { return squared_sines_; }
-  std::size_t bytes() const { return squared_sines_.size() * sizeof(double); }
+  /// By how much it is more where they end.
+  std::span<const double> spans() const { return spans_; }
+  /// Steradian of a texel whose row has the span 1.
+  double solid_angle() const { return solid_angle_; }
+  std::size_t bytes() const { return 2 * spans_.size() * sizeof(double); }
 
  private:
+  int from_pole(int y) const { return 2 * y >= height_ ? height_ - 1 - y : y; }
+
   int height_;
   double row_height_;
+  double solid_angle_;
   std::vector<double> squared_sines_;
+  std::vector<double> spans_;
 };
 
 /// What TexelPlaces keeps, for code that works on many samples at once.
@@ -68,8 +74,9 @@ struct TexelPlacesView {
   double texel_width;   ///< of the square
   double texel_height;  ///< likewise
   double texels;        ///< how many there are
+  double solid_angle;   ///< see SolidAngleRows
   const double* squared_sines;
-  const double* texels_per_steradian;
+  const double* spans;
 };
 
 /// Uniform in (s, t) inside a texel under weighting A, in solid angle under B.
@@ -92,7 +99,7 @@ class TexelPlaces {
   /// Density over the square at `at`, inside a texel of row y that is drawn with this probability.
   PerSquare pdf(int y, double mass, SquarePoint at) const {
     if (weighting_ == Weighting::A) return {mass * texels_};
-    return to_square(PerSteradian{mass * texels_per_steradian_[static_cast<std::size_t>(y)]}, at);
+    return to_square(PerSteradian{mass / solid_angle_rows_.texel_solid_angle(y)}, at);
   }
 
   TexelPlacesView view() const {
@@ -101,13 +108,12 @@ class TexelPlaces {
             texel_width_,
             texel_height_,
             texels_,
+            solid_angle_rows_.solid_angle(),
             solid_angle_rows_.squared_sines().data(),
-            texels_per_steradian_.data()};
+            solid_angle_rows_.spans().data()};
   }
 
-  std::size_t bytes() const {
-    return solid_angle_rows_.bytes() + texels_per_steradian_.size() * sizeof(double);
-  }
+  std::size_t bytes() const { return solid_angle_rows_.bytes(); }
 
  private:
   Extent extent_;
@@ -115,8 +121,7 @@ class TexelPlaces {
   double texel_width_;
   double texel_height_;
   double texels_;
-  SolidAngleRows solid_angle_rows_;           ///< under B only
-  std::vector<double> texels_per_steradian_;  ///< in each row, under B only
+  SolidAngleRows solid_angle_rows_;  ///< under B only
 };
 
 }  // namespace lightproof
