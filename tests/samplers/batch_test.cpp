@@ -10,7 +10,7 @@
 #include "lightproof/image/synthetic.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/registry.h"
-#include "tests/samplers/kinds_of_vectors.h"
+#include "tests/core/kinds_of_vectors.h"
 
 namespace lightproof {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lightproof/core/random.h"
-#include "tests/samplers/kinds_of_vectors.h"
+#include "tests/core/kinds_of_vectors.h"
 
 namespace lightproof {
 namespace {

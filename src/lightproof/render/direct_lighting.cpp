@@ -3,27 +3,22 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <variant>
 
 #include "lightproof/core/random_batch.h"
+#include "lightproof/materials/material_batch.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/warp/lat_long.h"
 #include "lightproof/warp/sphere_batch.h"
 
 namespace lightproof {
-template <class Surface>
-void LightBatch::fill_from_material(std::size_t count, const Surface& surface,
+void LightBatch::fill_from_material(std::size_t count, const Material& material,
                                     const ShadingPoint& at) {
   assert(count <= kCapacity);
   count_ = count;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto [direction, scattering] = surface.sample(at, points_[i]);
-    x_[i] = direction.x;
-    y_[i] = direction.y;
-    z_[i] = direction.z;
-    pdf_[i] = scattering.pdf.value;
-    reflected_cosine_[i] = scattering.reflected_cosine;
-  }
+  sample_material(
+      material, at, std::span(s_).first(count), std::span(u_).first(count),
+      {std::span(x_).first(count), std::span(y_).first(count), std::span(z_).first(count),
+       std::span(pdf_).first(count), std::span(reflected_cosine_).first(count)});
 }
 
 /// With density 1/4pi.
@@ -53,9 +48,8 @@ void LightBatch::draw(const Lighting& lighting, const ShadingPoint& at, const Ra
       fill_points(stream, first, std::span(s_).first(count), std::span(u_).first(count));
       return fill_from_sphere(count);
     case Strategy::material:
-      fill_points(stream, first, std::span(points_).first(count));
-      return std::visit([&](const auto& surface) { fill_from_material(count, surface, at); },
-                        lighting.material);
+      fill_points(stream, first, std::span(s_).first(count), std::span(u_).first(count));
+      return fill_from_material(count, lighting.material, at);
     case Strategy::environment_a:
       return fill_from_map(count, lighting.light->sampler(Weighting::A), stream, first);
     case Strategy::environment_b:
@@ -63,42 +57,25 @@ void LightBatch::draw(const Lighting& lighting, const ShadingPoint& at, const Ra
   }
 }
 
-void LightBatch::locate(Strategy strategy, Extent map) {
-  switch (strategy) {
-    case Strategy::uniform:
-      for (std::size_t i = 0; i < count_; ++i) {
-        column_[i] = cell_of(s_[i], map.width);
-        row_[i] = cell_of(t_[i], map.height);
-      }
-      return;
-    case Strategy::material:
-      for (std::size_t i = 0; i < count_; ++i) {
-        const SquarePoint at = approximate_square_from_direction({x_[i], y_[i], z_[i]});
-        column_[i] = cell_of(at.s, map.width);
-        row_[i] = cell_of(at.t, map.height);
-      }
-      return;
-    case Strategy::environment_a:
-    case Strategy::environment_b:
-      return;  // the sampler says where
+void LightBatch::locate(Extent map) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    column_[i] = cell_of(s_[i], map.width);
+    row_[i] = cell_of(t_[i], map.height);
   }
-}
-
-void LightBatch::weigh(const Material& material, const ShadingPoint& at) {
-  std::visit(
-      // Copies, which no store in the loop can change: what depends on them alone is done once.
-      [this, at](const auto surface) {
-        for (std::size_t i = 0; i < count_; ++i) {
-          reflected_cosine_[i] = surface.evaluate(at, direction(i)).reflected_cosine;
-        }
-      },
-      material);
 }
 
 void LightBatch::shade(const Lighting& lighting, const ShadingPoint& at) {
   const Grid<Rgb>& radiance = lighting.light->map().radiance;
-  locate(lighting.strategy, radiance.extent());
-  if (lighting.strategy != Strategy::material) weigh(lighting.material, at);
+  const DirectionArrays directions = {std::span(x_).first(count_), std::span(y_).first(count_),
+                                      std::span(z_).first(count_)};
+  if (lighting.strategy == Strategy::material) {
+    approximate_places(directions.x, directions.y, directions.z,
+                       {std::span(s_).first(count_), std::span(t_).first(count_)});
+  } else {
+    reflected_cosines(lighting.material, at, directions,
+                      std::span(reflected_cosine_).first(count_));
+  }
+  if (!draws_from_map(lighting.strategy)) locate(radiance.extent());
   const auto width = static_cast<std::size_t>(radiance.extent().width);
   // Every sample is written; those that do not matter are overwritten by the next.
   ray_count_ = 0;

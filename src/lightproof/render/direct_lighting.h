@@ -53,23 +53,20 @@ class LightBatch {
     std::uint32_t sample;
   };
 
-  template <class Surface>
-  void fill_from_material(std::size_t count, const Surface& surface, const ShadingPoint& at);
+  void fill_from_material(std::size_t count, const Material& material, const ShadingPoint& at);
   void fill_from_sphere(std::size_t count);
   void fill_from_map(std::size_t count, const GuideTable& sampler, const RandomStream& stream,
                      std::uint64_t first);
   Direction direction(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
-  /// The texels that the directions meet.
-  void locate(Strategy strategy, Extent map);
-  /// f_r cos of every direction.
-  void weigh(const Material& material, const ShadingPoint& at);
+  /// The texels of the places on the map.
+  void locate(Extent map);
 
   // Of every sample. Apart, so that loops over them run on vectors.
   std::size_t count_ = 0;
-  std::array<SquarePoint, kCapacity> points_;  ///< if the material draws
-  std::array<double, kCapacity> s_;            ///< where on the map, if the sphere is drawn from
+  // If not the map is drawn from, the uniform numbers s and u, and then the place on the map.
+  std::array<double, kCapacity> s_;
+  std::array<double, kCapacity> u_;
   std::array<double, kCapacity> t_;
-  std::array<double, kCapacity> u_;  ///< what t comes from
   std::array<double, kCapacity> x_;
   std::array<double, kCapacity> y_;
   std::array<double, kCapacity> z_;

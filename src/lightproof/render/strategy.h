@@ -8,6 +8,11 @@ namespace lightproof {
 
 enum class Strategy { uniform, material, environment_a, environment_b };
 
+/// Rather than from directions, whose texels have to be found.
+constexpr bool draws_from_map(Strategy strategy) {
+  return strategy == Strategy::environment_a || strategy == Strategy::environment_b;
+}
+
 struct StrategyInfo {
   Strategy strategy;
   std::string_view name;

@@ -32,11 +32,16 @@ inline PerSteradian cosine_hemisphere_pdf(Direction local) {
   return {std::max(0.0, local.z) / kPi};
 }
 
+/// Whether cosine_power squares again and again.
+inline bool squares_power(double n) {
+  constexpr double kMostSquared = 1024.0;
+  return n <= kMostSquared && n == std::floor(n);
+}
+
 /// cosine^n for a cosine and n in [0, inf). Whole exponents go by repeated squaring: a fraction of
 /// std::pow's time, with an error of at most n ulp.
 inline double cosine_power(double cosine, double n) {
-  constexpr double kMostSquared = 1024.0;
-  if (n > kMostSquared || n != std::floor(n)) return std::pow(cosine, n);
+  if (!squares_power(n)) return std::pow(cosine, n);
   double power = 1.0;
   double square = cosine;
   for (auto bits = static_cast<unsigned>(n); bits != 0; bits >>= 1U, square *= square) {

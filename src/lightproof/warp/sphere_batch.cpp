@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "lightproof/core/measure.h"
+#include "lightproof/warp/lat_long.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lightproof/warp/sphere_batch.cpp"
@@ -52,6 +53,17 @@ std::size_t convert(std::span<const double> s, std::span<const double> u,
 
 #endif
 
+/// A plain loop, which the compiler makes vectors of.
+void find_places(const double* x, const double* y, const double* z, const PlaceSpans& places) {
+  double* s = places.s.data();
+  double* t = places.t.data();
+  for (std::size_t i = 0; i < places.s.size(); ++i) {
+    const SquarePoint at = approximate_square_from_direction({x[i], y[i], z[i]});
+    s[i] = at.s;
+    t[i] = at.t;
+  }
+}
+
 }  // namespace
 }  // namespace lightproof::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -61,6 +73,7 @@ namespace lightproof {
 namespace {
 
 HWY_EXPORT(convert);
+HWY_EXPORT(find_places);
 
 }  // namespace
 
@@ -75,6 +88,11 @@ void uniform_directions(std::span<const double> s, std::span<const double> u,
     directions.z[i] = z;
     directions.t[i] = std::acos(-z) / kPi;
   }
+}
+
+void approximate_places(std::span<const double> x, std::span<const double> y,
+                        std::span<const double> z, const PlaceSpans& places) {
+  HWY_DYNAMIC_DISPATCH(find_places)(x.data(), y.data(), z.data(), places);
 }
 
 }  // namespace lightproof

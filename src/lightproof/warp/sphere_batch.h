@@ -1,4 +1,4 @@
-// Many directions uniform over the sphere at once, with vectors.
+// Many directions of the sphere at once, with vectors: drawn uniformly, and found on the map.
 #pragma once
 
 #include <cstddef>
@@ -20,5 +20,15 @@ struct DirectionSpans {
 /// direction_from_square({s[i], t[i]}), to some roundings. All spans are of one size.
 void uniform_directions(std::span<const double> s, std::span<const double> u,
                         const DirectionSpans& directions);
+
+/// Where approximate_places writes; both of one size.
+struct PlaceSpans {
+  std::span<double> s;
+  std::span<double> t;
+};
+
+/// approximate_square_from_direction of every (x[i], y[i], z[i]). All spans are of one size.
+void approximate_places(std::span<const double> x, std::span<const double> y,
+                        std::span<const double> z, const PlaceSpans& places);
 
 }  // namespace lightproof

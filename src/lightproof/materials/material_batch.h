@@ -1,0 +1,36 @@
+// Many directions of a material at once, with vectors: as its sample and evaluate, to some
+// roundings.
+#pragma once
+
+#include <span>
+
+#include "lightproof/materials/material.h"
+
+namespace lightproof {
+
+/// Unit vectors, each number in an array of its own; all of one size.
+struct DirectionArrays {
+  std::span<const double> x;
+  std::span<const double> y;
+  std::span<const double> z;
+};
+
+/// reflected_cosine[i] = f_r (n·l)+ of the i-th direction, per steradian; of the same size.
+void reflected_cosines(const Material& material, const ShadingPoint& at,
+                       const DirectionArrays& light, std::span<double> reflected_cosine);
+
+/// Where sample_material writes: directions and what the material does with light from there. All
+/// of one size.
+struct MaterialSamples {
+  std::span<double> x;
+  std::span<double> y;
+  std::span<double> z;
+  std::span<double> pdf;               ///< per steradian
+  std::span<double> reflected_cosine;  ///< f_r (n·l)+, per steradian
+};
+
+/// Draws from the material's own lobes at the points (s[i], t[i]); all of one size.
+void sample_material(const Material& material, const ShadingPoint& at, std::span<const double> s,
+                     std::span<const double> t, const MaterialSamples& samples);
+
+}  // namespace lightproof

@@ -1,0 +1,96 @@
+// Batches are what one direction at a time is, whatever the vectors.
+#include "lightproof/materials/material_batch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "lightproof/core/random.h"
+#include "tests/core/kinds_of_vectors.h"
+#include "tests/materials/shading.h"
+
+namespace lightproof {
+namespace {
+
+constexpr std::size_t kSize = 203;  // no whole number of vectors
+
+struct Samples {
+  MaterialSamples spans() { return {x, y, z, pdf, reflected_cosine}; }
+  Direction direction(std::size_t i) const { return {x[i], y[i], z[i]}; }
+
+  std::vector<double> x = std::vector<double>(kSize);
+  std::vector<double> y = std::vector<double>(kSize);
+  std::vector<double> z = std::vector<double>(kSize);
+  std::vector<double> pdf = std::vector<double>(kSize);
+  std::vector<double> reflected_cosine = std::vector<double>(kSize);
+};
+
+/// A power's error grows with its exponent, 100 at most; the largest values are some 20.
+constexpr double kValueError = 1e-12;
+/// Around the axis of a lobe an error of four units in the last place of the cosine turns the
+/// direction by the square root of eight of them.
+constexpr double kDirectionError = 3e-8;
+
+class MaterialBatch : public testing::TestWithParam<ShadingCase> {};
+
+TEST_P(MaterialBatch, SamplesAreThoseOfOnePointAtATime) {
+  const auto& [name, material, at] = GetParam();
+  const RandomStream stream("material batch", 1);
+  std::vector<double> s;
+  std::vector<double> t;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const SquarePoint u = i == 0 ? SquarePoint{0.0, 0.0} : stream.point(i);
+    s.push_back(u.s);
+    t.push_back(u.t);
+  }
+  for_each_kind_of_vector([&, &at = at, &material = material](const char* vectors) {
+    SCOPED_TRACE(vectors);
+    Samples samples;
+    sample_material(material, at, s, t, samples.spans());
+    std::visit(
+        [&](const auto& surface) {
+          for (std::size_t i = 0; i < kSize; ++i) {
+            const Direction drawn = surface.sample(at, {s[i], t[i]}).direction;
+            EXPECT_NEAR(glm::distance(samples.direction(i), drawn), 0.0, kDirectionError);
+            EXPECT_NEAR(glm::length(samples.direction(i)), 1.0, 1e-14);
+            const Scattering scattering = surface.evaluate(at, samples.direction(i));
+            EXPECT_NEAR(samples.pdf[i], scattering.pdf.value, kValueError);
+            EXPECT_NEAR(samples.reflected_cosine[i], scattering.reflected_cosine, kValueError);
+          }
+        },
+        material);
+  });
+}
+
+TEST_P(MaterialBatch, ReflectedCosinesAreThoseOfOneDirectionAtATime) {
+  const auto& [name, material, at] = GetParam();
+  const RandomStream stream("material batch", 2);
+  Samples all;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const SquarePoint u = stream.point(i);
+    const double z = 2.0 * u.t - 1.0;
+    const double sine = std::sqrt(1.0 - z * z);
+    all.x[i] = sine * std::cos(2.0 * kPi * u.s);
+    all.y[i] = sine * std::sin(2.0 * kPi * u.s);
+    all.z[i] = z;
+  }
+  for_each_kind_of_vector([&, &at = at, &material = material](const char* vectors) {
+    SCOPED_TRACE(vectors);
+    reflected_cosines(material, at, {all.x, all.y, all.z}, all.reflected_cosine);
+    std::visit(
+        [&](const auto& surface) {
+          for (std::size_t i = 0; i < kSize; ++i) {
+            const double expected = surface.evaluate(at, all.direction(i)).reflected_cosine;
+            EXPECT_NEAR(all.reflected_cosine[i], expected, kValueError);
+          }
+        },
+        material);
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MaterialBatch, testing::ValuesIn(shading_cases()),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace lightproof
