@@ -40,7 +40,7 @@ TEST(Knee, IsFoundWhereItWasPlanted) {
     const auto knee =
         find_knee(with_noise(bent(7, 3.0, change), kSigma, RandomStream("planted", 1)), kLevel);
     ASSERT_TRUE(knee);
-    EXPECT_EQ(knee->x, 3.0);
+    EXPECT_EQ(knee->point, 3U);
     // Either slope is the least-squares one of three points and more, of standard error at most
     // sigma / sqrt(2); five of these are beyond chance.
     EXPECT_NEAR(knee->slope_before, 0.1, 5.0 * kSigma / std::numbers::sqrt2);
@@ -52,7 +52,7 @@ TEST(Knee, IsFoundWhereItWasPlanted) {
 TEST(Knee, WithoutNoiseIsCertain) {
   const auto knee = find_knee(bent(6, 2.0, 1.0), kLevel);
   ASSERT_TRUE(knee);
-  EXPECT_EQ(knee->x, 2.0);
+  EXPECT_EQ(knee->point, 2U);
   EXPECT_NEAR(knee->slope_after - knee->slope_before, 1.0, 1e-12);
 }
 
@@ -66,6 +66,15 @@ TEST(Knee, IsNoneOfFourPointsAndOfASingleOneThatIsOff) {
   EXPECT_FALSE(find_knee({}, kLevel));
   EXPECT_FALSE(find_knee(bent(6, 4.0, 1.0), kLevel)) << "the last one alone";
   EXPECT_FALSE(find_knee(bent(7, 5.0, 1.0), kLevel)) << "the last one alone";
+}
+
+TEST(Knee, IsFoundAmongRepeatedPlaces) {
+  std::vector<LinePoint> twice;
+  for (const LinePoint& point : bent(6, 2.0, 1.0)) twice.insert(twice.end(), 2, point);
+  const auto knee = find_knee(twice, kLevel);
+  ASSERT_TRUE(knee);
+  EXPECT_EQ(twice[knee->point].x, 2.0);
+  EXPECT_FALSE(find_knee(std::vector<LinePoint>(9, LinePoint{1.0, 1.0}), kLevel));
 }
 
 TEST(Knee, IsCalledOfNoiseAsOftenAsItsLevelAllows) {

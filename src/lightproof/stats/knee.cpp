@@ -55,10 +55,20 @@ bool is_rounding(std::span<const double> residuals, std::span<const double> valu
   return product(residuals, residuals) <= count * (count * step) * (count * step);
 }
 
-/// The broken line with its knee at `at`; the p-value for that place alone.
-Knee bent_at(double at, std::span<const double> x, const Straightened& line) {
+/// The points at which a line may bend, one for each x.
+std::vector<std::size_t> places_of(std::span<const double> x) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = kBeyond; i + kBeyond < x.size(); ++i) {
+    const bool inside = x[i] > x[kBeyond - 1] && x[i] < x[x.size() - kBeyond];
+    if (inside && x[i] > x[i - 1]) places.push_back(i);
+  }
+  return places;
+}
+
+/// The broken line with its knee at a point; the p-value for that place alone.
+Knee bent_at(std::size_t point, std::span<const double> x, const Straightened& line) {
   std::vector<double> beyond;
-  for (const double place : x) beyond.push_back(std::max(place - at, 0.0));
+  for (const double place : x) beyond.push_back(std::max(place - x[point], 0.0));
   const Straightened bend = straightened(x, beyond);
   const double weight = product(bend.residuals, bend.residuals);
   const double change = product(bend.residuals, line.residuals) / weight;
@@ -66,28 +76,28 @@ Knee bent_at(double at, std::span<const double> x, const Straightened& line) {
   const double left = product(line.residuals, line.residuals) - change * change * weight;
   const auto dof = static_cast<double>(x.size() - 3);
   const double t = std::abs(change) / std::sqrt(std::max(left, 0.0) / dof / weight);
-  return {at, before, before + change, 2.0 * student_upper(t, dof)};
+  return {point, before, before + change, 2.0 * student_upper(t, dof)};
 }
 
 }  // namespace
 
 std::optional<Knee> find_knee(std::span<const LinePoint> points, double level) {
-  if (points.size() < 2 * kBeyond + 1) return std::nullopt;
   std::vector<double> x;
   std::vector<double> y;
   for (const LinePoint& point : points) {
     x.push_back(point.x);
     y.push_back(point.y);
   }
+  const std::vector<std::size_t> places = places_of(x);
+  if (places.empty()) return std::nullopt;
   const Straightened line = straightened(x, y);
   if (is_rounding(line.residuals, y)) return std::nullopt;
   Knee sharpest;
-  const std::size_t places = points.size() - 2 * kBeyond;
-  for (std::size_t i = kBeyond; i < kBeyond + places; ++i) {
-    const Knee knee = bent_at(x[i], x, line);
+  for (const std::size_t place : places) {
+    const Knee knee = bent_at(place, x, line);
     if (knee.p_value < sharpest.p_value) sharpest = knee;
   }
-  sharpest.p_value = std::min(1.0, sharpest.p_value * static_cast<double>(places));
+  sharpest.p_value = std::min(1.0, sharpest.p_value * static_cast<double>(places.size()));
   if (sharpest.p_value > level) return std::nullopt;
   return sharpest;
 }
