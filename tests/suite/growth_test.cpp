@@ -37,7 +37,7 @@ TEST(Growth, ExponentsOfALineAndALogarithm) {
   ASSERT_EQ(fits[1].steps.size(), 6U);
   for (const StepTime& step : fits[1].steps) EXPECT_NEAR(step.ns, 5.0, 1e-12);
   for (const GrowthFit& fit : fits) {
-    EXPECT_FALSE(fit.knee) << fit.sampler;
+    EXPECT_FALSE(fit.knees) << fit.sampler;
     ASSERT_TRUE(fit.build_exponent);
     EXPECT_NEAR(fit.build_exponent->value, 0.9, 1e-12);
     EXPECT_NEAR(fit.build_exponent->error, 0.0, 1e-12);
@@ -51,10 +51,11 @@ TEST(Growth, HasAKneeWhereStepsSlowDown) {
   }
   const auto fits = growth_of(records, {});
   ASSERT_EQ(fits.size(), 1U);
-  ASSERT_TRUE(fits[0].knee);
-  EXPECT_EQ(fits[0].knee->extent, (Extent{1024, 512}));
-  EXPECT_NEAR(fits[0].knee->exponent_before, 0.0, 1e-12);
-  EXPECT_NEAR(fits[0].knee->exponent_after, 0.5, 1e-12);
+  ASSERT_TRUE(fits[0].knees);
+  EXPECT_NEAR(fits[0].knees->exponent_before, 0.0, 1e-12);
+  ASSERT_EQ(fits[0].knees->knees.size(), 1U);
+  EXPECT_EQ(fits[0].knees->knees[0].extent, (Extent{1024, 512}));
+  EXPECT_NEAR(fits[0].knees->knees[0].exponent_after, 0.5, 1e-12);
 }
 
 TEST(Growth, SaysWhichMapIsTheFirstWhoseTableDoesNotFit) {

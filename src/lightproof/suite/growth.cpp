@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lightproof/samplers/registry.h"
-#include "lightproof/stats/knee.h"
+#include "lightproof/stats/broken_line.h"
 #include "lightproof/suite/power_law.h"
 
 namespace lightproof {
@@ -61,14 +61,18 @@ std::optional<Extent> first_beyond(const std::vector<ThroughputRecord>& records,
   return found->extent;
 }
 
-std::optional<StepKnee> knee_of(const std::vector<StepTime>& steps) {
+std::optional<StepKnees> knees_of(const std::vector<StepTime>& steps) {
   std::vector<LinePoint> points;
   for (const StepTime& step : steps) {
     points.push_back({std::log(sides(step.extent)), std::log(step.ns)});
   }
-  const std::optional<Knee> knee = find_knee(points, kKneeLevel);
-  if (!knee) return std::nullopt;
-  return StepKnee{steps[knee->point].extent, knee->slope_before, knee->slope_after, knee->p_value};
+  const std::optional<BrokenLine> line = find_knees(points, kKneeLevel);
+  if (!line) return std::nullopt;
+  StepKnees knees = {line->slope, {}, line->p_value};
+  for (const Knee& knee : line->knees) {
+    knees.knees.push_back({steps[knee.point].extent, knee.slope_after});
+  }
+  return knees;
 }
 
 }  // namespace
@@ -91,7 +95,7 @@ std::vector<GrowthFit> growth_of(std::span<const ThroughputRecord> records,
     }
     fit.leaves_l2 = first_beyond(own, caches.l2);
     fit.leaves_l3 = first_beyond(own, caches.l3);
-    fit.knee = knee_of(fit.steps);
+    fit.knees = knees_of(fit.steps);
     fit.build_exponent = exponent_of(own, &ThroughputRecord::build_ms, texels);
     fits.push_back(std::move(fit));
   }

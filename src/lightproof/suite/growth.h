@@ -8,9 +8,9 @@
 
 namespace lightproof {
 
-/// Of each sampler that was measured on three maps or more, in the order of the registry. Knees are
-/// called at 1 % a sampler: of one whose time of a step follows a power law with normal scatter,
-/// that often (see stats/knee.h).
+/// Of each sampler that was measured on three maps or more, in the order of the registry. A
+/// sampler whose time of a step follows one power law with normal scatter gets knees in 1 % of all
+/// cases (see stats/broken_line.h).
 std::vector<GrowthFit> growth_of(std::span<const ThroughputRecord> records,
                                  const CacheSizes& caches);
 

@@ -141,9 +141,14 @@ struct FittedExponent {
 /// Where the time of a step starts to grow in another way.
 struct StepKnee {
   Extent extent;
-  double exponent_before = 0.0;  ///< of ns per step against S + T
-  double exponent_after = 0.0;
-  double p_value = 1.0;  ///< that scatter about one power law seems to bend so sharply
+  double exponent_after = 0.0;  ///< of ns per step against S + T
+};
+
+/// Of the time of a step: power laws that follow each other, where a single one will not do.
+struct StepKnees {
+  double exponent_before = 0.0;
+  std::vector<StepKnee> knees;  ///< one or two, ascending sizes
+  double p_value = 1.0;         ///< that scatter about one power law seems to bend so clearly
 };
 
 /// How a sampler's costs grow with the map.
@@ -157,7 +162,7 @@ struct GrowthFit {
   /// size of the cache is not known.
   std::optional<Extent> leaves_l2 = {};
   std::optional<Extent> leaves_l3 = {};
-  std::optional<StepKnee> knee = {};                  ///< none if one power law will do
+  std::optional<StepKnees> knees = {};                ///< none if one power law will do
   std::optional<FittedExponent> build_exponent = {};  ///< of the time to build, against S times T
 };
 
