@@ -8,12 +8,12 @@
 // looking. How it is distributed depends on the x alone, as neither slope nor size of the errors
 // enters, so its own p-value is its rank among those of 9999 straight lines of random normal errors
 // (a Monte Carlo test: Barnard 1963), which is exact too. Bonferroni's correction would do without,
-// but costs a factor of three, since neighbouring candidates are much alike.
+// but costs a factor of up to two, as neighbouring candidates are much alike.
 //
 // With two knees beside one, what is level, rises, and is level again can be told from a straight
-// line by ten points; by six, only if they hardly scatter. The level speaks of that decision. Of
-// lines with a knee the candidate with the smallest p-value is the description, no further test:
-// it may have one knee too many.
+// line by ten points; by six, only if they hardly scatter. The level speaks of that decision. The
+// candidate with the smallest p-value then is the description, without a further test: of lines
+// with one knee that are just told from straight ones, up to a quarter get a second beside it.
 #pragma once
 
 #include <cstddef>
