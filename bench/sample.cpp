@@ -7,6 +7,8 @@
 //            beside it: times_baseline, how many times as fast as std::upper_bound, and
 //            share_of_limit, of the speed of a bare gather from a table of two bytes a texel
 //
+// Of the sizes between powers of two there is `random` alone.
+//
 // The sampler's type is static inside the loop. Before a sampler is timed, its samples must fit the
 // bins of reference/, and if it searches sums, its texels must be those of reference/.
 #include <benchmark/benchmark.h>
@@ -19,6 +21,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "bench/bare_gather.h"
@@ -84,7 +87,10 @@ const Law& law_of(Extent extent, TargetDensity target) {
   if (!(made_for == extent) || !(made_with == target)) {
     law = {};
     law.masses = reference::texel_masses(map_of(extent), target);
-    law.bins = serpentine(reference::bin_masses(map_of(extent), target, kGateBins));
+    const bool draws_whole_texels = target.lookup == Lookup::nearest;
+    law.bins = serpentine(draws_whole_texels
+                              ? reference::bin_masses(law.masses, target.weighting, kGateBins)
+                              : reference::bin_masses(map_of(extent), target, kGateBins));
     made_for = extent;
     made_with = target;
   }
@@ -386,9 +392,9 @@ std::string name_of(std::string_view sampler, Extent extent, std::string_view or
   return fmt::format("sample/{}/{}/{}x{}/{}", sampler, kMap, extent.width, extent.height, order);
 }
 
-void register_samplers(Extent extent) {
+void register_samplers(Extent extent, std::span<const OrderInfo> orders) {
   for (const SamplerInfo& info : samplers()) {
-    for (const auto& [order, order_name] : kOrders) {
+    for (const auto& [order, order_name] : orders) {
       const std::string name = name_of(info.name, extent, order_name);
       benchmark::RegisterBenchmark(name.c_str(),
                                    [&info, extent, order = order](benchmark::State& state) {
@@ -415,7 +421,9 @@ void register_sample_benchmarks() {
         yardstick.run(state, extent);
       });
     }
-    register_samplers(extent);
+    register_samplers(extent, kOrders);
+    if (extent == kExtents.back()) continue;
+    register_samplers(half_as_large_again(extent), std::span(kOrders).first<1>());
   }
 }
 

@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
                                       "--markdown", "--github", "--sequential", "--rejections",
                                       "Exit codes", "inconclusive"})},
         HelpCase{"study", with_common({"-o,--output", "--throughput", "--no-throughput",
-                                       "--no-self-test", "Exit codes"})},
+                                       "--largest", "--no-self-test", "Exit codes"})},
         HelpCase{"history", {"add", "compare", "trend"}},
         HelpCase{
             "list",
@@ -122,6 +122,9 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{"NoResult", {"history", "add", "--db", "h.db"}, "RESULT"},
         UsageCase{"NoHead", {"history", "compare", "a", "--db", "h.db"}, "HEAD"},
         UsageCase{"NoPage", {"history", "trend", "--db", "h.db"}, "--output"},
+        UsageCase{"LargestTooSmall", {"study", "--largest", "511"}, "--largest"},
+        UsageCase{
+            "LargestOfAFile", {"study", "--largest", "512", "--throughput", "f"}, "--largest"},
         UsageCase{
             "BothThroughputs", {"study", "--throughput", "f", "--no-throughput"}, "--throughput"}),
     [](const auto& test) { return test.param.name; });

@@ -112,13 +112,53 @@ TEST(TableChart, MarksTheFrontOfTheLargestMap) {
   EXPECT_EQ(rows[3]["front"], "on the front");
 }
 
-TEST(ThroughputChart, NamesTheStepsOfASample) {
-  const StudyResult study = testing::made_up_study();
-  const json rows = json::parse(throughput_chart(study.throughput, study.growth))["data"]["values"];
+TEST(ThroughputChart, NamesTheExponents) {
+  const json rows = json::parse(throughput_chart(testing::made_up_study()))["data"]["values"];
   ASSERT_EQ(rows.size(), 15U);
-  EXPECT_EQ(rows[0]["series"], "binary_search, log2 S + log2 T steps");
-  EXPECT_EQ(rows[0]["size"], 384);
+  EXPECT_EQ(rows[0]["series"], "binary_search, exponent 0.16");
+  EXPECT_EQ(rows[0]["size"], 384.0);
   EXPECT_EQ(rows[0]["extent"], "256\u00d7128");
+}
+
+/// "extent sampler" of the points in a frame.
+std::vector<std::string> framed(const json& chart, const std::string& name) {
+  std::vector<std::string> points;
+  for (const json& row : chart["layer"].at(3)["data"]["values"]) {
+    if (row["series"] != name) continue;
+    points.push_back(row["extent"].get<std::string>() + " " + row["sampler"].get<std::string>());
+  }
+  return points;
+}
+
+TEST(ThroughputChart, FramesThePointsBeyondACacheAndTheKnees) {
+  const json chart = json::parse(throughput_chart(testing::made_up_study()));
+  EXPECT_EQ(framed(chart, "first table beyond L2 (1\u00a0MiB)"),
+            (std::vector<std::string>{"1024\u00d7512 binary_search",
+                                      "1024\u00d7512 linear_scan_published",
+                                      "1024\u00d7512 alias_table"}));
+  EXPECT_EQ(framed(chart, "first table beyond L3 (32\u00a0MiB)"),
+            std::vector<std::string>{"4096\u00d72048 binary_search"});
+  EXPECT_EQ(
+      framed(chart, "measured knee of the time of a step"),
+      (std::vector<std::string>{"512\u00d7256 binary_search", "1024\u00d7512 binary_search"}));
+  const json names = chart["layer"][2]["encoding"]["shape"]["scale"]["domain"];
+  EXPECT_EQ(names.size(), 3U + 3U) << "the legend has the samplers and the frames";
+}
+
+TEST(ThroughputChart, HasNoFramesWhereNothingIsKnown) {
+  StudyResult study = testing::made_up_study();
+  study.growth.clear();
+  EXPECT_EQ(json::parse(throughput_chart(study))["layer"].size(), 3U);
+}
+
+TEST(BuildChart, ShowsTheTimesAgainstTexels) {
+  StudyResult study = testing::made_up_study();
+  study.throughput[1].build_ms = 0.0;
+  const json rows = json::parse(build_chart(study))["data"]["values"];
+  ASSERT_EQ(rows.size(), 14U);
+  EXPECT_EQ(rows[0]["series"], "binary_search, exponent 1");
+  EXPECT_EQ(rows[0]["size"], 32768.0);
+  EXPECT_DOUBLE_EQ(rows[0]["cost"], study.throughput[0].build_ms);
 }
 
 }  // namespace

@@ -19,6 +19,8 @@ TEST(Csv, HasOneRowPerRecordBelowItsHeading) {
   EXPECT_EQ(lines(convergence_csv(study.convergence)), 1 + 128 * 6);
   EXPECT_EQ(lines(variance_csv(study.convergence)), 1 + 128);
   EXPECT_EQ(lines(throughput_csv(study.throughput)), 1 + 15);
+  EXPECT_EQ(lines(build_csv(study.throughput)), 1 + 15);
+  EXPECT_EQ(lines(growth_csv(study.growth)), 1 + 3);
   EXPECT_EQ(lines(renders_csv(study.renders)), 1 + 4);
   EXPECT_EQ(lines(maps_csv(study.maps)), 1 + 8);
 }
@@ -32,6 +34,17 @@ TEST(Csv, QuotesWhatWouldSplitAField) {
             "detectable_effect,outcome,known_defect,detail\n"
             "\"a,b\",B,\"say \"\"x\"\"\nhere\",reference,chi_square_grid,4194304,1031.2,1023,,"
             "0.0157,0.0186,accept,no,\n");
+}
+
+TEST(Csv, LeavesAFieldEmptyWhereThereIsNoKneeAndNoCache) {
+  std::vector<GrowthFit> growth = testing::made_up_study().growth;
+  EXPECT_NE(growth_csv(growth).find("binary_search,log2 S + log2 T,0.161,0.004,1,0.012,1024x512,"
+                                    "4096x2048,0.02,512x256; 1024x512,0.31; 0.12,0.0021\n"),
+            std::string::npos)
+      << growth_csv(growth);
+  EXPECT_NE(growth_csv(growth).find("alias_table,constant,0.052,0.008,1,0.012,1024x512,,,,,\n"),
+            std::string::npos)
+      << growth_csv(growth);
 }
 
 TEST(Csv, RestoresDoublesExactly) {

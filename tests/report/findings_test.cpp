@@ -197,6 +197,53 @@ TEST(GrowthFinding, GivesTheLeastAndTheLargestExponent) {
   EXPECT_EQ(step_range(a).slowest.extent, (Extent{256, 128}));
 }
 
+TEST(CachesFinding, NamesTheFirstTableAndTheLastToOutgrowACache) {
+  GrowthFit small;
+  small.sampler = "small";
+  small.leaves_l2 = {1024, 512};
+  GrowthFit large = small;
+  large.sampler = "large";
+  large.leaves_l2 = {256, 128};
+  large.leaves_l3 = {2048, 1024};
+  const CacheSizes caches = {1048576.0, 50331648.0};
+  EXPECT_EQ(caches_finding({small, large}, caches),
+            "Tables outgrow L2 (1\u00a0MiB) at 256\u00d7128 (large) to "
+            "1024\u00d7512 (small), L3 (48\u00a0MiB) at 2048\u00d71024 (large). ");
+  EXPECT_EQ(caches_finding({small}, {1048576.0, {}}),
+            "Tables outgrow L2 (1\u00a0MiB) at 1024\u00d7512 (small). ");
+  EXPECT_EQ(caches_finding({small, small}, caches),
+            "Tables outgrow L2 (1\u00a0MiB) at 1024\u00d7512. ");
+  EXPECT_EQ(caches_finding({GrowthFit{}}, caches), "All tables fit into the caches. ");
+  EXPECT_EQ(caches_finding({small}, {}), "The sizes of the caches are not known. ");
+}
+
+TEST(KneesFinding, NamesTheSamplersThatHaveOne) {
+  GrowthFit straight;
+  GrowthFit bent;
+  bent.sampler = "bent";
+  bent.knees = {0.0, {{{512, 256}, 0.5}, {{2048, 1024}, 0.1}}, 0.001};
+  EXPECT_EQ(knees_finding({straight, bent}),
+            "The time of a step has measured knees: bent at 512\u00d7256 and 2048\u00d71024.");
+  EXPECT_EQ(knees_finding({straight}), "The time of a step has no measured knee.");
+}
+
+TEST(BuildFinding, GivesTheExponentsAndTheSlowestOnTheLargestMap) {
+  StudyResult study = speeds(130.0, 400.0);
+  study.throughput[0].build_ms = 99.0;  // on a small map
+  study.throughput[2].build_ms = 3.0;
+  study.throughput[4].build_ms = 5100.0;
+  EXPECT_EQ(build_finding(study),
+            "Of the builds linear_scan_published takes longest at 1024\u00d7512, 5.10 s");
+  GrowthFit fit;
+  fit.sampler = "linear_scan";
+  fit.build_exponent = {1.1, 0.1};
+  study.growth = {fit};
+  EXPECT_EQ(build_finding(study),
+            "The time to build grows like S \u00d7 T to the power of 1.1 (linear_scan); "
+            "linear_scan_published takes longest at 1024\u00d7512, 5.10 s");
+  EXPECT_EQ(build_finding({}), "");
+}
+
 TEST(SavingFinding, ComparesTheBestWithTheWorstByPrediction) {
   ConvergenceRecord good = estimator(-0.5, 1.0);
   ConvergenceRecord bad = estimator(-0.5, 1.0);

@@ -270,9 +270,16 @@ StudyResult made_up_study() {
   study.tables = tables();
   const Extent small = {256, 128};
   const Extent large = {4096, 2048};
+  study.caches = {1048576.0, 33554432.0};
   study.growth = {{"binary_search", "log2 S + log2 T", 0.161, 0.004, {{small, 1.5}, {large, 1.9}}},
                   {"linear_scan_published", "S + T", 0.968, 0.012, {{small, 0.71}, {large, 0.68}}},
                   {"alias_table", "constant", 0.052, 0.008, {{small, 9.0}, {large, 11.0}}}};
+  for (GrowthFit& fit : study.growth) {
+    fit.leaves_l2 = {1024, 512};
+    fit.build_exponent = {1.0, 0.012};
+  }
+  study.growth[0].leaves_l3 = {4096, 2048};
+  study.growth[0].knees = {0.02, {{{512, 256}, 0.31}, {{1024, 512}, 0.12}}, 0.0021};
   for (std::size_t strategy = 0; strategy < 4; ++strategy)
     study.renders.push_back(render(strategy));
   study.self_test = self_test();

@@ -70,9 +70,9 @@ TEST(GateJson, SurvivesNamesThatAreNotUtf8) {
 
 TEST(StudyJson, HoldsEverythingButThePixels) {
   const json document = json::parse(study_json(testing::made_up_study()));
-  EXPECT_EQ(keys_of(document),
-            (std::set<std::string>{"version", "machine", "seed", "maps", "gate", "convergence",
-                                   "throughput", "growth", "tables", "renders", "self_test"}));
+  EXPECT_EQ(keys_of(document), (std::set<std::string>{"version", "machine", "seed", "maps", "gate",
+                                                      "convergence", "throughput", "caches",
+                                                      "growth", "tables", "renders", "self_test"}));
   EXPECT_EQ(document["maps"].size(), 8U);
   EXPECT_EQ(document["maps"][0]["size"], (json{64, 32}));
   EXPECT_EQ(document["maps"][0]["drawn"].size(), 300U);
@@ -80,6 +80,22 @@ TEST(StudyJson, HoldsEverythingButThePixels) {
   EXPECT_EQ(document["convergence"][0]["points"].size(), 6U);
   EXPECT_EQ(document["renders"][1]["picture"], "city-sphere-GGX__roughness_0.3-brdf.exr");
   EXPECT_EQ(document["renders"][1]["reference"], "city-sphere-GGX__roughness_0.3-reference.exr");
+}
+
+TEST(StudyJson, HasCachesAndKneesOrNull) {
+  StudyResult study = testing::made_up_study();
+  study.caches.l3.reset();
+  const json document = json::parse(study_json(study));
+  EXPECT_EQ(document["caches"], (json{{"l2", 1048576.0}, {"l3", nullptr}}));
+  const json growth = document["growth"];
+  EXPECT_EQ(growth[0]["leaves_l3"], (json{4096, 2048}));
+  EXPECT_EQ(growth[0]["knees"]["exponent_before"], 0.02);
+  EXPECT_EQ(growth[0]["knees"]["places"][1],
+            (json{{"size", {1024, 512}}, {"exponent_after", 0.12}}));
+  EXPECT_EQ(growth[0]["knees"]["p_value"], 0.0021);
+  EXPECT_EQ(growth[0]["build_exponent"], (json{{"value", 1.0}, {"error", 0.012}}));
+  EXPECT_TRUE(growth[1]["leaves_l3"].is_null());
+  EXPECT_TRUE(growth[1]["knees"].is_null());
 }
 
 TEST(StudyJson, DoesNotCountKnownDefects) {

@@ -42,6 +42,14 @@ TEST(Numbers, ShowTheDecimalsThatTheErrorAllows) {
   EXPECT_EQ(with_error(1.5, 0.0), "1.50");
 }
 
+TEST(Numbers, ShowBytesInTheUnitThatFits) {
+  EXPECT_EQ(bytes_text(0.0), "0\u00a0B");
+  EXPECT_EQ(bytes_text(1023.0), "1023\u00a0B");
+  EXPECT_EQ(bytes_text(49152.0), "48\u00a0KiB");
+  EXPECT_EQ(bytes_text(1.5 * 1048576.0), "1.50\u00a0MiB");
+  EXPECT_EQ(bytes_text(3.0 * 1024.0 * 1024.0 * 1048576.0), "3072\u00a0GiB");
+}
+
 TEST(Numbers, GroupThousands) {
   EXPECT_EQ(with_thousands(999), "999");
   EXPECT_EQ(with_thousands(4194304), "4,194,304");

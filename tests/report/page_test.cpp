@@ -56,11 +56,12 @@ TEST(Report, WritesAllItsFiles) {
   const fs::path folder = fs::path(::testing::TempDir()) / "lightproof-report" / "new";
   fs::remove_all(folder);
   write_report(testing::made_up_study(), folder);
-  for (const char* name : {"report.html", "results.json", "gate.csv", "convergence.csv",
-                           "variance.csv", "throughput.csv", "tables.csv", "renders.csv",
-                           "maps.csv", "city-sphere-GGX__roughness_0.3-uniform.exr",
-                           "city-sphere-GGX__roughness_0.3-uniform-error.exr",
-                           "city-sphere-GGX__roughness_0.3-reference.exr"}) {
+  for (const char* name :
+       {"report.html", "results.json", "gate.csv", "convergence.csv", "variance.csv",
+        "throughput.csv", "growth.csv", "build.csv", "tables.csv", "renders.csv", "maps.csv",
+        "city-sphere-GGX__roughness_0.3-uniform.exr",
+        "city-sphere-GGX__roughness_0.3-uniform-error.exr",
+        "city-sphere-GGX__roughness_0.3-reference.exr"}) {
     EXPECT_TRUE(fs::exists(folder / name) && fs::file_size(folder / name) > 0) << name;
   }
   fs::remove_all(folder.parent_path());

@@ -5,6 +5,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace lightproof {
@@ -158,6 +159,14 @@ TEST(Detectable, NoncentralityGrowsWithPowerAndStrictness) {
 TEST(Detectable, ZIsTheSumOfTwoQuantiles) {
   EXPECT_NEAR(detectable_z(0.05, 0.8), 1.959963984540054 + 0.841621233572914, 1e-13);
   EXPECT_NEAR(detectable_z(1e-6, 0.99), 4.891638475698590 + 2.326347874040841, 1e-13);
+}
+
+TEST(StudentUpper, OfOneAndTwoDegreesHasItsClosedForm) {
+  for (const double t : {-1.5, 0.0, 0.3, 2.0, 12.7, 318.3}) {
+    EXPECT_NEAR(student_upper(t, 1.0), 0.5 - std::atan(t) / std::numbers::pi, 1e-15) << t;
+    EXPECT_NEAR(student_upper(t, 2.0), 0.5 * (1.0 - t / std::sqrt(2.0 + t * t)), 1e-15) << t;
+  }
+  EXPECT_EQ(student_upper(std::numeric_limits<double>::infinity(), 3.0), 0.0);
 }
 
 TEST(Detectable, ZIsTheRootOfTheNoncentralityOfOneDegree) {

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -103,32 +102,52 @@ TEST_F(ThroughputFile, WhatIsNotGoogleBenchmarksIsRefusedByName) {
 }
 
 TEST(MeasureThroughput, AProgramThatCannotRunIsNamed) {
-  EXPECT_THROW(measure_throughput("/no/such/program"), InputError);
-  EXPECT_THROW(measure_throughput("/bin/false"), InputError);
+  EXPECT_THROW(measure_throughput("/no/such/program", 512), InputError);
+  EXPECT_THROW(measure_throughput("/bin/false", 512), InputError);
 }
 
-TEST(Growth, ExponentsOfALineAndALogarithm) {
-  std::vector<ThroughputRecord> records;
-  for (const int width : {512, 1024, 2048, 4096, 8192}) {
-    const double size = 1.5 * width;
-    records.push_back({"linear_scan", "sun-sky", {width, width / 2}, 0.3 * size, 0, 0, 0, 0});
-    records.push_back({"binary_search",
-                       "sun-sky",
-                       {width, width / 2},
-                       5.0 * (2.0 * std::log2(width) - 1.0),
-                       0,
-                       0,
-                       0,
-                       0});
+TEST(ThroughputFilter, ChoosesSingleSamplesUpToAWidthAndTheTablesOfOneSize) {
+  const std::string filter = throughput_filter(1024);
+  for (const char* name :
+       {"sample/alias/sun-sky/256x128/random", "sample/alias/sun-sky/384x192/random",
+        "sample/alias/sun-sky/768x384/random", "sample/alias/sun-sky/1024x512/random",
+        "sample/alias/sun-sky/2048x1024/fused", "sample/bare_gather_2B/sun-sky/2048x1024/fused"}) {
+    EXPECT_THAT(name, testing::MatchesRegex(filter));
   }
-  const auto fits = growth_of(records);
-  ASSERT_EQ(fits.size(), 2U);
-  EXPECT_NEAR(fits[0].exponent, 1.0, 1e-12);
-  for (const StepTime& step : fits[0].steps) EXPECT_NEAR(step.ns, 0.3, 1e-12);
-  EXPECT_LT(fits[1].exponent, 0.2);
-  EXPECT_GT(fits[1].exponent, 0.0);
-  ASSERT_EQ(fits[1].steps.size(), 5U);
-  for (const StepTime& step : fits[1].steps) EXPECT_NEAR(step.ns, 5.0, 1e-12);
+  for (const char* name :
+       {"sample/alias/sun-sky/1536x768/random", "sample/alias/sun-sky/2048x1024/random",
+        "sample/alias/sun-sky/1024x512/fused", "sample/alias/sun-sky/1024x512/batch",
+        "build/alias/sun-sky/256x128/random", "sample/alias/sun-sky/2560x128/random"}) {
+    EXPECT_THAT(name, testing::Not(testing::MatchesRegex(filter)));
+  }
+  EXPECT_THAT("sample/alias/sun-sky/16384x8192/random",
+              testing::MatchesRegex(throughput_filter(16384)));
+}
+
+TEST_F(ThroughputFile, NamesOfOtherShapesAreLeftOut) {
+  std::string runs = run("sample/a/b/4x2/random", 9);
+  for (const char* name : {"sample/a/b/4x2/random/extra", "sample/a/b/4x2", "sample/a/b/4/random",
+                           "sample/a/b/4x2x1/random", "sample/a/b/x2/random",
+                           "sample/a/b/-4x2/random", "sample/a/b/4x2/batch"}) {
+    runs += ',';
+    runs += run(name, 1);
+  }
+  write("{\"benchmarks\":[" + runs + "]}");
+  EXPECT_EQ(read_throughput(file_).samplers.size(), 1U);
+}
+
+TEST_F(ThroughputFile, CachesAreThoseOfTheMachineThatMeasured) {
+  const std::string benchmarks = "\"benchmarks\":[" + run("sample/a/b/4x2/random", 9) + "]}";
+  write(
+      "{\"context\":{\"caches\":[{\"type\":\"Data\",\"level\":1,\"size\":49152},"
+      "{\"type\":\"Instruction\",\"level\":2,\"size\":5},"
+      "{\"type\":\"Unified\",\"level\":2,\"size\":1048576}]}," +
+      benchmarks);
+  const CacheSizes caches = read_throughput(file_).caches;
+  EXPECT_EQ(caches.l2, 1048576.0);
+  EXPECT_EQ(caches.l3, std::nullopt);
+  write('{' + benchmarks);
+  EXPECT_EQ(read_throughput(file_).caches.l2, std::nullopt);
 }
 
 }  // namespace

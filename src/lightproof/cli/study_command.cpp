@@ -13,7 +13,6 @@
 #include "lightproof/mutants/self_test.h"
 #include "lightproof/report/report.h"
 #include "lightproof/suite/study.h"
-#include "lightproof/suite/throughput.h"
 
 namespace lightproof::cli {
 namespace fs = std::filesystem;
@@ -77,11 +76,7 @@ int run(Options options) {
   prepare(folder);
   StudyResult result = run_study(std::move(maps), options.study, progress_bar(options));
   result.gate.input_options = input_options(options);
-  if (!throughput.samplers.empty()) {
-    result.growth = growth_of(throughput.samplers);
-    result.throughput = std::move(throughput.samplers);
-    result.tables = std::move(throughput.tables);
-  }
+  if (!throughput.samplers.empty()) set_throughput(result, std::move(throughput));
   if (!options.no_self_test) {
     result.self_test = run_self_test(options.seed, progress_bar(options));
   }
@@ -104,6 +99,9 @@ void add_study(CLI::App& app, int& exit_code) {
   auto* file = add_path(*command, "--throughput", options->throughput,
                         "take throughput from this output of lightproof_bench");
   command->add_flag("--no-throughput", options->no_throughput, "leave throughput out")
+      ->excludes(file);
+  add_number(*command, "--largest", options->study.largest_width, 512, 16384,
+             "width of the largest map that throughput is measured on; 16384 takes 8 GB")
       ->excludes(file);
   command->add_flag("--no-self-test", options->no_self_test,
                     "leave out the test of the gate itself (mutants, calibration, power)");

@@ -102,6 +102,16 @@ Json log_axis(double low, double high) {
           {"tickOpacity", opacity}};
 }
 
+Json error_bars(const Json& y, const Json& colour) {
+  return {{"mark", {{"type", "rule"}, {"strokeWidth", 1.5}, {"opacity", 0.6}, {"clip", true}}},
+          {"encoding", {{"y", y}, {"y2", {{"field", "high"}}}, {"color", colour}}}};
+}
+
+Json points(const Json& y, const Json& colour, const Json& shape) {
+  return {{"mark", {{"type", "point"}, {"filled", true}, {"size", 55}, {"opacity", 0.9}}},
+          {"encoding", {{"y", y}, {"color", colour}, {"shape", shape}}}};
+}
+
 Json tooltip(const std::string& field, const std::string& title, const std::string& format) {
   Json entry = {{"field", field}, {"title", title}};
   entry["type"] = format.empty() ? "nominal" : "quantitative";

@@ -36,6 +36,12 @@ struct LogRange {
   void add(double value);
 };
 
+/// From y, whose field is "low", to the field "high".
+Json error_bars(const Json& y, const Json& colour);
+
+/// Filled symbols.
+Json points(const Json& y, const Json& colour, const Json& shape);
+
 /// One line of a tooltip; a name if `format` (d3) is empty, else a number.
 Json tooltip(const std::string& field, const std::string& title, const std::string& format);
 

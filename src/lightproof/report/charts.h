@@ -36,9 +36,13 @@ std::string small_convergence_chart(const std::vector<ConvergenceRecord>& record
 /// Measured / predicted variance against predicted variance. Records without a ratio are left out.
 std::string variance_chart(const std::vector<ConvergenceRecord>& records);
 
-/// ns per sample against the size of the map, log-log, with the number of steps in the legend.
-std::string throughput_chart(const std::vector<ThroughputRecord>& records,
-                             const std::vector<GrowthFit>& growth);
+/// ns per sample against the size of the map, log-log, with the fitted growth in the legend. Points
+/// at which a table leaves a cache, and measured knees, are framed.
+std::string throughput_chart(const StudyResult& study);
+
+/// ms of a build against the number of texels, likewise, without frames: a build reads the map from
+/// end to end, and waits for no cache. Records without such a time are left out.
+std::string build_chart(const StudyResult& study);
 
 /// ns per sample against another cost of the tables on the largest map, log-log, with the Pareto
 /// front. Records without such a cost are left out.

@@ -25,7 +25,12 @@ std::string field(const char* text) { return field(std::string_view(text)); }
 std::string field(double value) { return fmt::format("{}", value); }
 std::string field(std::uint64_t value) { return std::to_string(value); }
 std::string field(int value) { return std::to_string(value); }
-std::string field(const std::optional<double>& value) { return value ? field(*value) : ""; }
+std::string field(Extent extent) { return fmt::format("{}x{}", extent.width, extent.height); }
+
+template <class Value>
+std::string field(const std::optional<Value>& value) {
+  return value ? field(*value) : "";
+}
 
 template <class... Values>
 std::string row(const Values&... values) {
@@ -33,6 +38,12 @@ std::string row(const Values&... values) {
   ((line += field(values), line += ','), ...);
   line.back() = '\n';
   return line;
+}
+
+template <class Record, class Value>
+std::optional<Value> member(const std::optional<Record>& record, Value Record::*value) {
+  if (!record) return std::nullopt;
+  return (*record).*value;
 }
 
 std::string joined(const std::vector<std::string>& texts) {
@@ -97,6 +108,34 @@ std::string throughput_csv(const std::vector<ThroughputRecord>& records) {
   for (const ThroughputRecord& r : records) {
     csv += row(r.sampler, r.map, r.extent.width, r.extent.height, r.ns_per_sample, r.ns_low,
                r.ns_high, r.table_bytes, r.build_ms);
+  }
+  return csv;
+}
+
+std::string growth_csv(const std::vector<GrowthFit>& growth) {
+  std::string csv =
+      "sampler,steps,exponent,exponent_error,build_exponent,build_exponent_error,leaves_l2,"
+      "leaves_l3,exponent_before_knees,knees,exponents_after,knees_p\n";
+  for (const GrowthFit& fit : growth) {
+    std::vector<std::string> places;
+    std::vector<std::string> exponents;
+    for (const StepKnee& knee : fit.knees.value_or(StepKnees{}).knees) {
+      places.push_back(field(knee.extent));
+      exponents.push_back(field(knee.exponent_after));
+    }
+    csv += row(fit.sampler, fit.model, fit.exponent, fit.exponent_error,
+               member(fit.build_exponent, &FittedExponent::value),
+               member(fit.build_exponent, &FittedExponent::error), fit.leaves_l2, fit.leaves_l3,
+               member(fit.knees, &StepKnees::exponent_before), joined(places), joined(exponents),
+               member(fit.knees, &StepKnees::p_value));
+  }
+  return csv;
+}
+
+std::string build_csv(const std::vector<ThroughputRecord>& records) {
+  std::string csv = "sampler,map,width,height,build_ms\n";
+  for (const ThroughputRecord& r : records) {
+    csv += row(r.sampler, r.map, r.extent.width, r.extent.height, r.build_ms);
   }
   return csv;
 }

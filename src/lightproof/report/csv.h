@@ -16,6 +16,10 @@ std::string convergence_csv(const std::vector<ConvergenceRecord>& records);
 /// One row per record: variance, its prediction, their ratio, and the fitted slope.
 std::string variance_csv(const std::vector<ConvergenceRecord>& records);
 std::string throughput_csv(const std::vector<ThroughputRecord>& records);
+/// One row per sampler: exponents, sizes at which its table outgrows a cache, and its knee.
+std::string growth_csv(const std::vector<GrowthFit>& growth);
+/// One row per record: the time to build.
+std::string build_csv(const std::vector<ThroughputRecord>& records);
 std::string tables_csv(const std::vector<TableRecord>& records);
 std::string renders_csv(const std::vector<RenderRecord>& records);
 /// One row per mutant and test that rejects it.

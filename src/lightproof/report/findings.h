@@ -46,6 +46,16 @@ StepRange step_range(const GrowthFit& fit);
 /// How many steps each sampler takes, and whether they stay as fast as the map grows.
 std::string growth_finding(const std::vector<GrowthFit>& growth);
 
+/// From where to where tables outgrow L2 and L3, with the first sampler and the last.
+std::string caches_finding(const std::vector<GrowthFit>& growth, const CacheSizes& caches);
+
+/// The samplers whose time of a step has a knee, and where.
+std::string knees_finding(const std::vector<GrowthFit>& growth);
+
+/// How the time to build grows, and who takes longest on the largest map; empty if nothing was
+/// measured.
+std::string build_finding(const StudyResult& study);
+
 /// Which tables are beaten by none in speed and in another cost, on the largest map. `records` is
 /// not empty; `better` is the comparative: "more accurate".
 std::string tables_finding(const std::vector<TableRecord>& records, TableCost cost,

@@ -20,6 +20,27 @@ Json number(const std::optional<double>& value) { return value ? number(*value) 
 
 Json json_of(Extent extent) { return Json::array({extent.width, extent.height}); }
 
+Json json_of(const FittedExponent& fit) {
+  return {{"value", number(fit.value)}, {"error", number(fit.error)}};
+}
+
+Json json_of(const StepKnees& knees) {
+  Json list = Json::array();
+  for (const StepKnee& knee : knees.knees) {
+    list.push_back(
+        {{"size", json_of(knee.extent)}, {"exponent_after", number(knee.exponent_after)}});
+  }
+  return {{"exponent_before", number(knees.exponent_before)},
+          {"places", list},
+          {"p_value", number(knees.p_value)}};
+}
+
+/// null if there is none.
+template <class Value>
+Json json_of(const std::optional<Value>& value) {
+  return value ? json_of(*value) : Json(nullptr);
+}
+
 Json json_of(const TestRecord& t) {
   return {{"sampler", t.sampler},
           {"weighting", t.weighting},
@@ -134,7 +155,11 @@ Json json_of(const GrowthFit& fit) {
           {"model", fit.model},
           {"exponent", number(fit.exponent)},
           {"exponent_error", number(fit.exponent_error)},
-          {"steps", list_of(fit.steps)}};
+          {"steps", list_of(fit.steps)},
+          {"leaves_l2", json_of(fit.leaves_l2)},
+          {"leaves_l3", json_of(fit.leaves_l3)},
+          {"knees", json_of(fit.knees)},
+          {"build_exponent", json_of(fit.build_exponent)}};
 }
 
 Json json_of(const StepTime& step) {
@@ -251,6 +276,7 @@ std::string study_json(const StudyResult& study) {
                   {"self_test", self_test_json(study.self_test)},
                   {"convergence", list_of(study.convergence)},
                   {"throughput", list_of(study.throughput)},
+                  {"caches", {{"l2", number(study.caches.l2)}, {"l3", number(study.caches.l3)}}},
                   {"growth", list_of(study.growth)},
                   {"tables", list_of(study.tables)},
                   {"renders", renders_json(study.renders)}});

@@ -83,6 +83,13 @@ std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", with_thousands(count), noun, count == 1 ? "" : "s");
 }
 
+std::string bytes_text(double bytes) {
+  constexpr std::array<std::string_view, 4> kUnits = {"B", "KiB", "MiB", "GiB"};
+  std::size_t unit = 0;
+  for (; unit + 1 < kUnits.size() && bytes >= 1024.0; ++unit) bytes /= 1024.0;
+  return fmt::format("{}\u00a0{}", page_number(bytes), kUnits[unit]);
+}
+
 std::string extent_text(Extent extent) {
   return fmt::format("{}\u00d7{}", extent.width, extent.height);
 }

@@ -31,6 +31,9 @@ std::string count_word(std::size_t count);
 /// "1 map", "2 maps".
 std::string counted(std::size_t count, std::string_view noun);
 
+/// "1.5 MiB", in the largest of B, KiB, MiB and GiB that leaves no 0 before the point.
+std::string bytes_text(double bytes);
+
 /// "1024×512".
 std::string extent_text(Extent extent);
 

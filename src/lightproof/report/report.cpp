@@ -41,6 +41,8 @@ void write_tables(const StudyResult& study, const fs::path& folder) {
   write_file(folder / "convergence.csv", convergence_csv(study.convergence));
   write_file(folder / "variance.csv", variance_csv(study.convergence));
   write_file(folder / "throughput.csv", throughput_csv(study.throughput));
+  write_file(folder / "growth.csv", growth_csv(study.growth));
+  write_file(folder / "build.csv", build_csv(study.throughput));
   write_file(folder / "tables.csv", tables_csv(study.tables));
   write_file(folder / "renders.csv", renders_csv(study.renders));
   write_file(folder / "maps.csv", maps_csv(study.maps));

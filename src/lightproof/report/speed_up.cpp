@@ -1,4 +1,4 @@
-// The findings on throughput: the subject against the baseline, size by size, and growth.
+// The findings on throughput: the subject against the baseline, size by size.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -114,25 +114,6 @@ std::string range_text(double low, double high) {
 }
 
 }  // namespace
-
-StepRange step_range(const GrowthFit& fit) {
-  const auto [fastest, slowest] =
-      std::minmax_element(fit.steps.begin(), fit.steps.end(),
-                          [](const StepTime& a, const StepTime& b) { return a.ns < b.ns; });
-  return {*fastest, *slowest};
-}
-
-std::string growth_finding(const std::vector<GrowthFit>& growth) {
-  if (growth.empty()) return "";
-  const auto [least, most] = std::minmax_element(
-      growth.begin(), growth.end(),
-      [](const GrowthFit& a, const GrowthFit& b) { return a.exponent < b.exponent; });
-  const auto power = [](const GrowthFit& fit) {
-    return fmt::format("{} ({})", page_number(fit.exponent, 2), fit.sampler);
-  };
-  return "The time per sample grows like S + T to the power of " +
-         (growth.size() == 1 ? power(*least) : power(*least) + " to " + power(*most));
-}
 
 std::string throughput_finding(const StudyResult& study) {
   if (study.throughput.empty()) return "Throughput was not measured";

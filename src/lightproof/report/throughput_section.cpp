@@ -1,5 +1,7 @@
-// Time per sample against the size of the map.
+// Time per sample and time to build against the size of the map; what the tables cost.
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "lightproof/report/charts.h"
 #include "lightproof/report/csv.h"
@@ -27,26 +29,109 @@ std::string throughput_table(const std::vector<ThroughputRecord>& records) {
   return table.html();
 }
 
-std::string growth_table(const std::vector<GrowthFit>& growth) {
+Cell leaving_cell(const std::optional<Extent>& place, const std::optional<double>& bytes) {
+  if (!bytes) return text_cell("not known");
+  return text_cell(place ? extent_text(*place) : "no size");
+}
+
+/// "0.02, from 1024×512 on 0.31".
+Cell knees_cell(const std::optional<StepKnees>& knees) {
+  if (!knees) return text_cell("none");
+  std::string text = page_number(knees->exponent_before, 2);
+  for (const StepKnee& knee : knees->knees) {
+    text += fmt::format(", from {} on {}", extent_text(knee.extent),
+                        page_number(knee.exponent_after, 2));
+  }
+  return {text, "detail", fmt::format("p = {}", page_number(knees->p_value, 2))};
+}
+
+constexpr std::string_view kGrowthNote =
+    "A sampler whose time follows its steps takes the same time for each; the table has the "
+    "fastest "
+    "step and the slowest. What is left is the memory: once a table outgrows a cache, a step of "
+    "the search waits for it, while a scan reads "
+    "ahead. The exponent is that of the whole time against width plus height, by least squares on "
+    "logarithms. A table outgrows a cache at the smallest measured map on which it is larger. "
+    "Knees "
+    "are measured: a line with one or two bends that fits the time of a step so much better than a "
+    "straight one that straight ones with random errors seem to bend as clearly in at most 1 % of "
+    "all cases. At least two sizes lie on either side of a knee; few sizes, or much scatter, show "
+    "none.";
+
+std::string growth_table(const std::vector<GrowthFit>& growth, const CacheSizes& caches) {
   if (growth.empty()) return "";
-  Table table("Fitted growth", {"Sampler", "Steps of a sample", "Fastest step, ns",
-                                "Slowest step, ns", "Exponent of S + T"});
+  Table table("Fitted growth",
+              {"Sampler", "Steps", "Fastest, ns", "Slowest, ns", "Exponent", "Outgrows L2",
+               "Outgrows L3", "Exponents of a step, and its knees"});
   for (const GrowthFit& fit : growth) {
     const StepRange range = step_range(fit);
     table.add({text_cell(fit.sampler),
                text_cell(fit.model),
                number_cell(range.fastest.ns),
                number_cell(range.slowest.ns),
-               {with_error(fit.exponent, fit.exponent_error), "number", ""}});
+               {with_error(fit.exponent, fit.exponent_error), "number", ""},
+               leaving_cell(fit.leaves_l2, caches.l2),
+               leaving_cell(fit.leaves_l3, caches.l3),
+               knees_cell(fit.knees)});
   }
   return "<h4>" + escaped(growth_finding(growth)) + "</h4>\n" +
-         paragraph(
-             "A sampler whose time follows its steps takes the same time for each. What is left "
-             "is the memory: once a table outgrows a cache, a step of the search waits for it, "
-             "while a scan reads ahead. The exponent is that of the whole time against width plus "
-             "height, by least squares on logarithms.",
-             "note") +
-         table.html();
+         paragraph(caches_finding(growth, caches) + knees_finding(growth)) +
+         paragraph(kGrowthNote, "note") + table.html() +
+         download_link("growth.csv", growth_csv(growth));
+}
+
+/// The smallest and the largest map that a sampler was built on.
+struct BuildRange {
+  const ThroughputRecord* smallest = nullptr;
+  const ThroughputRecord* largest = nullptr;
+};
+
+BuildRange build_range(const std::string& sampler, const std::vector<ThroughputRecord>& records) {
+  BuildRange range;
+  for (const ThroughputRecord& r : records) {
+    if (r.sampler != sampler) continue;
+    const std::size_t size = r.extent.count();
+    if (!range.smallest || size < range.smallest->extent.count()) range.smallest = &r;
+    if (!range.largest || size > range.largest->extent.count()) range.largest = &r;
+  }
+  return range;
+}
+
+std::string build_table(const StudyResult& study) {
+  Table table("Building", {"Sampler", "Exponent of S \u00d7 T", "Smallest map", "ms", "Largest map",
+                           "ms", "ns per texel", "Table"});
+  for (const GrowthFit& fit : study.growth) {
+    const auto [smallest, largest] = build_range(fit.sampler, study.throughput);
+    if (!fit.build_exponent || largest == nullptr) continue;
+    const double texels = static_cast<double>(largest->extent.count());
+    table.add({text_cell(fit.sampler),
+               {with_error(fit.build_exponent->value, fit.build_exponent->error), "number", ""},
+               {extent_text(smallest->extent), "number", ""},
+               number_cell(smallest->build_ms),
+               {extent_text(largest->extent), "number", ""},
+               number_cell(largest->build_ms),
+               number_cell(1e6 * largest->build_ms / texels),
+               {bytes_text(largest->table_bytes), "number", ""}});
+  }
+  return table.html();
+}
+
+constexpr std::string_view kBuildNote =
+    "One build for each size, on all threads, from a map that lies in memory to a table that is "
+    "ready, with the time that it takes to get the memory; single times scatter. A build reads the "
+    "map from end to end, so an exponent near 1 is to be expected; on small maps starting the "
+    "threads takes its share. The exponent is fitted by least squares on logarithms, and its "
+    "standard error comes from the scatter about the line.";
+
+std::string build_figure(const StudyResult& study) {
+  const bool was_measured = std::any_of(study.throughput.begin(), study.throughput.end(),
+                                        [](const ThroughputRecord& r) { return r.build_ms > 0.0; });
+  if (!was_measured) return "";
+  const Chart chart = {"build-chart", build_finding(study),
+                       "Time to build each sampler's table against the number of texels",
+                       std::string(kBuildNote), build_chart(study)};
+  return chart_figure(chart, collapsible("Builds as a table", build_table(study)) +
+                                 download_link("build.csv", build_csv(study.throughput)));
 }
 
 std::string tables_table(const std::vector<TableRecord>& records) {
@@ -94,7 +179,10 @@ std::string table_figures(const std::vector<TableRecord>& tables) {
 
 constexpr std::string_view kNote =
     "Median over the benchmark's repetitions; bars reach from the fastest to the slowest. "
-    "The legend gives how many steps a sample takes on a map of width S and height T.";
+    "The legend gives the exponent of width S plus height T that fits the time. Frames mark, on "
+    "each "
+    "line, the first map whose table is larger than a cache, and where the growth of the time of a "
+    "step changes measurably.";
 
 constexpr std::string_view kMissing =
     "Throughput was not measured in this study. Build the benchmark program (LIGHTPROOF_BENCH, on "
@@ -108,12 +196,12 @@ std::string throughput_section(const StudyResult& study) {
   if (study.throughput.empty()) return html + paragraph(kMissing, "empty") + "</section>\n";
   const Chart chart = {"throughput-chart", throughput_finding(study),
                        "Time per sample of each sampler against the size of the map",
-                       std::string(kNote), throughput_chart(study.throughput, study.growth)};
+                       std::string(kNote), throughput_chart(study)};
   return html +
          chart_figure(chart, collapsible("Times as a table", throughput_table(study.throughput)) +
                                  download_link("throughput.csv", throughput_csv(study.throughput)) +
-                                 growth_table(study.growth)) +
-         table_figures(study.tables) + "</section>\n";
+                                 growth_table(study.growth, study.caches)) +
+         build_figure(study) + table_figures(study.tables) + "</section>\n";
 }
 
 }  // namespace lightproof

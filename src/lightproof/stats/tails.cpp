@@ -3,6 +3,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
@@ -116,6 +117,10 @@ double normal_cdf(double z) { return boost::math::cdf(boost::math::normal(), z);
 
 double normal_quantile(double probability) {
   return boost::math::quantile(boost::math::normal(), probability);
+}
+
+double student_upper(double t, double dof) {
+  return boost::math::cdf(boost::math::complement(boost::math::students_t(dof), t));
 }
 
 double detectable_z(double alpha, double power) {

@@ -34,6 +34,9 @@ double normal_cdf(double z);
 /// The z with P(standard normal <= z) = probability.
 double normal_quantile(double probability);
 
+/// P(Student's t with `dof` degrees of freedom >= t). 0 at infinity.
+double student_upper(double t, double dof);
+
 /// The deviation of a mean in standard errors at which a two-sided z-test of size alpha rejects
 /// with the given power.
 double detectable_z(double alpha, double power);

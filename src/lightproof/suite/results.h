@@ -103,7 +103,7 @@ struct ThroughputRecord {
   double ns_low = 0.0;         ///< smallest and largest repetition
   double ns_high = 0.0;
   double table_bytes = 0.0;
-  double build_ms = 0.0;
+  double build_ms = 0.0;  ///< of a single build, on all threads
 };
 
 /// What a sampler's table costs and how well it keeps the map: a row of the benchmark of batches
@@ -125,13 +125,45 @@ struct StepTime {
   double ns = 0.0;
 };
 
-/// How a sampler's cost grows with the map.
+/// Sizes in bytes of the caches that a core of the measured machine reads through, as its system
+/// reports them; empty where it does not.
+struct CacheSizes {
+  std::optional<double> l2;
+  std::optional<double> l3;
+};
+
+/// Of a power law, by least squares on logarithms.
+struct FittedExponent {
+  double value = 0.0;
+  double error = 0.0;  ///< standard error, from the scatter about the law
+};
+
+/// Where the time of a step starts to grow in another way.
+struct StepKnee {
+  Extent extent;
+  double exponent_after = 0.0;  ///< of ns per step against S + T
+};
+
+/// Of the time of a step: power laws that follow each other, where a single one will not do.
+struct StepKnees {
+  double exponent_before = 0.0;
+  std::vector<StepKnee> knees;  ///< one or two, ascending sizes
+  double p_value = 1.0;         ///< that scatter about one power law seems to bend so clearly
+};
+
+/// How a sampler's costs grow with the map.
 struct GrowthFit {
   std::string sampler;
   std::string model;      ///< how many steps one sample takes: "S + T" or "log2 S + log2 T"
   double exponent = 0.0;  ///< of ns per sample against S + T, by least squares on logs
   double exponent_error = 0.0;
   std::vector<StepTime> steps;  ///< ascending sizes; constant if time grows as the model does
+  /// The smallest measured map whose table is larger than the cache; none if all fit, or if the
+  /// size of the cache is not known.
+  std::optional<Extent> leaves_l2 = {};
+  std::optional<Extent> leaves_l3 = {};
+  std::optional<StepKnees> knees = {};                ///< none if one power law will do
+  std::optional<FittedExponent> build_exponent = {};  ///< of the time to build, against S times T
 };
 
 /// A map as the report shows it.
@@ -227,6 +259,7 @@ struct StudyResult {
   GateResult gate;
   std::vector<ConvergenceRecord> convergence;
   std::vector<ThroughputRecord> throughput;
+  CacheSizes caches;  ///< of the machine that measured the throughput
   std::vector<GrowthFit> growth;
   std::vector<TableRecord> tables;
   std::vector<RenderRecord> renders;

@@ -9,7 +9,7 @@
 #include "lightproof/core/random.h"
 #include "lightproof/samplers/binary_search.h"
 #include "lightproof/suite/direction_sampler.h"
-#include "lightproof/suite/throughput.h"
+#include "lightproof/suite/growth.h"
 #include "lightproof/warp/lat_long.h"
 
 namespace lightproof {
@@ -47,6 +47,13 @@ MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed) {
   return record;
 }
 
+void set_throughput(StudyResult& study, Throughput measured) {
+  study.throughput = std::move(measured.samplers);
+  study.tables = std::move(measured.tables);
+  study.caches = measured.caches;
+  study.growth = growth_of(study.throughput, study.caches);
+}
+
 StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& options,
                       const Progress& progress) {
   StudyResult result;
@@ -58,10 +65,7 @@ StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& opti
   const double gate_start = options.benchmarks ? 0.1 : 0.0;
   if (options.benchmarks) {
     if (progress) progress("throughput", 0.0);
-    Throughput measured = measure_throughput(*options.benchmarks);
-    result.throughput = std::move(measured.samplers);
-    result.tables = std::move(measured.tables);
-    result.growth = growth_of(result.throughput);
+    set_throughput(result, measure_throughput(*options.benchmarks, options.largest_width));
   }
   for (const EnvironmentMap& map : maps) {
     result.maps.push_back(describe_map(map, options.gate.seed));

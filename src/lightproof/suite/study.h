@@ -8,6 +8,7 @@
 #include "lightproof/suite/convergence.h"
 #include "lightproof/suite/gate.h"
 #include "lightproof/suite/renders.h"
+#include "lightproof/suite/throughput.h"
 
 namespace lightproof {
 
@@ -17,10 +18,14 @@ struct StudyOptions {
   RenderOptions renders;
   /// The benchmark program; without it the throughput is left out.
   std::optional<std::filesystem::path> benchmarks;
+  std::uint64_t largest_width = 8192;  ///< of the maps that the throughput is measured on
 };
 
 /// A map's figures and some hundred points that binary_search draws from it.
 MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed);
+
+/// Puts what was measured into the study, and how it grows.
+void set_throughput(StudyResult& study, Throughput measured);
 
 StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& options,
                       const Progress& progress = {});

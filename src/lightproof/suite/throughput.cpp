@@ -4,36 +4,43 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <optional>
 
 #include "lightproof/core/child_process.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/temporary_folder.h"
-#include "lightproof/samplers/registry.h"
-#include "lightproof/suite/power_law.h"
+#include "lightproof/stats/median.h"
 
 namespace lightproof {
 namespace fs = std::filesystem;
 namespace {
 
-/// One sample at a time on maps of all but the largest size, which take minutes to prepare; tables
-/// on one.
-constexpr std::string_view kFilter = "^sample/[^/]*/[^/]*/(512|1024|2048|4096|8192)x[0-9]*/random$";
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
+constexpr std::uint64_t kSmallestWidth = 256;
+/// Where bytes and errors of tables are compared.
+constexpr std::string_view kTableSize = "2048x1024";
 
 /// The repetitions of one benchmark.
 struct Group {
   std::string name;
   std::vector<nlohmann::json> runs;
 };
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t at = text.find(separator); at != std::string_view::npos;
+       at = text.find(separator)) {
+    parts.emplace_back(text.substr(0, at));
+    text.remove_prefix(at + 1);
+  }
+  parts.emplace_back(text);
+  return parts;
+}
+
+bool is_digits(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
 
 int side_of(const std::string& digits) {
   int side = 0;
@@ -45,19 +52,36 @@ int side_of(const std::string& digits) {
   return side;
 }
 
+/// The parts of sample/<sampler>/<map>/<W>x<H>/<order>.
+struct SampleName {
+  std::string sampler;
+  std::string map;
+  Extent extent;
+  std::string order;
+};
+
+/// Nothing for benchmarks of other things.
+std::optional<SampleName> sample_name(const std::string& name) {
+  const std::vector<std::string> parts = split(name, '/');
+  if (parts.size() != 5 || parts[0] != "sample") return std::nullopt;
+  const std::vector<std::string> sides = split(parts[3], 'x');
+  if (sides.size() != 2 || !is_digits(sides[0]) || !is_digits(sides[1])) return std::nullopt;
+  return SampleName{parts[1], parts[2], {side_of(sides[0]), side_of(sides[1])}, parts[4]};
+}
+
 double median_of(const std::vector<nlohmann::json>& runs, const char* counter) {
   std::vector<double> values;
   for (const auto& run : runs) values.push_back(run.at(counter).get<double>());
   return median(std::move(values));
 }
 
-ThroughputRecord summarise(const std::smatch& name, const std::vector<nlohmann::json>& runs) {
+ThroughputRecord summarise(const SampleName& name, const std::vector<nlohmann::json>& runs) {
   std::vector<double> times;
   for (const auto& run : runs) times.push_back(run.at("ns_per_sample").get<double>());
   const auto [low, high] = std::minmax_element(times.begin(), times.end());
-  return {name[1],
-          name[2],
-          {side_of(name[3]), side_of(name[4])},
+  return {name.sampler,
+          name.map,
+          name.extent,
           median(times),
           *low,
           *high,
@@ -65,11 +89,11 @@ ThroughputRecord summarise(const std::smatch& name, const std::vector<nlohmann::
           runs.front().at("build_ms").get<double>()};
 }
 
-TableRecord table_of(const std::smatch& name, const std::vector<nlohmann::json>& runs) {
+TableRecord table_of(const SampleName& name, const std::vector<nlohmann::json>& runs) {
   const bool has_ratios = runs.front().contains("times_baseline");
-  return {name[1],
-          name[2],
-          {side_of(name[3]), side_of(name[4])},
+  return {name.sampler,
+          name.map,
+          name.extent,
           median_of(runs, "ns_per_sample"),
           median_of(runs, "bytes_per_texel"),
           median_of(runs, "worst_texel_error"),
@@ -93,28 +117,49 @@ std::vector<Group> groups_of(const nlohmann::json& document) {
   return groups;
 }
 
+/// Bytes of the data or unified cache of this level.
+std::optional<double> cache_size(const nlohmann::json& context, int level) {
+  for (const auto& cache : context.value("caches", nlohmann::json::array())) {
+    if (cache.at("level") != level || cache.at("type") == "Instruction") continue;
+    const auto size = cache.at("size").get<double>();
+    if (size > 0.0) return size;
+  }
+  return std::nullopt;
+}
+
 Throughput records_of(const nlohmann::json& document) {
-  static const std::regex pattern("sample/([^/]+)/([^/]+)/(\\d+)x(\\d+)/(random|fused)");
   Throughput records;
-  for (const auto& [name, runs] : groups_of(document)) {
-    std::smatch match;
-    if (!std::regex_match(name, match, pattern)) continue;
-    if (match[5] == "random") {
-      records.samplers.push_back(summarise(match, runs));
-    } else if (runs.front().contains("worst_texel_error")) {
-      records.tables.push_back(table_of(match, runs));
+  for (const auto& [text, runs] : groups_of(document)) {
+    const std::optional<SampleName> name = sample_name(text);
+    if (!name) continue;
+    if (name->order == "random") {
+      records.samplers.push_back(summarise(*name, runs));
+    } else if (name->order == "fused" && runs.front().contains("worst_texel_error")) {
+      records.tables.push_back(table_of(*name, runs));
     }
   }
   if (records.samplers.empty()) throw InputError("no benchmark is called sample/…/random");
+  const nlohmann::json context = document.value("context", nlohmann::json::object());
+  records.caches = {cache_size(context, 2), cache_size(context, 3)};
   return records;
 }
 
 }  // namespace
 
-Throughput measure_throughput(const fs::path& program) {
+std::string throughput_filter(std::uint64_t largest_width) {
+  std::vector<std::uint64_t> widths;
+  for (std::uint64_t width = kSmallestWidth; width <= largest_width; width *= 2) {
+    widths.push_back(width);
+    if (width / 2 * 3 <= largest_width) widths.push_back(width / 2 * 3);
+  }
+  return fmt::format("^sample/[^/]*/[^/]*/(({})x[0-9]*/random|{}/fused)$", fmt::join(widths, "|"),
+                     kTableSize);
+}
+
+Throughput measure_throughput(const fs::path& program, std::uint64_t largest_width) {
   const TemporaryFolder folder;
   const fs::path file = folder / "throughput.json";
-  run_child(program, {"--benchmark_filter=" + std::string(kFilter),
+  run_child(program, {"--benchmark_filter=" + throughput_filter(largest_width),
                       "--benchmark_out=" + file.string(), "--benchmark_out_format=json",
                       "--benchmark_repetitions=3", "--benchmark_min_time=0.1"});
   return read_throughput(file);
@@ -131,34 +176,6 @@ Throughput read_throughput(const fs::path& file) {
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file.string(), error.what()));
   }
-}
-
-std::vector<GrowthFit> growth_of(std::span<const ThroughputRecord> records) {
-  std::vector<GrowthFit> fits;
-  for (const SamplerInfo& sampler : samplers()) {
-    std::vector<PowerLawPoint> points;
-    std::vector<StepTime> steps;
-    for (const ThroughputRecord& record : records) {
-      if (record.sampler != sampler.name) continue;
-      points.push_back({static_cast<double>(record.extent.width + record.extent.height),
-                        record.ns_per_sample, 1.0});
-      steps.push_back({record.extent, record.ns_per_sample / sampler.steps(record.extent)});
-    }
-    if (points.size() < 3) continue;
-    std::sort(steps.begin(), steps.end(), [](const StepTime& a, const StepTime& b) {
-      return a.extent.count() < b.extent.count();
-    });
-    const PowerLaw fit = fit_power_law(points);
-    // The scatter about the line, not the repetitions, is what the exponent is uncertain by.
-    double residual = 0.0;
-    for (const PowerLawPoint& point : points) {
-      const double r = std::log(point.y / (fit.constant * std::pow(point.x, fit.exponent)));
-      residual += r * r / static_cast<double>(points.size() - 2);
-    }
-    fits.push_back({std::string(sampler.name), std::string(sampler.growth), fit.exponent,
-                    fit.exponent_error * std::sqrt(residual), std::move(steps)});
-  }
-  return fits;
 }
 
 }  // namespace lightproof

@@ -1,0 +1,222 @@
+#include "lightproof/stats/broken_line.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "lightproof/core/random.h"
+#include "lightproof/stats/tails.h"
+
+namespace lightproof {
+namespace {
+
+using Vector = std::vector<double>;
+
+/// Points that must lie on either side of a knee.
+constexpr std::size_t kBeyond = 2;
+constexpr std::uint64_t kStraightLines = 9999;
+
+double product(const Vector& a, const Vector& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+double squared(const Vector& a) { return product(a, a); }
+
+/// a - factor b
+Vector difference(Vector a, double factor, const Vector& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= factor * b[i];
+  return a;
+}
+
+Vector of_length_one(Vector values) {
+  const double length = std::sqrt(squared(values));
+  for (double& value : values) value /= length;
+  return values;
+}
+
+Vector from_mean(Vector values) {
+  double mean = 0.0;
+  for (const double value : values) mean += value / static_cast<double>(values.size());
+  for (double& value : values) value -= mean;
+  return values;
+}
+
+/// What a straight line leaves of values.
+struct Straightened {
+  double slope = 0.0;
+  Vector residuals;
+};
+
+Straightened straightened(const Vector& centred_x, const Vector& values) {
+  const Vector centred = from_mean(values);
+  const double slope = product(centred_x, centred) / squared(centred_x);
+  return {slope, difference(centred, slope, centred_x)};
+}
+
+/// Whether the residuals are no more than what rounding leaves of values on a line.
+bool is_rounding(const Vector& residuals, const Vector& values) {
+  double largest = 0.0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  // Sums of n terms, of the mean and of the slope.
+  const auto count = static_cast<double>(values.size());
+  const double error = count * largest * std::numeric_limits<double>::epsilon();
+  return squared(residuals) <= count * error * error;
+}
+
+/// A broken line, by how it deviates from a straight one.
+struct Candidate {
+  std::vector<std::size_t> points;  ///< in the bends
+  std::vector<Straightened> bends;  ///< of each knee alone
+  std::vector<Vector> directions;   ///< the residuals of the bends made orthonormal
+};
+
+/// The points at which a line may bend, one for each x.
+std::vector<std::size_t> places_of(const Vector& x) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = kBeyond; i + kBeyond < x.size(); ++i) {
+    const bool inside = x[i] > x[kBeyond - 1] && x[i] < x[x.size() - kBeyond];
+    if (inside && x[i] > x[i - 1]) places.push_back(i);
+  }
+  return places;
+}
+
+Candidate with_one_knee(const Vector& x, std::size_t point) {
+  Vector beyond;
+  for (const double place : x) beyond.push_back(std::max(place - x[point], 0.0));
+  const Straightened bend = straightened(from_mean(x), beyond);
+  return {{point}, {bend}, {of_length_one(bend.residuals)}};
+}
+
+Candidate with_two_knees(const Candidate& first, const Candidate& second) {
+  const Vector& along = first.directions.front();
+  const Straightened& bend = second.bends.front();
+  const Vector across = difference(bend.residuals, product(along, bend.residuals), along);
+  return {{first.points.front(), second.points.front()},
+          {first.bends.front(), bend},
+          {along, of_length_one(across)}};
+}
+
+/// Those with one knee, then those with two.
+std::vector<Candidate> candidates_of(const Vector& x) {
+  std::vector<Candidate> candidates;
+  for (const std::size_t place : places_of(x)) candidates.push_back(with_one_knee(x, place));
+  const std::size_t ones = candidates.size();
+  for (std::size_t i = 0; i < ones; ++i) {
+    for (std::size_t k = i + 1; k < ones; ++k) {
+      candidates.push_back(with_two_knees(candidates[i], candidates[k]));
+    }
+  }
+  return candidates;
+}
+
+/// P-value of the F-test of one or two knees that leave this share of the squares of `count`
+/// residuals of a straight line.
+double p_value_of(std::size_t knees, double left, std::size_t count) {
+  const auto dof = static_cast<double>(count - 2 - knees);
+  if (knees == 2) return std::pow(left, 0.5 * dof);
+  return 2.0 * student_upper(std::sqrt((1.0 - left) / left * dof), dof);
+}
+
+struct Clearest {
+  const Candidate* candidate = nullptr;
+  double p_value = 1.0;  ///< of this candidate alone
+};
+
+Clearest clearest_of(const std::vector<Candidate>& candidates, const Vector& residuals) {
+  const double all = squared(residuals);
+  const double rounding =
+      static_cast<double>(residuals.size()) * std::numeric_limits<double>::epsilon();
+  std::array<double, 2> least = {1.0, 1.0};  // share that one knee leaves, and two
+  std::array<const Candidate*, 2> best = {};
+  for (const Candidate& candidate : candidates) {
+    double left = 1.0;
+    for (const Vector& direction : candidate.directions) {
+      const double along = product(direction, residuals);
+      left -= along * along / all;
+    }
+    if (left < rounding) left = 0.0;
+    const std::size_t kind = candidate.points.size() - 1;
+    if (left >= least[kind]) continue;
+    least[kind] = left;
+    best[kind] = &candidate;
+  }
+  Clearest clearest;
+  for (std::size_t kind = 0; kind < best.size(); ++kind) {
+    if (best[kind] == nullptr) continue;
+    const double p = p_value_of(kind + 1, least[kind], residuals.size());
+    if (clearest.candidate == nullptr || p < clearest.p_value) clearest = {best[kind], p};
+  }
+  return clearest;
+}
+
+/// Residuals of a straight line of standard normal errors.
+Vector random_residuals(const Vector& centred_x, const RandomStream& stream) {
+  Vector errors;
+  for (std::size_t i = 0; i < centred_x.size(); ++i) {
+    const SquarePoint u = stream.point(i);
+    errors.push_back(std::sqrt(-2.0 * std::log(1.0 - u.s)) *
+                     std::cos(2.0 * std::numbers::pi * u.t));
+  }
+  return straightened(centred_x, errors).residuals;
+}
+
+/// The rank of the smallest p-value of all candidates among those of straight lines.
+double rank_of(double p_value, const std::vector<Candidate>& candidates, const Vector& centred_x) {
+  const RandomStream stream("straight lines", 1);
+  std::uint64_t as_clear = 1;
+  for (std::uint64_t i = 0; i < kStraightLines; ++i) {
+    const Vector residuals = random_residuals(centred_x, stream.substream(i));
+    if (clearest_of(candidates, residuals).p_value <= p_value) ++as_clear;
+  }
+  return static_cast<double>(as_clear) / static_cast<double>(kStraightLines + 1);
+}
+
+/// The slopes of the least-squares fit.
+BrokenLine fitted(const Candidate& candidate, const Straightened& line) {
+  Vector changes(candidate.points.size());
+  for (std::size_t i = changes.size(); i-- > 0;) {
+    const Vector& direction = candidate.directions[i];
+    double along = product(direction, line.residuals);
+    for (std::size_t k = i + 1; k < changes.size(); ++k) {
+      along -= changes[k] * product(direction, candidate.bends[k].residuals);
+    }
+    changes[i] = along / product(direction, candidate.bends[i].residuals);
+  }
+  BrokenLine broken = {line.slope, {}};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    broken.slope -= changes[i] * candidate.bends[i].slope;
+  }
+  double slope = broken.slope;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    broken.knees.push_back({candidate.points[i], slope += changes[i]});
+  }
+  return broken;
+}
+
+}  // namespace
+
+std::optional<BrokenLine> find_knees(std::span<const LinePoint> points, double level) {
+  Vector x;
+  Vector y;
+  for (const LinePoint& point : points) {
+    x.push_back(point.x);
+    y.push_back(point.y);
+  }
+  const std::vector<Candidate> candidates = candidates_of(x);
+  if (candidates.empty()) return std::nullopt;
+  const Vector centred_x = from_mean(x);
+  const Straightened line = straightened(centred_x, y);
+  if (is_rounding(line.residuals, y)) return std::nullopt;
+  const auto [candidate, p_value] = clearest_of(candidates, line.residuals);
+  if (candidate == nullptr) return std::nullopt;
+  BrokenLine broken = fitted(*candidate, line);
+  broken.p_value = rank_of(p_value, candidates, centred_x);
+  if (broken.p_value > level) return std::nullopt;
+  return broken;
+}
+
+}  // namespace lightproof

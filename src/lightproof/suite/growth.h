@@ -1,0 +1,17 @@
+// How costs grow with the map: the time of a sample and of one of its steps, and that of building.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lightproof/suite/results.h"
+
+namespace lightproof {
+
+/// Of each sampler that was measured on three maps or more, in the order of the registry. A
+/// sampler whose time of a step follows one power law with normal scatter gets knees in 1 % of all
+/// cases (see stats/broken_line.h).
+std::vector<GrowthFit> growth_of(std::span<const ThroughputRecord> records,
+                                 const CacheSizes& caches);
+
+}  // namespace lightproof

@@ -1,0 +1,127 @@
+#include "lightproof/stats/broken_line.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "lightproof/core/random.h"
+
+namespace lightproof {
+namespace {
+
+constexpr double kLevel = 0.01;
+
+/// A standard normal number (Box and Muller).
+double normal(const RandomStream& stream, std::uint64_t index) {
+  const SquarePoint u = stream.point(index);
+  return std::sqrt(-2.0 * std::log(1.0 - u.s)) * std::cos(2.0 * std::numbers::pi * u.t);
+}
+
+struct Bend {
+  double x;
+  double change;  ///< of the slope
+};
+
+/// Points at x = 0, 1, … on a line of slope 0.1 that bends.
+std::vector<LinePoint> bent(int count, const std::vector<Bend>& bends) {
+  std::vector<LinePoint> points;
+  for (int i = 0; i < count; ++i) {
+    double y = 2.0 + 0.1 * i;
+    for (const Bend& bend : bends) y += bend.change * std::max(i - bend.x, 0.0);
+    points.push_back({1.0 * i, y});
+  }
+  return points;
+}
+
+std::vector<LinePoint> with_noise(std::vector<LinePoint> points, double sigma,
+                                  const RandomStream& stream) {
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].y += sigma * normal(stream, i);
+  return points;
+}
+
+TEST(BrokenLine, HasTheKneeThatWasPlanted) {
+  constexpr double kSigma = 0.01;
+  for (const double change : {0.5, -0.5}) {
+    const auto line = find_knees(
+        with_noise(bent(7, {{3.0, change}}), kSigma, RandomStream("planted", 1)), kLevel);
+    ASSERT_TRUE(line);
+    ASSERT_EQ(line->knees.size(), 1U);
+    EXPECT_EQ(line->knees[0].point, 3U);
+    // Either slope is the least-squares one of three points and more, of standard error at most
+    // sigma / sqrt(2); five of these are beyond chance.
+    EXPECT_NEAR(line->slope, 0.1, 5.0 * kSigma / std::numbers::sqrt2);
+    EXPECT_NEAR(line->knees[0].slope_after, 0.1 + change, 5.0 * kSigma / std::numbers::sqrt2);
+    EXPECT_LE(line->p_value, kLevel);
+  }
+}
+
+TEST(BrokenLine, HasBothKneesOfWhatRisesInBetween) {
+  const auto line = find_knees(
+      with_noise(bent(11, {{3.0, 0.9}, {6.0, -0.8}}), 0.05, RandomStream("both", 1)), kLevel);
+  ASSERT_TRUE(line);
+  ASSERT_EQ(line->knees.size(), 2U);
+  EXPECT_EQ(line->knees[0].point, 3U);
+  EXPECT_EQ(line->knees[1].point, 6U);
+  // Three points and more lie on each piece: 0.05 / sqrt(2), five times.
+  EXPECT_NEAR(line->slope, 0.1, 0.18);
+  EXPECT_NEAR(line->knees[0].slope_after, 1.0, 0.18);
+  EXPECT_NEAR(line->knees[1].slope_after, 0.2, 0.18);
+}
+
+TEST(BrokenLine, WithoutNoiseIsFittedExactly) {
+  const auto one = find_knees(bent(6, {{2.0, 1.0}}), kLevel);
+  ASSERT_TRUE(one);
+  ASSERT_EQ(one->knees.size(), 1U);
+  EXPECT_EQ(one->knees[0].point, 2U);
+  EXPECT_NEAR(one->slope, 0.1, 1e-12);
+  EXPECT_NEAR(one->knees[0].slope_after, 1.1, 1e-12);
+  const auto two = find_knees(bent(9, {{2.0, 1.0}, {5.0, -1.5}}), kLevel);
+  ASSERT_TRUE(two);
+  ASSERT_EQ(two->knees.size(), 2U);
+  EXPECT_NEAR(two->slope, 0.1, 1e-12);
+  EXPECT_NEAR(two->knees[0].slope_after, 1.1, 1e-12);
+  EXPECT_NEAR(two->knees[1].slope_after, -0.4, 1e-12);
+}
+
+TEST(BrokenLine, IsNoneWhereRoundingAloneBends) {
+  for (int count = 5; count < 20; ++count) {
+    EXPECT_FALSE(find_knees(bent(count, {{0.0, 0.2}}), kLevel)) << "straight";
+  }
+  EXPECT_FALSE(find_knees(bent(9, {{0.0, -0.1}}), kLevel)) << "a constant";
+}
+
+TEST(BrokenLine, IsNoneOfFourPointsAndOfALastOneThatIsOff) {
+  EXPECT_FALSE(find_knees({}, kLevel));
+  EXPECT_FALSE(find_knees(bent(4, {{1.0, 1.0}}), kLevel));
+  for (int count = 6; count < 12; ++count) {
+    EXPECT_FALSE(find_knees(bent(count, {{count - 2.0, 1.0}}), kLevel)) << count;
+  }
+}
+
+TEST(BrokenLine, HasItsKneeAmongRepeatedPlaces) {
+  std::vector<LinePoint> twice;
+  for (const LinePoint& point : bent(6, {{2.0, 1.0}})) twice.insert(twice.end(), 2, point);
+  const auto line = find_knees(twice, kLevel);
+  ASSERT_TRUE(line);
+  EXPECT_EQ(twice[line->knees[0].point].x, 2.0);
+  EXPECT_FALSE(find_knees(std::vector<LinePoint>(9, LinePoint{1.0, 1.0}), kLevel));
+}
+
+TEST(BrokenLine, IsCalledOfStraightOnesAsOftenAsItsLevelSays) {
+  constexpr int kLines = 100;
+  constexpr double kFifth = 0.2;
+  const RandomStream stream("straight", 1);
+  for (const int count : {5, 11}) {
+    int called = 0;
+    for (std::uint64_t i = 0; i < kLines; ++i) {
+      if (find_knees(with_noise(bent(count, {}), 1.0, stream.substream(i)), kFifth)) ++called;
+    }
+    // Binomial, within five standard deviations.
+    EXPECT_NEAR(called, kLines * kFifth, 5.0 * std::sqrt(kLines * kFifth * (1.0 - kFifth)))
+        << count;
+  }
+}
+
+}  // namespace
+}  // namespace lightproof
