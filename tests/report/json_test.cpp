@@ -87,7 +87,7 @@ TEST(StudyJson, HasCachesAndKneesOrNull) {
   study.caches.l3.reset();
   const json document = json::parse(study_json(study));
   EXPECT_EQ(document["caches"], (json{{"l2", 1048576.0}, {"l3", nullptr}}));
-  const json growth = document["growth"];
+  const json& growth = document["growth"];
   EXPECT_EQ(growth[0]["leaves_l3"], (json{4096, 2048}));
   EXPECT_EQ(growth[0]["knees"]["exponent_before"], 0.02);
   EXPECT_EQ(growth[0]["knees"]["places"][1],

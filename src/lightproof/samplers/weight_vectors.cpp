@@ -1,6 +1,7 @@
 #include "lightproof/samplers/weight_vectors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -197,7 +198,7 @@ void to_fixed_point(std::span<const double> weights, const FixedPoint& form,
                     std::span<std::int64_t> fixed) {
   std::size_t i = HWY_DYNAMIC_DISPATCH(to_fixed_point_front)(weights, form, fixed.data());
   for (; i < weights.size(); ++i) {
-    const auto rounded = static_cast<std::int64_t>(form.scale * weights[i] + 0.5);
+    const auto rounded = static_cast<std::int64_t>(std::floor(form.scale * weights[i] + 0.5));
     fixed[i] = weights[i] > 0.0 ? std::max(rounded, form.least) + form.more : 0;
   }
 }
