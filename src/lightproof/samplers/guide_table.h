@@ -54,9 +54,9 @@ class Guides {
       }
       return cell;
     }
+    /// One sample at a time: no knot is read, and waited for, where a part has one cell alone.
     std::size_t find(std::size_t part, const std::uint32_t* knots, std::uint32_t u) const {
-      const std::size_t cell = guess(part, knots, u);
-      return knots[cell + 1] <= u ? find_from(cell, part, knots, u) : cell;
+      return find_from(first[part], part, knots, u);
     }
   };
   View view() const { return {shift_, parts_, first_.data()}; }
