@@ -88,7 +88,7 @@ HWY_EXPORT(read);
 
 }  // namespace
 
-BareGather::BareGather(Extent extent) : texels_(extent.count()), numbers_(texels_ + 3) {
+BareGather::BareGather(Extent extent) : texels_(extent.count()), numbers_(texels_) {
   for (std::size_t i = 0; i < texels_; ++i) numbers_[i] = static_cast<std::uint16_t>(i * 40503U);
 }
 

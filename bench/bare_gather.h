@@ -21,7 +21,7 @@ class BareGather {
 
  private:
   std::size_t texels_;
-  TableVector<std::uint16_t> numbers_;  ///< and one more, since four bytes are read at a time
+  TableVector<std::uint16_t> numbers_;
 };
 
 }  // namespace lightproof::bench

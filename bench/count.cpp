@@ -39,7 +39,8 @@ template <class Sampler>
 
 void count_benchmark(benchmark::State& state, const SamplerInfo& info) {
   const std::vector<SquarePoint> points = make_points();
-  const AnySampler any = info.make(make_synthetic_map(kMap, kExtent), Weighting::A);
+  const EnvironmentMap map = make_synthetic_map(kMap, kExtent);
+  const AnySampler any = info.make(map, Weighting::A);
   std::visit(
       [&](const auto& sampler) {
         for (auto _ : state) counted_kernel(sampler, points);

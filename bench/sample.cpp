@@ -30,6 +30,7 @@
 #include "bench/upper_bound_baseline.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
+#include "lightproof/core/random_batch.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/registry.h"
 #include "lightproof/stats/goodness_of_fit.h"
@@ -139,6 +140,21 @@ std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent
   return "";
 }
 
+/// An explanation if a batch draws other texels than the sampler does one at a time.
+template <class Sampler>
+std::string other_batch(const Sampler& sampler) {
+  const std::span<const SquarePoint> points = random_points().first(4099);
+  std::vector<TexelSample> batch(points.size());
+  sample(sampler, points, batch);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const TexelSample alone = sampler.sample(points[i]);
+    if (alone.x == batch[i].x && alone.y == batch[i].y) continue;
+    return fmt::format("u = ({:.17g}, {:.17g}): the batch's texel is ({}, {}), alone ({}, {})",
+                       points[i].s, points[i].t, batch[i].x, batch[i].y, alone.x, alone.y);
+  }
+  return "";
+}
+
 /// The largest relative difference between the probability with which a texel is drawn, which is
 /// what the sampler says, and its share of the light. Of texels without light, which are drawn by
 /// none.
@@ -189,6 +205,7 @@ const Prepared& prepared(const SamplerInfo& info, Extent extent) {
       [&](const auto& sampler) {
         the_last.why_not = misfit(sampler, info, extent);
         if (the_last.why_not.empty()) the_last.why_not = disagreement(sampler, info, extent);
+        if (the_last.why_not.empty()) the_last.why_not = other_batch(sampler);
         if (!draws_texels(info)) return;
         const Grid<double>& masses = law_of(extent, info.target(kWeighting)).masses;
         the_last.worst_texel_error = worst_texel_error(sampler, masses);
@@ -293,10 +310,10 @@ double ns_per_sample(const Draw& draw) {
 }
 
 auto draw_baseline(const UpperBoundBaseline& baseline) {
-  return [&baseline, samples = std::vector<TexelSample>(kBatch)](std::uint64_t first) mutable {
-    for (std::size_t i = 0; i < kBatch; ++i) {
-      samples[i] = baseline.sample(fused_stream().point(first + i));
-    }
+  return [&baseline, points = std::vector<SquarePoint>(kBatch),
+          samples = std::vector<TexelSample>(kBatch)](std::uint64_t first) mutable {
+    fill_points(fused_stream(), first, points);
+    for (std::size_t i = 0; i < kBatch; ++i) samples[i] = baseline.sample(points[i]);
     benchmark::DoNotOptimize(samples.data());
     benchmark::ClobberMemory();
   };

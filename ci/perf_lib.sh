@@ -68,8 +68,9 @@ compare_commits() {
 
 # confirm SESSION: measures again what is suspected, if anything is.
 confirm() {
-  local suspects
-  compare_commits -q --json "$folder/compare.json" || (($? == 1)) || return
+  local suspects status=0
+  compare_commits -q --json "$folder/compare.json" || status=$?
+  ((status < 2)) || return "$status"
   mapfile -t suspects < <(node ci/perf.mjs suspects "$folder/compare.json")
   ((${#suspects[@]})) || return 0
   say "suspected, measured again: ${suspects[*]}"

@@ -89,7 +89,17 @@ TEST_P(MaterialBatch, ReflectedCosinesAreThoseOfOneDirectionAtATime) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(All, MaterialBatch, testing::ValuesIn(shading_cases()),
+/// Besides, powers that are not squared again and again.
+std::vector<ShadingCase> batch_cases() {
+  std::vector<ShadingCase> cases = shading_cases();
+  for (const double exponent : {2.5, 99.5}) {
+    cases.push_back({"PhongPower" + std::to_string(static_cast<int>(exponent)),
+                     ModifiedPhong{0.3, 0.6, exponent}, shading_point({0, 0, 1}, 0.7)});
+  }
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MaterialBatch, testing::ValuesIn(batch_cases()),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

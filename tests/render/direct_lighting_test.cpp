@@ -75,7 +75,7 @@ TEST_P(Unoccluded, EveryStrategyAgreesWithQuadrature) {
   const auto pixels = few_pixels(receiver, scene);
   const Grid<double> grey = luminance(map);
   // 3 receivers, 3 maps, 2 materials, 4 strategies, at most 6 pixels.
-  const double log10_level = std::log10(kFamilyAlpha / (3 * 3 * 2 * 4 * 6));
+  const double log10_level = std::log10(0.5 * kFamilyAlpha / (3 * 3 * 2 * 4 * 6));
   for (const MaterialInfo& material : materials()) {
     const auto exact = exact_light({&grey, 1}, receiver, scene, material.material, pixels);
     for (const StrategyInfo& strategy : kStrategies) {
@@ -117,7 +117,7 @@ TEST_P(Occluded, EveryStrategyAgreesWithUniformSampling) {
   const auto pixels = few_pixels(receiver, scene);
   const Grid<double> grey = luminance(map);
   // 2 maps, 2 materials, 3 pairs, at most 6 pixels.
-  const double log10_level = std::log10(kFamilyAlpha / (2 * 2 * 3 * 6));
+  const double log10_level = std::log10(0.5 * kFamilyAlpha / (2 * 2 * 3 * 6));
   for (const MaterialInfo& material : materials()) {
     const auto exact = exact_light({&grey, 1}, receiver, scene, material.material, pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -53,6 +53,28 @@ TEST(WholeMasses, AreWithinOneUnitOfTheirSharesAndSumToTheirNumber) {
   }
 }
 
+// Of several tasks, whose roundings no single cell has to bear.
+TEST(WholeMasses, TheBrightestOfManyCellsHasItsShare) {
+  constexpr std::size_t kCells = 3 * 65536 + 1;
+  std::vector<double> weights(kCells, 1.0);
+  weights[100'000] = 1.3;
+  const double total = static_cast<double>(kCells) + 0.3;
+  for (const unsigned bits : {9U, 13U, 31U}) {
+    const Masses masses = whole_masses(weights, bits);
+    const std::uint64_t whole = kCells << bits;
+    EXPECT_EQ(sum_of(masses), whole);
+    // Shares are rounded to 2^-13 of a unit at 31 bits, more finely at fewer; four cells take what
+    // that leaves.
+    const double rest = 1.0 + static_cast<double>(kCells) * 0x1p-14 / 4.0;
+    for (std::size_t i = 0; i < kCells; ++i) {
+      const double share = static_cast<double>(whole) * weights[i] / total;
+      ASSERT_NEAR(static_cast<double>(masses[i]), share, 1.0 + rest) << bits << ", cell " << i;
+    }
+    const ThreadLimit one(1);
+    EXPECT_TRUE(whole_masses(weights, bits) == masses);
+  }
+}
+
 TEST(WholeMasses, FaintWeightsGetOneUnitBesideASun) {
   std::vector<double> weights(1000, 1.0);
   weights[500] = 1e15;

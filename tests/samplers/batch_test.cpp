@@ -97,6 +97,25 @@ TEST_P(Batch, OfAnySizeWritesNothingElse) {
       any);
 }
 
+// More than 2^16 runs, and guides of several batches.
+TEST_P(Batch, OnALargeMapGivesTheTexelsToo) {
+  static const EnvironmentMap map = make_synthetic_map("sun-sky", {2048, 1024});
+  const AnySampler any = GetParam().make(map, Weighting::A);
+  std::visit(
+      [&](const auto& sampler) {
+        const std::vector<SquarePoint> points = test_points(4096);
+        for_each_kind_of_vector([&](const char* vectors) {
+          SCOPED_TRACE(vectors);
+          std::vector<TexelSample> samples(points.size());
+          sample(sampler, points, samples);
+          for (std::size_t i = 0; i < points.size(); ++i) {
+            expect_same(samples[i], sampler.sample(points[i]), Weighting::A);
+          }
+        });
+      },
+      any);
+}
+
 TEST_P(Batch, OfAStreamDrawsAtItsPoints) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
   const AnySampler any = GetParam().make(map, Weighting::A);

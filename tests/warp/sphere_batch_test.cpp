@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lightproof/warp/lat_long.h"
+#include "tests/core/kinds_of_vectors.h"
 
 namespace lightproof {
 namespace {
@@ -23,19 +24,47 @@ TEST(UniformDirections, LieAtTheirPlacesOnTheMap) {
     std::vector<double> y(size);
     std::vector<double> z(size);
     std::vector<double> t(size);
-    uniform_directions(s, u, {x, y, z, t});
-    for (std::size_t i = 0; i < size; ++i) {
-      const double sine = std::sqrt(1.0 - (2.0 * u[i] - 1.0) * (2.0 * u[i] - 1.0));
-      const double phi = kPi - 2.0 * kPi * s[i];
-      EXPECT_NEAR(x[i], sine * std::cos(phi), 2e-15);
-      EXPECT_NEAR(y[i], sine * std::sin(phi), 2e-15);
-      EXPECT_NEAR(z[i], 2.0 * u[i] - 1.0, 1e-15);
-      const Direction expected = direction_from_square({s[i], t[i]});
-      EXPECT_NEAR(x[i], expected.x, 4e-8);
-      EXPECT_NEAR(y[i], expected.y, 4e-8);
-      EXPECT_NEAR(z[i], expected.z, 4e-15);
-    }
+    for_each_kind_of_vector([&](const char* vectors) {
+      SCOPED_TRACE(vectors);
+      uniform_directions(s, u, {x, y, z, t});
+      for (std::size_t i = 0; i < size; ++i) {
+        const double sine = std::sqrt(1.0 - (2.0 * u[i] - 1.0) * (2.0 * u[i] - 1.0));
+        const double phi = kPi - 2.0 * kPi * s[i];
+        EXPECT_NEAR(x[i], sine * std::cos(phi), 2e-15);
+        EXPECT_NEAR(y[i], sine * std::sin(phi), 2e-15);
+        EXPECT_NEAR(z[i], 2.0 * u[i] - 1.0, 1e-15);
+        const Direction expected = direction_from_square({s[i], t[i]});
+        EXPECT_NEAR(x[i], expected.x, 4e-8);
+        EXPECT_NEAR(y[i], expected.y, 4e-8);
+        EXPECT_NEAR(z[i], expected.z, 4e-15);
+      }
+    });
   }
+}
+
+TEST(ApproximatePlaces, AreThoseOfOneDirectionAtATime) {
+  constexpr std::size_t kSize = 203;
+  std::vector<double> x;
+  std::vector<double> y;
+  std::vector<double> z;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const double t = static_cast<double>(i) / (kSize - 1);
+    const Direction at = direction_from_square({std::fmod(0.618 * static_cast<double>(i), 1.0), t});
+    x.push_back(at.x);
+    y.push_back(at.y);
+    z.push_back(at.z);
+  }
+  for_each_kind_of_vector([&](const char* vectors) {
+    SCOPED_TRACE(vectors);
+    std::vector<double> s(kSize);
+    std::vector<double> t(kSize);
+    approximate_places(x, y, z, {s, t});
+    for (std::size_t i = 0; i < kSize; ++i) {
+      const SquarePoint expected = approximate_square_from_direction({x[i], y[i], z[i]});
+      EXPECT_EQ(s[i], expected.s);
+      EXPECT_EQ(t[i], expected.t);
+    }
+  });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 
 namespace lightproof {
 
@@ -12,6 +13,14 @@ using Direction = glm::dvec3;
 
 /// Linear RGB; radiance in W sr^-1 m^-2 up to the map's own scale.
 using Rgb = glm::vec3;
+
+/// Unit vectors as three arrays of equal length. In double, since rounding to float moves a
+/// direction by up to 6e-8 and so across an edge; a float converts to double exactly.
+struct DirectionArrays {
+  std::span<const double> x;
+  std::span<const double> y;
+  std::span<const double> z;
+};
 
 /// An orthonormal, right-handed frame (tangent, bitangent, normal).
 struct Frame {

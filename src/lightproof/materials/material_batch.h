@@ -8,13 +8,6 @@
 
 namespace lightproof {
 
-/// Unit vectors, each number in an array of its own; all of one size.
-struct DirectionArrays {
-  std::span<const double> x;
-  std::span<const double> y;
-  std::span<const double> z;
-};
-
 /// reflected_cosine[i] = f_r (n·l)+ of the i-th direction, per steradian; of the same size.
 void reflected_cosines(const Material& material, const ShadingPoint& at,
                        const DirectionArrays& light, std::span<double> reflected_cosine);

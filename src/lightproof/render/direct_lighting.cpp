@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include "lightproof/core/random_batch.h"
 #include "lightproof/materials/material_batch.h"
@@ -11,10 +10,9 @@
 #include "lightproof/warp/sphere_batch.h"
 
 namespace lightproof {
+
 void LightBatch::fill_from_material(std::size_t count, const Material& material,
                                     const ShadingPoint& at) {
-  assert(count <= kCapacity);
-  count_ = count;
   sample_material(
       material, at, std::span(s_).first(count), std::span(u_).first(count),
       {std::span(x_).first(count), std::span(y_).first(count), std::span(z_).first(count),
@@ -23,8 +21,6 @@ void LightBatch::fill_from_material(std::size_t count, const Material& material,
 
 /// With density 1/4pi.
 void LightBatch::fill_from_sphere(std::size_t count) {
-  assert(count <= kCapacity);
-  count_ = count;
   uniform_directions(std::span(s_).first(count), std::span(u_).first(count),
                      {std::span(x_).first(count), std::span(y_).first(count),
                       std::span(z_).first(count), std::span(t_).first(count)});
@@ -33,8 +29,6 @@ void LightBatch::fill_from_sphere(std::size_t count) {
 
 void LightBatch::fill_from_map(std::size_t count, const GuideTable& sampler,
                                const RandomStream& stream, std::uint64_t first) {
-  assert(count <= kCapacity);
-  count_ = count;
   sample_directions(sampler, stream, first,
                     {std::span(x_).first(count), std::span(y_).first(count),
                      std::span(z_).first(count), std::span(pdf_).first(count),
@@ -43,6 +37,8 @@ void LightBatch::fill_from_map(std::size_t count, const GuideTable& sampler,
 
 void LightBatch::draw(const Lighting& lighting, const ShadingPoint& at, const RandomStream& stream,
                       std::uint64_t first, std::size_t count) {
+  assert(count <= kCapacity);
+  count_ = count;
   switch (lighting.strategy) {
     case Strategy::uniform:
       fill_points(stream, first, std::span(s_).first(count), std::span(u_).first(count));

@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 
 #include "lightproof/samplers/weight_vectors.h"
 
@@ -76,35 +78,59 @@ Scale scale_of(std::span<const double> weights, std::uint64_t total) {
   return {bits, std::ldexp(shared, static_cast<int>(bits)) / bright.sum};
 }
 
-/// What one chunk's masses come to.
-struct Rounded {
-  std::uint64_t sum = 0;
-  std::size_t largest = 0;
-};
-
-/// What rounding leaves of a cell goes on to the next.
-Rounded round_masses(std::span<const double> weights, const Scale& scale,
-                     std::span<std::uint64_t> masses) {
+/// Calls take(first cell, shares) for the weights' shares in fixed point, block by block.
+template <class Take>
+void for_shares(std::span<const double> weights, const Scale& scale, const Take& take) {
   const FixedPoint form = {scale.fixed, std::int64_t{1} << scale.fraction_bits, 0};
   std::array<std::int64_t, kBlock> shares;
-  std::int64_t sum = 0;
-  std::uint64_t most = 0;
-  Rounded rounded;
   for (std::size_t first = 0; first < weights.size(); first += kBlock) {
-    const auto block = weights.subspan(first, std::min(kBlock, weights.size() - first));
-    to_fixed_point(block, form, std::span(shares).first(block.size()));
-    for (std::size_t i = 0; i < block.size(); ++i) {
+    const std::size_t count = std::min(kBlock, weights.size() - first);
+    to_fixed_point(weights.subspan(first, count), form, std::span(shares).first(count));
+    take(first, std::span<const std::int64_t>(shares).first(count));
+  }
+}
+
+std::int64_t sum_of_shares(std::span<const double> weights, const Scale& scale) {
+  std::int64_t sum = 0;
+  for_shares(weights, scale, [&](std::size_t /*first*/, std::span<const std::int64_t> shares) {
+    sum = std::accumulate(shares.begin(), shares.end(), sum);
+  });
+  return sum;
+}
+
+/// What rounding leaves of a cell goes on to the next; `sum` is that of the shares before them.
+/// Returns the largest one's index.
+std::size_t round_masses(std::span<const double> weights, const Scale& scale, std::int64_t sum,
+                         std::span<std::uint64_t> masses) {
+  std::uint64_t most = 0;
+  std::size_t largest = 0;
+  for_shares(weights, scale, [&](std::size_t first, std::span<const std::int64_t> shares) {
+    for (std::size_t i = 0; i < shares.size(); ++i) {
       const std::int64_t before = sum >> scale.fraction_bits;
       sum += shares[i];
       const auto mass = static_cast<std::uint64_t>((sum >> scale.fraction_bits) - before);
       masses[first + i] = mass;
       if (mass <= most) continue;
       most = mass;
-      rounded.largest = first + i;
+      largest = first + i;
     }
+  });
+  return largest;
+}
+
+/// Adds the rest, of either sign, in equal parts to those of these masses that are at least half
+/// the average; one is.
+void share_out(std::int64_t rest, std::uint64_t average, std::span<const std::size_t> largest,
+               std::span<std::uint64_t> masses) {
+  std::vector<std::size_t> takers;
+  std::ranges::copy_if(largest, std::back_inserter(takers),
+                       [&](std::size_t cell) { return 2 * masses[cell] >= average; });
+  for (std::size_t k = 0; k < takers.size(); ++k) {
+    const auto left = static_cast<std::int64_t>(takers.size() - k);
+    const std::int64_t part = rest / left;
+    masses[takers[k]] += static_cast<std::uint64_t>(part);  // modulo 2^64: of either sign
+    rest -= part;
   }
-  rounded.sum = static_cast<std::uint64_t>(sum >> scale.fraction_bits);
-  return rounded;
 }
 
 }  // namespace
@@ -112,36 +138,40 @@ Rounded round_masses(std::span<const double> weights, const Scale& scale,
 TableVector<std::uint64_t> whole_masses(std::span<const double> weights, unsigned bits) {
   const std::uint64_t total = weights.size() << bits;
   const Scale scale = scale_of(weights, total);
-  TableVector<std::uint64_t> masses(weights.size());
-  std::vector<Rounded> chunks(chunks_of(weights.size(), kChunk));
+  std::vector<std::int64_t> sums(chunks_of(weights.size(), kChunk));
   for_chunks(weights.size(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
-    chunks[chunk] = round_masses(weights.subspan(first, end - first), scale,
-                                 std::span(masses).subspan(first, end - first));
-    chunks[chunk].largest += first;
+    sums[chunk] = sum_of_shares(weights.subspan(first, end - first), scale);
   });
-  std::uint64_t sum = 0;
-  std::size_t largest = 0;
-  for (const Rounded& chunk : chunks) {
-    sum += chunk.sum;
-    if (masses[chunk.largest] > masses[largest]) largest = chunk.largest;
-  }
-  masses[largest] += total - sum;  // modulo 2^64: of either sign
+  const std::int64_t sum = std::accumulate(sums.begin(), sums.end(), std::int64_t{0});
+  std::exclusive_scan(sums.begin(), sums.end(), sums.begin(), std::int64_t{0});
+  TableVector<std::uint64_t> masses(weights.size());
+  std::vector<std::size_t> largest(sums.size());
+  for_chunks(weights.size(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
+    const auto of_chunk = std::span(masses).subspan(first, end - first);
+    largest[chunk] =
+        first + round_masses(weights.subspan(first, end - first), scale, sums[chunk], of_chunk);
+  });
+  share_out(static_cast<std::int64_t>(total) - (sum >> scale.fraction_bits),
+            std::uint64_t{1} << bits, largest, masses);
   return masses;
 }
 
 AliasSweep::AliasSweep(std::span<const std::uint64_t> masses, unsigned bits)
-    : masses_(masses), full_(std::uint64_t{1} << bits), before_(chunks_of(masses.size(), kChunk)) {
+    : masses_(masses),
+      full_(std::uint64_t{1} << bits),
+      before_(chunks_of(masses.size(), kStretch)) {
   for_chunks(masses.size(), [&](std::size_t /*task*/, std::size_t first, std::size_t end) {
-    for (std::size_t cell = first; cell < end; cell += kChunk) {
-      before_[cell / kChunk] = balance(cell, std::min(end, cell + kChunk));
+    static_assert(kChunk % kStretch == 0);
+    for (std::size_t cell = first; cell < end; cell += kStretch) {
+      before_[cell / kStretch] = balance(cell, std::min(end, cell + kStretch));
     }
   });
   Balance sum{0, 0};
-  for (Balance& chunk : before_) {
+  for (Balance& stretch : before_) {
     const Balance before = sum;
-    sum.lack += chunk.lack;
-    sum.excess += chunk.excess;
-    chunk = before;
+    sum.lack += stretch.lack;
+    sum.excess += stretch.excess;
+    stretch = before;
   }
 }
 
@@ -155,15 +185,15 @@ AliasSweep::Balance AliasSweep::balance(std::size_t first, std::size_t end) cons
   return {lack, sum + lack - (end - first) * full_};
 }
 
-AliasSweep::Filling AliasSweep::start_of(std::size_t chunk) const {
-  // What the small cells before the chunk lack has come from the first large ones, up to the first
-  // with which all of these have as much above the average.
-  const std::uint64_t lack = before_[chunk].lack;
+AliasSweep::Filling AliasSweep::start_of(std::size_t stretch) const {
+  // What the small cells before the stretch lack has come from the first large ones, up to the
+  // first with which all of these have as much above the average.
+  const std::uint64_t lack = before_[stretch].lack;
   const auto beyond = std::ranges::lower_bound(before_, lack, {}, &Balance::excess);
   const auto from =
       static_cast<std::size_t>(std::max(beyond - before_.begin() - 1, std::ptrdiff_t{0}));
   std::uint64_t excess = before_[from].excess;
-  for (std::size_t large = next_large(from * kChunk);; large = next_large(large + 1)) {
+  for (std::size_t large = next_large(from * kStretch);; large = next_large(large + 1)) {
     excess += masses_[large] - full_;
     if (excess >= lack) return {large, full_ + (excess - lack)};
   }

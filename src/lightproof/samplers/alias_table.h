@@ -20,10 +20,10 @@ namespace lightproof {
 
 /// Masses in units of 2^-bits / weights.size(), that is with a sum of weights.size() << bits.
 /// Positive weights of less than one unit get one; the others share the rest in proportion, to
-/// within one unit and 2^-20 of one (more if the sum is above 2^42), but for the largest, which
-/// takes what the rounding of the sum leaves: about a unit of every 65536 cells. In parallel, the
-/// same for any number of threads. All weights are >= 0 and one is positive;
-/// (weights.size() << bits) < 2^62.
+/// within one unit and 2^-20 of one (more if the sum is above 2^42). What the rounding of shares to
+/// so much leaves of the sum is given in equal parts to the largest of every 65536 cells, if it is
+/// at least half the average. In parallel, the same for any number of threads. All weights are >= 0
+/// and one is positive; (weights.size() << bits) < 2^62.
 TableVector<std::uint64_t> whole_masses(std::span<const double> weights, unsigned bits);
 
 /// A column of the method: its own cell below the threshold, else the alias.
@@ -66,8 +66,8 @@ class AliasSweep {
   };
 
   Balance balance(std::size_t first, std::size_t end) const;
-  /// What fills the columns of the small cells from the first of a chunk on.
-  Filling start_of(std::size_t chunk) const;
+  /// What fills the columns of the small cells from the first of a stretch on.
+  Filling start_of(std::size_t stretch) const;
   std::size_t next_large(std::size_t cell) const {
     while (cell < masses_.size() && masses_[cell] < full_) ++cell;
     return cell;
@@ -76,7 +76,7 @@ class AliasSweep {
   /// The columns of the small cells from one to another, and of the large ones that they use up.
   template <class Take>
   void sweep(std::size_t first, std::size_t end, const Take& take) const {
-    auto [large, left] = start_of(first / kChunk);
+    auto [large, left] = start_of(first / kStretch);
     for (std::size_t small = first; small < end; ++small) {
       if (masses_[small] >= full_) continue;
       take(small, AliasColumn{masses_[small], large});
@@ -95,12 +95,12 @@ class AliasSweep {
 
   /// Cells whose balance is known, and cells of one task: fixed, so that the split does not depend
   /// on the threads.
-  static constexpr std::size_t kChunk = std::size_t{1} << 11U;
-  static constexpr std::size_t kTask = 32 * kChunk;
+  static constexpr std::size_t kStretch = std::size_t{1} << 11U;
+  static constexpr std::size_t kTask = 32 * kStretch;
 
   std::span<const std::uint64_t> masses_;
   std::uint64_t full_;
-  std::vector<Balance> before_;  ///< each chunk, of all cells
+  std::vector<Balance> before_;  ///< each stretch, of all cells
 };
 
 /// What is left of a uniform number in [0,1) that has chosen the part below or above `share`: a

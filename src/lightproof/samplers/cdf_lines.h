@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "lightproof/core/grid.h"
 #include "lightproof/core/large_pages.h"

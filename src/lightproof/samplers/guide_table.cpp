@@ -1,5 +1,6 @@
 #include "lightproof/samplers/guide_table.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "lightproof/core/parallel.h"
@@ -20,7 +21,11 @@ Guides::Guides(std::size_t count, std::size_t cells, std::size_t parts_per_cell)
       first_(count * parts_) {}
 
 void Guides::set(std::size_t guide, CdfKnots knots) {
-  if (knots.back() == 0) return;  // without mass, and so never asked
+  if (knots.back() == 0) {  // without mass, and so never asked
+    std::fill_n(first_.begin() + static_cast<std::ptrdiff_t>(guide * parts_), parts_,
+                std::uint16_t{0});
+    return;
+  }
   std::size_t cell = 0;
   for (std::size_t part = 0; part + 1 < parts_; ++part) {
     const auto u = static_cast<std::uint32_t>(part << shift_);

@@ -21,7 +21,8 @@ Grid<double> halved(const Grid<double>& fine) {
 
 Hierarchical::Hierarchical(const EnvironmentMap& map, TargetDensity target)
     : places_(map.radiance.extent(), target.weighting) {
-  std::vector<Grid<double>> pyramid = {texel_weights(map, target)};
+  std::vector<Grid<double>> pyramid;
+  pyramid.push_back(texel_weights(map, target));
   while (pyramid.back().extent().count() > 1) pyramid.push_back(halved(pyramid.back()));
   const double scale =
       static_cast<double>(pyramid.front().extent().count()) / pyramid.back().values().front();

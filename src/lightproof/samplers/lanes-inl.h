@@ -14,6 +14,7 @@
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
+#include <cstddef>
 #include <cstring>
 #include <span>
 #include <type_traits>
@@ -160,6 +161,8 @@ class LanePlaces {
       const Number sine = hn::Sin(Numbers(), hn::Mul(number(kPi), near));
       pdf = hn::Mul(density_by_solid_angle(half, mass), hn::Mul(number(2.0 * kPi * kPi), sine));
     }
+    static_assert(sizeof(TexelSample) == 32 && offsetof(TexelSample, x) == 16 &&
+                  offsetof(TexelSample, y) == 20 && offsetof(TexelSample, pdf) == 24);
     const Int texel = hn::Or(to_whole(cell.x), hn::ShiftLeft<32>(to_whole(cell.y)));
     hn::StoreInterleaved4(s, t, hn::BitCast(Numbers(), texel), pdf, Numbers(),
                           reinterpret_cast<double*>(to));

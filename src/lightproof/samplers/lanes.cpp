@@ -1,5 +1,5 @@
-// Every sampler with a vectorised form: a class of lanes, in a header of its own, and three lines
-// here.
+// Every sampler with a vectorised form: a class of lanes in a header of its own, which is
+// included, drawn with and exported here.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lightproof/samplers/lanes.cpp"
 #include <hwy/foreach_target.h>

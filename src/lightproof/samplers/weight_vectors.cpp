@@ -38,7 +38,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Numbers = hn::ScalableTag<double>;
 using Whole = hn::ScalableTag<std::int64_t>;
 using Number = hn::Vec<Numbers>;
-using Halves = hn::Vec<hn::Half<hn::ScalableTag<float> > >;
+using Floats = hn::Vec<hn::Half<hn::ScalableTag<float> > >;
 
 /// What turns a texel into its weight.
 struct Weigher {
@@ -47,7 +47,7 @@ struct Weigher {
   Number blue;
   Number area;
 
-  HWY_INLINE Number operator()(Halves r, Halves g, Halves b) const {
+  HWY_INLINE Number operator()(Floats r, Floats g, Floats b) const {
     const Numbers d;
     const Number reds = hn::Mul(red, hn::PromoteTo(d, r));
     const Number greens = hn::Mul(green, hn::PromoteTo(d, g));
@@ -83,6 +83,7 @@ std::size_t weigh_front(std::span<const Rgb> texels, LuminanceWeights grey, doub
     hn::Vec<decltype(floats)> r;
     hn::Vec<decltype(floats)> g;
     hn::Vec<decltype(floats)> b;
+    static_assert(sizeof(Rgb) == 3 * sizeof(float));
     hn::LoadInterleaved3(floats, &texels[done].r, r, g, b);
     hn::StoreU(weigh(hn::LowerHalf(half, r), hn::LowerHalf(half, g), hn::LowerHalf(half, b)), d,
                weights + done);

@@ -11,18 +11,11 @@
 #include <cstdint>
 #include <span>
 
+#include "lightproof/core/direction.h"
 #include "lightproof/core/grid.h"
 #include "lightproof/suite/expectation.h"
 
 namespace lightproof {
-
-/// Unit vectors as three arrays of equal length. In double, since rounding to float moves a
-/// direction by up to 6e-8 and so across an edge; a float converts to double exactly.
-struct DirectionArrays {
-  std::span<const double> x;
-  std::span<const double> y;
-  std::span<const double> z;
-};
 
 /// Integer counts over kGateBins. One thread adds to one histogram; `merge` in any order gives the
 /// same counts.

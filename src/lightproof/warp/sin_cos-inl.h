@@ -22,12 +22,12 @@ namespace lightproof::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// 1/first!, -1/(first + 2)!, …: the last term leaves less than 2^-53 on an eighth of a turn.
+/// 1/first!, -1/(first + 2)!, …, of first 0 or 1: the last term leaves less than 2^-53 on an eighth
+/// of a turn.
 template <std::size_t kTerms>
 constexpr std::array<double, kTerms> alternating_inverse_factorials(int first) {
   std::array<double, kTerms> terms{};
   double factorial = 1.0;
-  for (int k = 2; k <= first; ++k) factorial *= k;
   for (std::size_t i = 0; i < kTerms; ++i) {
     const int k = first + 2 * static_cast<int>(i);
     terms[i] = (i % 2 == 0 ? 1.0 : -1.0) / factorial;

@@ -27,7 +27,8 @@ struct PlaceSpans {
   std::span<double> t;
 };
 
-/// approximate_square_from_direction of every (x[i], y[i], z[i]). All spans are of one size.
+/// approximate_square_from_direction of every (x[i], y[i], z[i]): off by up to 2e-8, which is 2e-4
+/// of a texel's width on a map of 8192. All spans are of one size.
 void approximate_places(std::span<const double> x, std::span<const double> y,
                         std::span<const double> z, const PlaceSpans& places);
 
