@@ -1,4 +1,6 @@
-// Work of fixed size to count instructions of: count/<sampler>/<map>/<W>x<H>, 2^14 samples, once.
+// Work of fixed size to count instructions of: count/<sampler>/<map>/<W>x<H>, 2^14 samples, once,
+// one at a time, and count/<sampler>/<map>/<W>x<H>/fused, as many in batches with random numbers of
+// their own.
 //
 // For `valgrind --tool=callgrind --toggle-collect='*counted_kernel*'`, which counts what happens
 // inside of that function and nothing else (ci/perf does so). The map is small: the number of
@@ -15,6 +17,7 @@
 #include "bench/registration.h"
 #include "lightproof/core/random.h"
 #include "lightproof/image/synthetic.h"
+#include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/registry.h"
 
 namespace lightproof::bench {
@@ -37,13 +40,34 @@ template <class Sampler>
   for (const SquarePoint u : points) benchmark::DoNotOptimize(sampler.sample(u));
 }
 
-void count_benchmark(benchmark::State& state, const SamplerInfo& info) {
+template <class Sampler>
+[[gnu::noinline]] void fused_counted_kernel(const Sampler& sampler, const RandomStream& stream,
+                                            std::span<TexelSample> samples) {
+  sample(sampler, stream, 0, samples);
+}
+
+template <class Sampler>
+void count_one_at_a_time(benchmark::State& state, const Sampler& sampler) {
   const std::vector<SquarePoint> points = make_points();
+  for (auto _ : state) counted_kernel(sampler, points);
+}
+
+template <class Sampler>
+void count_fused(benchmark::State& state, const Sampler& sampler) {
+  const RandomStream stream("bench/count", 1);
+  std::vector<TexelSample> samples(kPoints);
+  for (auto _ : state) {
+    fused_counted_kernel(sampler, stream, samples);
+    benchmark::DoNotOptimize(samples.data());
+  }
+}
+
+void count_benchmark(benchmark::State& state, const SamplerInfo& info, bool fused) {
   const EnvironmentMap map = make_synthetic_map(kMap, kExtent);
   const AnySampler any = info.make(map, Weighting::A);
   std::visit(
       [&](const auto& sampler) {
-        for (auto _ : state) counted_kernel(sampler, points);
+        fused ? count_fused(state, sampler) : count_one_at_a_time(state, sampler);
       },
       any);
   state.counters["samples"] = static_cast<double>(kPoints);
@@ -55,9 +79,12 @@ void register_count_benchmarks() {
   for (const SamplerInfo& info : samplers()) {
     const std::string name =
         fmt::format("count/{}/{}/{}x{}", info.name, kMap, kExtent.width, kExtent.height);
-    benchmark::RegisterBenchmark(name.c_str(), [&info](benchmark::State& state) {
-      count_benchmark(state, info);
-    })->Iterations(1);
+    for (const bool fused : {false, true}) {
+      benchmark::RegisterBenchmark(
+          (name + (fused ? "/fused" : "")).c_str(),
+          [&info, fused](benchmark::State& state) { count_benchmark(state, info, fused); })
+          ->Iterations(1);
+    }
   }
 }
 

@@ -17,204 +17,25 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "bench/bare_gather.h"
 #include "bench/maps.h"
+#include "bench/prepared.h"
 #include "bench/registration.h"
 #include "bench/upper_bound_baseline.h"
-#include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
 #include "lightproof/core/random_batch.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/registry.h"
-#include "lightproof/stats/goodness_of_fit.h"
-#include "lightproof/suite/draws.h"
-#include "reference/slow_sampler.h"
-#include "reference/texel_masses.h"
 
 namespace lightproof::bench {
 namespace {
 
-constexpr std::size_t kPoints = std::size_t{1} << 21U;
-constexpr std::size_t kFitted = std::size_t{1} << 16U;
-/// Far beyond chance: the points are the same in every run.
-constexpr double kLeastLog10P = -6.0;
-/// The lecture's weighting.
-constexpr Weighting kWeighting = Weighting::A;
-
 bool disagreed = false;
-
-const reference::SlowSampler& reference_of(Extent extent, TargetDensity target) {
-  static std::unique_ptr<reference::SlowSampler> sampler;
-  static Extent made_for;
-  static double made_with = 0.0;
-  if (!sampler || !(made_for == extent) || made_with != target.grey.red) {
-    sampler.reset();
-    sampler = std::make_unique<reference::SlowSampler>(map_of(extent), target);
-    made_for = extent;
-    made_with = target.grey.red;
-  }
-  return *sampler;
-}
-
-std::vector<SquarePoint> make_points() {
-  const RandomStream stream("bench/sample", 1);
-  std::vector<SquarePoint> points;
-  for (std::uint64_t i = 0; i < kPoints; ++i) points.push_back(stream.point(i));
-  return points;
-}
-
-std::span<const SquarePoint> random_points() {
-  static const std::vector<SquarePoint> points = make_points();
-  return points;
-}
-
-/// The law that all samplers of this target draw.
-struct Law {
-  Grid<double> masses;
-  std::vector<double> bins;
-};
-
-const Law& law_of(Extent extent, TargetDensity target) {
-  static Law law;
-  static Extent made_for;
-  static TargetDensity made_with = {};
-  if (!(made_for == extent) || !(made_with == target)) {
-    law = {};
-    law.masses = reference::texel_masses(map_of(extent), target);
-    const bool draws_whole_texels = target.lookup == Lookup::nearest;
-    law.bins = serpentine(draws_whole_texels
-                              ? reference::bin_masses(law.masses, target.weighting, kGateBins)
-                              : reference::bin_masses(map_of(extent), target, kGateBins));
-    made_for = extent;
-    made_with = target;
-  }
-  return law;
-}
-
-/// How far from a knot of the exact distribution a sampler may take the neighbour: the rounding of
-/// its own sums. Of n terms they drift by up to n steps.
-double knot_tolerance(const SamplerInfo& sampler, Extent extent) {
-  return (extent.width + extent.height) * sampler.resolution;
-}
-
-/// An explanation if the samples do not fit the reference's bins; empty if they do.
-template <class Sampler>
-std::string misfit(const Sampler& sampler, const SamplerInfo& info, Extent extent) {
-  Grid<std::uint64_t> counts(kGateBins);
-  std::uint64_t count = 0;
-  for (const SquarePoint u : random_points().first(kFitted)) {
-    const TexelSample sample = sampler.sample(u);
-    if (!is_on_map(sample, extent)) continue;
-    ++count;
-    ++counts(cell_of(sample.at.s, kGateBins.width), cell_of(sample.at.t, kGateBins.height));
-  }
-  const double log10_p =
-      cressie_read(serpentine(counts), law_of(extent, info.target(kWeighting)).bins, count).log10_p;
-  return log10_p > kLeastLog10P
-             ? ""
-             : fmt::format("the samples do not fit the map: log10 p = {}", log10_p);
-}
-
-/// An explanation if a texel is not the reference's; empty if all are. The reference draws whole
-/// texels: it says nothing of a look-up that interpolates.
-template <class Sampler>
-std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent extent) {
-  const bool sums_texels = info.resolution != 0.0 && info.lookup == Lookup::nearest;
-  if (!sums_texels) return "";
-  const auto& reference = reference_of(extent, info.target(kWeighting));
-  const double tolerance = knot_tolerance(info, extent);
-  for (const SquarePoint u : random_points().first(256)) {
-    const TexelSample sample = sampler.sample(u);
-    if (reference::Texel{sample.x, sample.y} == reference.sample(u)) continue;
-    if (reference.near_knot(u, tolerance)) continue;
-    return fmt::format("u = ({:.17g}, {:.17g}): texel ({}, {}) is not the reference's", u.s, u.t,
-                       sample.x, sample.y);
-  }
-  return "";
-}
-
-/// An explanation if a batch draws other texels than the sampler does one at a time.
-template <class Sampler>
-std::string other_batch(const Sampler& sampler) {
-  const std::span<const SquarePoint> points = random_points().first(4099);
-  std::vector<TexelSample> batch(points.size());
-  sample(sampler, points, batch);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const TexelSample alone = sampler.sample(points[i]);
-    if (alone.x == batch[i].x && alone.y == batch[i].y) continue;
-    return fmt::format("u = ({:.17g}, {:.17g}): the batch's texel is ({}, {}), alone ({}, {})",
-                       points[i].s, points[i].t, batch[i].x, batch[i].y, alone.x, alone.y);
-  }
-  return "";
-}
-
-/// The largest relative difference between the probability with which a texel is drawn, which is
-/// what the sampler says, and its share of the light. Of texels without light, which are drawn by
-/// none.
-template <class Sampler>
-double worst_texel_error(const Sampler& sampler, const Grid<double>& masses) {
-  const Extent extent = masses.extent();
-  const double texels = static_cast<double>(extent.count());
-  std::vector<double> worst(static_cast<std::size_t>(extent.height));
-  parallel_for(worst.size(), [&](std::size_t row) {
-    const int y = static_cast<int>(row);
-    for (int x = 0; x < extent.width; ++x) {
-      if (!(masses(x, y) > 0.0)) continue;
-      const SquarePoint centre = {(x + 0.5) / extent.width, (y + 0.5) / extent.height};
-      const double drawn = sampler.pdf(centre).value / texels;
-      worst[row] = std::max(worst[row], std::abs(drawn / masses(x, y) - 1.0));
-    }
-  });
-  return *std::ranges::max_element(worst);
-}
-
-/// With the probability that it says, whole.
-bool draws_texels(const SamplerInfo& info) {
-  return !info.known_defects && info.lookup == Lookup::nearest;
-}
-
-/// A sampler that was built and checked: once, though Google Benchmark runs a benchmark several
-/// times.
-struct Prepared {
-  std::optional<AnySampler> sampler;
-  double build_ms = 0.0;
-  double worst_texel_error = 0.0;
-  std::string why_not;
-};
-
-const Prepared& prepared(const SamplerInfo& info, Extent extent) {
-  static Prepared the_last;
-  static std::string name;
-  static Extent size;
-  if (name == info.name && size == extent) return the_last;
-  the_last = {};
-  name.clear();
-  const EnvironmentMap& map = map_of(extent);
-  const auto start = std::chrono::steady_clock::now();
-  the_last.sampler.emplace(info.make(map, kWeighting));
-  const std::chrono::duration<double, std::milli> build = std::chrono::steady_clock::now() - start;
-  the_last.build_ms = build.count();
-  std::visit(
-      [&](const auto& sampler) {
-        the_last.why_not = misfit(sampler, info, extent);
-        if (the_last.why_not.empty()) the_last.why_not = disagreement(sampler, info, extent);
-        if (the_last.why_not.empty()) the_last.why_not = other_batch(sampler);
-        if (!draws_texels(info)) return;
-        const Grid<double>& masses = law_of(extent, info.target(kWeighting)).masses;
-        the_last.worst_texel_error = worst_texel_error(sampler, masses);
-      },
-      *the_last.sampler);
-  name = info.name;
-  size = extent;
-  return the_last;
-}
 
 /// Samples of one batch.
 constexpr std::size_t kBatch = 4096;
@@ -249,7 +70,7 @@ void time_random(benchmark::State& state, const Sampler& sampler) {
   for (auto _ : state) {
     const TexelSample sample = sampler.sample(points[next]);
     benchmark::DoNotOptimize(sample);
-    next = (next + 1) % kPoints;
+    next = (next + 1) % points.size();
   }
   state.counters["ns_per_sample"] =
       nanoseconds_since(start) / static_cast<double>(state.iterations());
@@ -260,7 +81,7 @@ template <class Sampler>
 void time_batch(benchmark::State& state, const Sampler& sampler) {
   std::vector<TexelSample> samples(kBatch);
   time_batches(state, [&](std::uint64_t first) {
-    sample(sampler, random_points().subspan(first % kPoints, kBatch), samples);
+    sample(sampler, random_points().subspan(first % random_points().size(), kBatch), samples);
     benchmark::DoNotOptimize(samples.data());
     benchmark::ClobberMemory();
   });
@@ -381,8 +202,8 @@ void baseline_benchmark(benchmark::State& state, Extent extent) {
   auto draw = draw_baseline(baseline);
   time_batches(state, std::ref(draw));
   set_table_counters(state, baseline.table_bytes(), extent);
-  const Grid<double>& masses = law_of(extent, {kWeighting, kRec709}).masses;
-  state.counters["worst_texel_error"] = worst_texel_error(baseline, masses);
+  state.counters["worst_texel_error"] = worst_texel_error(
+      extent, {kWeighting, kRec709}, [&](SquarePoint at) { return baseline.pdf(at).value; });
 }
 
 void limit_benchmark(benchmark::State& state, Extent extent) {

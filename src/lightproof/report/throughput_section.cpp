@@ -47,16 +47,13 @@ Cell knees_cell(const std::optional<StepKnees>& knees) {
 
 constexpr std::string_view kGrowthNote =
     "A sampler whose time follows its steps takes the same time for each; the table has the "
-    "fastest "
-    "step and the slowest. What is left is the memory: once a table outgrows a cache, a step of "
-    "the search waits for it, while a scan reads "
-    "ahead. The exponent is that of the whole time against width plus height, by least squares on "
-    "logarithms. A table outgrows a cache at the smallest measured map on which it is larger. "
-    "Knees "
-    "are measured: a line with one or two bends that fits the time of a step so much better than a "
-    "straight one that straight ones with random errors seem to bend as clearly in at most 1 % of "
-    "all cases. At least two sizes lie on either side of a knee; few sizes, or much scatter, show "
-    "none.";
+    "fastest step and the slowest. What is left is the memory: once a table outgrows a cache, a "
+    "step of the search waits for it, while a scan reads ahead. The exponent is that of the whole "
+    "time against width plus height, by least squares on logarithms. A table outgrows a cache at "
+    "the smallest measured map on which it is larger. Knees are measured: a line with one or two "
+    "bends that fits the time of a step so much better than a straight one that straight ones with "
+    "random errors seem to bend as clearly in at most 1 % of all cases. At least two sizes lie on "
+    "either side of a knee; few sizes, or much scatter, show none.";
 
 std::string growth_table(const std::vector<GrowthFit>& growth, const CacheSizes& caches) {
   if (growth.empty()) return "";
@@ -155,8 +152,7 @@ constexpr std::string_view kTablesNote =
     "difference between the probability with which a texel is drawn and its share of the light; "
     "samplers return the probability that they draw with, so the error costs variance, no bias. "
     "Along the dashed line, from ring to ring, nothing gets better in one way without getting "
-    "worse "
-    "in the other.";
+    "worse in the other.";
 
 /// The costs that are held against speed.
 std::string table_figures(const std::vector<TableRecord>& tables) {
@@ -180,9 +176,8 @@ std::string table_figures(const std::vector<TableRecord>& tables) {
 constexpr std::string_view kNote =
     "Median over the benchmark's repetitions; bars reach from the fastest to the slowest. "
     "The legend gives the exponent of width S plus height T that fits the time. Frames mark, on "
-    "each "
-    "line, the first map whose table is larger than a cache, and where the growth of the time of a "
-    "step changes measurably.";
+    "each line, the first map whose table is larger than a cache, and where the growth of the time "
+    "of a step changes measurably.";
 
 constexpr std::string_view kMissing =
     "Throughput was not measured in this study. Build the benchmark program (LIGHTPROOF_BENCH, on "

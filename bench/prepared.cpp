@@ -1,0 +1,181 @@
+#include "bench/prepared.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "bench/maps.h"
+#include "lightproof/core/parallel.h"
+#include "lightproof/core/random.h"
+#include "lightproof/samplers/batch.h"
+#include "lightproof/stats/goodness_of_fit.h"
+#include "lightproof/suite/draws.h"
+#include "reference/slow_sampler.h"
+#include "reference/texel_masses.h"
+
+namespace lightproof::bench {
+namespace {
+
+constexpr std::size_t kPoints = std::size_t{1} << 21U;
+constexpr std::size_t kFitted = std::size_t{1} << 16U;
+/// Far beyond chance: the points are the same in every run.
+constexpr double kLeastLog10P = -6.0;
+const reference::SlowSampler& reference_of(Extent extent, TargetDensity target) {
+  static std::unique_ptr<reference::SlowSampler> sampler;
+  static Extent made_for;
+  static double made_with = 0.0;
+  if (!sampler || !(made_for == extent) || made_with != target.grey.red) {
+    sampler.reset();
+    sampler = std::make_unique<reference::SlowSampler>(map_of(extent), target);
+    made_for = extent;
+    made_with = target.grey.red;
+  }
+  return *sampler;
+}
+
+std::vector<SquarePoint> make_points() {
+  const RandomStream stream("bench/sample", 1);
+  std::vector<SquarePoint> points;
+  for (std::uint64_t i = 0; i < kPoints; ++i) points.push_back(stream.point(i));
+  return points;
+}
+
+/// The law that all samplers of this target draw.
+struct Law {
+  Grid<double> masses;
+  std::vector<double> bins;
+};
+
+const Law& law_of(Extent extent, TargetDensity target) {
+  static Law law;
+  static Extent made_for;
+  static TargetDensity made_with = {};
+  if (!(made_for == extent) || !(made_with == target)) {
+    law = {};
+    law.masses = reference::texel_masses(map_of(extent), target);
+    const bool draws_whole_texels = target.lookup == Lookup::nearest;
+    law.bins = serpentine(draws_whole_texels
+                              ? reference::bin_masses(law.masses, target.weighting, kGateBins)
+                              : reference::bin_masses(map_of(extent), target, kGateBins));
+    made_for = extent;
+    made_with = target;
+  }
+  return law;
+}
+
+/// How far from a knot of the exact distribution a sampler may take the neighbour: the rounding of
+/// its own sums. Of n terms they drift by up to n steps.
+double knot_tolerance(const SamplerInfo& sampler, Extent extent) {
+  return (extent.width + extent.height) * sampler.resolution;
+}
+
+/// An explanation if the samples do not fit the reference's bins; empty if they do.
+template <class Sampler>
+std::string misfit(const Sampler& sampler, const SamplerInfo& info, Extent extent) {
+  Grid<std::uint64_t> counts(kGateBins);
+  std::uint64_t count = 0;
+  for (const SquarePoint u : random_points().first(kFitted)) {
+    const TexelSample sample = sampler.sample(u);
+    if (!is_on_map(sample, extent)) continue;
+    ++count;
+    ++counts(cell_of(sample.at.s, kGateBins.width), cell_of(sample.at.t, kGateBins.height));
+  }
+  const double log10_p =
+      cressie_read(serpentine(counts), law_of(extent, info.target(kWeighting)).bins, count).log10_p;
+  return log10_p > kLeastLog10P
+             ? ""
+             : fmt::format("the samples do not fit the map: log10 p = {}", log10_p);
+}
+
+/// An explanation if a texel is not the reference's; empty if all are. The reference draws whole
+/// texels: it says nothing of a look-up that interpolates.
+template <class Sampler>
+std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent extent) {
+  const bool sums_texels = info.resolution != 0.0 && info.lookup == Lookup::nearest;
+  if (!sums_texels) return "";
+  const auto& reference = reference_of(extent, info.target(kWeighting));
+  const double tolerance = knot_tolerance(info, extent);
+  for (const SquarePoint u : random_points().first(256)) {
+    const TexelSample sample = sampler.sample(u);
+    if (reference::Texel{sample.x, sample.y} == reference.sample(u)) continue;
+    if (reference.near_knot(u, tolerance)) continue;
+    return fmt::format("u = ({:.17g}, {:.17g}): texel ({}, {}) is not the reference's", u.s, u.t,
+                       sample.x, sample.y);
+  }
+  return "";
+}
+
+/// An explanation if a batch draws other texels than the sampler does one at a time.
+template <class Sampler>
+std::string other_batch(const Sampler& sampler) {
+  const std::span<const SquarePoint> points = random_points().first(4099);
+  std::vector<TexelSample> batch(points.size());
+  sample(sampler, points, batch);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const TexelSample alone = sampler.sample(points[i]);
+    if (alone.x == batch[i].x && alone.y == batch[i].y) continue;
+    return fmt::format("u = ({:.17g}, {:.17g}): the batch's texel is ({}, {}), alone ({}, {})",
+                       points[i].s, points[i].t, batch[i].x, batch[i].y, alone.x, alone.y);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::span<const SquarePoint> random_points() {
+  static const std::vector<SquarePoint> points = make_points();
+  return points;
+}
+
+double worst_texel_error(Extent extent, TargetDensity target,
+                         const std::function<double(SquarePoint)>& pdf) {
+  const Grid<double>& masses = law_of(extent, target).masses;
+  const double texels = static_cast<double>(extent.count());
+  std::vector<double> worst(static_cast<std::size_t>(extent.height));
+  parallel_for(worst.size(), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < extent.width; ++x) {
+      if (!(masses(x, y) > 0.0)) continue;
+      const double drawn = pdf({(x + 0.5) / extent.width, (y + 0.5) / extent.height}) / texels;
+      worst[row] = std::max(worst[row], std::abs(drawn / masses(x, y) - 1.0));
+    }
+  });
+  return *std::ranges::max_element(worst);
+}
+
+bool draws_texels(const SamplerInfo& info) {
+  return !info.known_defects && info.lookup == Lookup::nearest;
+}
+
+const Prepared& prepared(const SamplerInfo& info, Extent extent) {
+  static Prepared the_last;
+  static std::string name;
+  static Extent size;
+  if (name == info.name && size == extent) return the_last;
+  the_last = {};
+  name.clear();
+  const EnvironmentMap& map = map_of(extent);
+  const auto start = std::chrono::steady_clock::now();
+  the_last.sampler.emplace(info.make(map, kWeighting));
+  const std::chrono::duration<double, std::milli> build = std::chrono::steady_clock::now() - start;
+  the_last.build_ms = build.count();
+  std::visit(
+      [&](const auto& sampler) {
+        the_last.why_not = misfit(sampler, info, extent);
+        if (the_last.why_not.empty()) the_last.why_not = disagreement(sampler, info, extent);
+        if (the_last.why_not.empty()) the_last.why_not = other_batch(sampler);
+        if (!draws_texels(info)) return;
+        the_last.worst_texel_error = worst_texel_error(
+            extent, info.target(kWeighting), [&](SquarePoint at) { return sampler.pdf(at).value; });
+      },
+      *the_last.sampler);
+  name = info.name;
+  size = extent;
+  return the_last;
+}
+
+}  // namespace lightproof::bench
