@@ -38,7 +38,7 @@ struct Philox {
                        hn::BitCast(narrow, hn::Set(Wide(), std::uint64_t{b})));
   }
 
-  void round(std::uint32_t key0, std::uint32_t key1) {
+  HWY_INLINE void round(std::uint32_t key0, std::uint32_t key1) {
     const Words p0 = product(words[0], PHILOX_M4x32_0);
     const Words p1 = product(words[2], PHILOX_M4x32_1);
     words[0] = hn::Xor3(hn::ShiftRight<32>(p1), words[1], hn::Set(Wide(), std::uint64_t{key0}));
@@ -57,27 +57,55 @@ hn::Vec<hn::ScalableTag<double> > unit_interval(Words low, Words high) {
   return hn::Mul(hn::ConvertTo(numbers, hn::BitCast(whole, bits)), hn::Set(numbers, 0x1p-53));
 }
 
-/// Whole vectors from the front; returns how many points that were.
-std::size_t fill(std::uint64_t key, std::uint64_t substream, std::uint64_t first,
-                 std::span<double> s, std::span<double> t) {
+/// Points of a stream, and where they go.
+struct Points {
+  std::uint64_t key;
+  std::uint64_t substream;
+  std::uint64_t first;
+  std::span<double> s;
+  std::span<double> t;
+};
+
+/// As many points as fill this number of vectors, from the at-th on. A round of Philox waits for
+/// the one before: several vectors at once keep the multipliers busy.
+template <std::size_t kVectors>
+HWY_INLINE void fill_vectors(const Points& points, std::size_t at) {
   const Wide wide;
   const hn::ScalableTag<double> numbers;
   const std::size_t lanes = hn::Lanes(wide);
-  std::size_t done = 0;
-  for (; done + lanes <= s.size(); done += lanes) {
-    const Words index = hn::Add(hn::Set(wide, first + done), hn::Iota(wide, 0));
-    Philox philox{{index, hn::ShiftRight<32>(index), hn::Set(wide, substream),
-                   hn::Set(wide, substream >> 32U)}};
-    auto key0 = static_cast<std::uint32_t>(key);
-    auto key1 = static_cast<std::uint32_t>(key >> 32U);
-    for (int round = 0; round < 10; ++round) {
-      philox.round(key0, key1);
-      key0 += PHILOX_W32_0;
-      key1 += PHILOX_W32_1;
-    }
-    hn::StoreU(unit_interval(philox.words[0], philox.words[1]), numbers, s.data() + done);
-    hn::StoreU(unit_interval(philox.words[2], philox.words[3]), numbers, t.data() + done);
+  Philox philox[kVectors];
+  for (std::size_t v = 0; v < kVectors; ++v) {
+    const Words index = hn::Add(hn::Set(wide, points.first + at + v * lanes), hn::Iota(wide, 0));
+    philox[v] = {{index, hn::ShiftRight<32>(index), hn::Set(wide, points.substream),
+                  hn::Set(wide, points.substream >> 32U)}};
   }
+  auto key0 = static_cast<std::uint32_t>(points.key);
+  auto key1 = static_cast<std::uint32_t>(points.key >> 32U);
+#pragma GCC unroll 10
+  for (int round = 0; round < 10; ++round) {
+#pragma GCC unroll 4
+    for (Philox& one : philox) one.round(key0, key1);
+    key0 += PHILOX_W32_0;
+    key1 += PHILOX_W32_1;
+  }
+  for (std::size_t v = 0; v < kVectors; ++v) {
+    const Words* words = philox[v].words;
+    hn::StoreU(unit_interval(words[0], words[1]), numbers, points.s.data() + at + v * lanes);
+    hn::StoreU(unit_interval(words[2], words[3]), numbers, points.t.data() + at + v * lanes);
+  }
+}
+
+/// Whole vectors from the front; returns how many points that were.
+std::size_t fill(std::uint64_t key, std::uint64_t substream, std::uint64_t first,
+                 std::span<double> s, std::span<double> t) {
+  constexpr std::size_t kTogether = 4;
+  const Points points = {key, substream, first, s, t};
+  const std::size_t lanes = hn::Lanes(Wide());
+  std::size_t done = 0;
+  for (; done + kTogether * lanes <= s.size(); done += kTogether * lanes) {
+    fill_vectors<kTogether>(points, done);
+  }
+  for (; done + lanes <= s.size(); done += lanes) fill_vectors<1>(points, done);
   return done;
 }
 
