@@ -48,7 +48,7 @@ class BareGatherLanes {
   HWY_INLINE void stage(Block& block, std::size_t count, std::size_t /*first*/) {
     if constexpr (kStage == 0) {
       for_vectors(count, [&](std::size_t i) HWY_ATTR {
-        const Int texel = to_whole(hn::Mul(load(block.s + i), number(texels_)));
+        const Int texel = to_whole(hn::Trunc(hn::Mul(load(block.s + i), number(texels_))));
         store(hn::Add(texel, texel), block.offset + i);
       });
       fetch(numbers_.data(), block.offset, count);

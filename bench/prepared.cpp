@@ -109,7 +109,7 @@ std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent
   return "";
 }
 
-/// An explanation if a batch draws other texels than the sampler does one at a time.
+/// An explanation if a batch draws other samples than the sampler does one at a time.
 template <class Sampler>
 std::string other_batch(const Sampler& sampler) {
   const std::span<const SquarePoint> points = random_points().first(4099);
@@ -117,9 +117,16 @@ std::string other_batch(const Sampler& sampler) {
   sample(sampler, points, batch);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const TexelSample alone = sampler.sample(points[i]);
-    if (alone.x == batch[i].x && alone.y == batch[i].y) continue;
-    return fmt::format("u = ({:.17g}, {:.17g}): the batch's texel is ({}, {}), alone ({}, {})",
-                       points[i].s, points[i].t, batch[i].x, batch[i].y, alone.x, alone.y);
+    const double roundings = 1e-12 * alone.pdf.value;
+    if (alone.x == batch[i].x && alone.y == batch[i].y &&
+        std::abs(alone.pdf.value - batch[i].pdf.value) <= roundings) {
+      continue;
+    }
+    return fmt::format(
+        "u = ({:.17g}, {:.17g}): the batch draws texel ({}, {}) with pdf {:.17g}, "
+        "alone ({}, {}) with {:.17g}",
+        points[i].s, points[i].t, batch[i].x, batch[i].y, batch[i].pdf.value, alone.x, alone.y,
+        alone.pdf.value);
   }
   return "";
 }

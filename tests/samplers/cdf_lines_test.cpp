@@ -18,7 +18,9 @@ TEST(CdfLines, RunsOfSimilarTexelsTakeTwoBytesEach) {
   for (int i = 0; i < 96; ++i) weights.push_back(1.0 + 0.5 * std::sin(i));
   const CdfLines lines(row_of(weights));
   EXPECT_EQ(lines.extent(), (Extent{3, 1}));
-  EXPECT_EQ(lines.bytes(), 96U * 2U);
+  EXPECT_EQ(lines.wide_count(), 0U);
+  constexpr std::size_t kBefore = 64 + 128;  // a run of each form before the first
+  EXPECT_EQ(lines.bytes(), 96U * 2U + kBefore);
 }
 
 TEST(CdfLines, RunsOfAnyContrastKeepTheirMasses) {

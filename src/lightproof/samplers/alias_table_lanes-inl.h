@@ -15,10 +15,9 @@ namespace lightproof::HWY_NAMESPACE {
 class AliasTableLanes {
  public:
   struct Block {
-    alignas(64) std::int64_t offset[kBatchBlock];   ///< of the column's entry, in bytes
-    alignas(64) double within[kBatchBlock];         ///< the column: uniform
-    alignas(64) std::int64_t columns[kBatchBlock];  ///< threshold and alias
-    alignas(64) std::int64_t masses[kBatchBlock];   ///< of the column's own cell and of the alias
+    alignas(64) std::int64_t offset[kBatchBlock];  ///< of the column's entry, in bytes
+    alignas(64) double within[kBatchBlock];        ///< the column: uniform
+    alignas(64) AliasTable::Entry entry[kBatchBlock];
     alignas(64) double cell[kBatchBlock];
     alignas(64) double mass[kBatchBlock];
   };
@@ -28,9 +27,9 @@ class AliasTableLanes {
   HWY_INLINE void choose_columns(const double* column, Block& block, std::size_t count) const {
     for_vectors(count, [&](std::size_t i) HWY_ATTR {
       const Number scaled = hn::Mul(load(column + i), number(static_cast<double>(entries_.size())));
-      const Int index = to_whole(scaled);
-      store(hn::ShiftLeft<4>(index), block.offset + i);
-      store(hn::Sub(scaled, to_number(index)), block.within + i);
+      const Number index = hn::Trunc(scaled);
+      store(hn::ShiftLeft<4>(to_whole(index)), block.offset + i);
+      store(hn::Sub(scaled, index), block.within + i);
     });
     fetch(entries_.data(), block.offset, count);
   }
@@ -38,16 +37,22 @@ class AliasTableLanes {
   /// Leaves in `choice` what remains of it.
   HWY_INLINE void choose_cells(double* choice, Block& block, std::size_t count) const {
     static_assert(sizeof(AliasTable::Entry) == 16);
-    read_words(entries_.data(), block.offset, count, block.columns);
-    read_words(&entries_.data()->mass, block.offset, count, block.masses);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::memcpy(block.entry + i, reinterpret_cast<const char*>(entries_.data()) + block.offset[i],
+                  sizeof block.entry[i]);
+    }
     for_vectors(count, [&](std::size_t i) HWY_ATTR {
-      const Int column = load(block.columns + i);
+      const auto* halves = reinterpret_cast<const std::int64_t*>(block.entry + i);
+      const Int even = load(halves);
+      const Int odd = load(halves + hn::Lanes(Whole()));
+      const Int column = hn::ConcatEven(Whole(), odd, even);  // threshold and alias
+      const Int masses =
+          hn::ConcatOdd(Whole(), odd, even);  // of the column's own cell and of the alias
       const Number share = hn::Mul(to_number(low_half(column)), number(0x1p-31));
       const Number u = load(choice + i);
       const Which own = hn::Lt(u, share);
       const auto own_whole = hn::RebindMask(Whole(), own);
       const Int index = hn::ShiftRight<4>(load(block.offset + i));
-      const Int masses = load(block.masses + i);
       store(to_number(hn::IfThenElse(own_whole, index, high_half(column))), block.cell + i);
       store(float_in(hn::IfThenElse(own_whole, masses, high_half(masses))), block.mass + i);
       store(rest_of_choice(u, share, own), choice + i);

@@ -37,7 +37,7 @@ class BatchPoints {
 };
 
 /// Samples between two fetches of points.
-inline constexpr std::size_t kBatchBlock = 128;
+inline constexpr std::size_t kBatchBlock = 64;
 
 /// Samples as directions, each number in an array of its own; all of one size.
 struct DirectionBatch {

@@ -52,13 +52,15 @@ bool is_close(const Knots& knots, std::span<const double> weights) {
 }  // namespace
 
 CdfLines::CdfLines(const Grid<double>& weights)
-    : extent_(runs_of(weights.extent())), narrow_(extent_.count()) {
+    : extent_(runs_of(weights.extent())), narrow_(kBefore + extent_.count()), wide_(kBefore) {
+  narrow_.front().upper.fill(Narrow::kLast);
+  wide_.front().upper.fill(Wide::kLast);
   std::vector<std::vector<int>> wide_in_row(static_cast<std::size_t>(extent_.height));
   parallel_for(wide_in_row.size(), [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int column = 0; column < extent_.width; ++column) {
       const auto texels = run(weights, column, y);
-      Narrow& knots = narrow_[index(column, y)];
+      Narrow& knots = narrow_[kBefore + index(column, y)];
       knots.upper.fill(
           Narrow::kLast);  // as it stays without light: the run itself has no mass then
       if (!(sum(texels) > 0.0)) continue;
@@ -70,10 +72,7 @@ CdfLines::CdfLines(const Grid<double>& weights)
     for (const int column : wide_in_row[static_cast<std::size_t>(y)]) {
       const std::size_t at = wide_.size();
       set_knots(wide_.emplace_back(), run(weights, column, y));
-      Narrow& knots = narrow_[index(column, y)];
-      knots.upper.fill(0);
-      knots.upper[0] = static_cast<std::uint16_t>(at);
-      knots.upper[1] = static_cast<std::uint16_t>(at >> 16U);
+      narrow_[kBefore + index(column, y)] = where_wide(at);
     }
   }
 }

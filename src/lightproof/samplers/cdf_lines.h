@@ -71,12 +71,12 @@ class CdfLines {
            static_cast<std::size_t>(column);
   }
   RunTexel find(std::size_t run, double u) const {
-    const Narrow& knots = narrow_[run];
+    const Narrow& knots = narrow(run);
     return is_wide(knots) ? wide_[wide_index(knots)].find(u) : knots.find(u);
   }
   /// Share of the run's mass; of a run without any it says nothing.
   double mass(std::size_t run, int texel) const {
-    const Narrow& knots = narrow_[run];
+    const Narrow& knots = narrow(run);
     return is_wide(knots) ? wide_[wide_index(knots)].mass(texel) : knots.mass(texel);
   }
   std::size_t bytes() const {
@@ -90,19 +90,28 @@ class CdfLines {
     const Wide* wide;
     int runs;  ///< across
   };
-  View view() const { return {narrow_.data(), wide_.data(), extent_.width}; }
+  View view() const { return {&narrow(0), wide_.data(), extent_.width}; }
 
   /// The last upper knot of a narrow run is 1; of a wide one all that is kept in its place is where
-  /// it is.
+  /// it is. Whatever is looked for in these, what is found has the upper knot 0, as in no other.
+  static Narrow where_wide(std::size_t index) {
+    return {{static_cast<std::uint16_t>(index), static_cast<std::uint16_t>(index >> 16U),
+             Narrow::kLast}};
+  }
   static bool is_wide(const Narrow& knots) { return knots.upper.back() != Narrow::kLast; }
   static std::size_t wide_index(const Narrow& knots) {
     return knots.upper[0] | std::size_t{knots.upper[1]} << 16U;
   }
 
   /// Runs that need the longer form.
-  std::size_t wide_count() const { return wide_.size(); }
+  std::size_t wide_count() const { return wide_.size() - kBefore; }
 
  private:
+  const Narrow& narrow(std::size_t run) const { return narrow_[kBefore + run]; }
+
+  /// Vectors read a knot together with the one before it, of a run's first one too.
+  static constexpr std::size_t kBefore = 1;
+
   Extent extent_;
   TableVector<Narrow> narrow_;
   TableVector<Wide> wide_;

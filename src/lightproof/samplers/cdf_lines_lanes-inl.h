@@ -16,8 +16,11 @@ class CdfLinesLanes {
  public:
   struct Block {
     alignas(64) std::int64_t offset[kBatchBlock];  ///< of the run, in bytes
-    alignas(64) std::int64_t index[kBatchBlock];   ///< of the texel in its run
-    alignas(64) std::int64_t knots[kBatchBlock];   ///< its lower and upper one, in units of 2^-31
+    alignas(64) std::int32_t wide[kBatchBlock];    ///< what is looked for, in units of wide knots
+    alignas(64) std::int32_t narrow[kBatchBlock];  ///< and of narrow ones
+    alignas(64) std::int32_t index[kBatchBlock];   ///< of the texel in its run
+    alignas(64) std::int32_t pair[kBatchBlock];    ///< its lower and upper narrow knot
+    alignas(64) std::int64_t knots[kBatchBlock];   ///< the same as wide ones
   };
   struct Texel {
     Number index;
@@ -33,63 +36,82 @@ class CdfLinesLanes {
 
   /// u: uniform numbers in [0,1).
   HWY_INLINE void choose_texels(const double* u, Block& block, std::size_t count) const {
+    for_vectors(count, [&](std::size_t i) HWY_ATTR {
+      const Half wide = to_half(hn::Mul(load(u + i), number(kWideOne)));
+      const Half most = hn::Set(Halves(), CdfLines::Narrow::kLast - 1);
+      store(wide, block.wide + i);
+      store(hn::Min(hn::ShiftRight<15>(wide), most), block.narrow + i);
+    });
     std::array<std::uint16_t, kBatchBlock> wide;
     std::size_t wides = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      const CdfLines::Narrow& knots = run(block, i);
-      choose(knots, u[i], block, i);
+      const CdfLines::Narrow& knots = narrow(block.offset[i]);
+      const std::size_t index = find(knots.upper, static_cast<std::uint16_t>(block.narrow[i]));
+      const auto pair = pair_at<std::uint32_t>(knots.upper, index);
+      block.index[i] = static_cast<std::int32_t>(index);
+      block.pair[i] = static_cast<std::int32_t>(pair);
       wide[wides] = static_cast<std::uint16_t>(i);
-      wides += CdfLines::is_wide(knots) ? 1 : 0;
+      wides += pair < kNarrowOne ? 1 : 0;  // no narrow knot is 0 above a number
     }
-    for (std::size_t k = 0; k < wides; ++k) {
-      const std::size_t i = wide[k];
-      choose(view_.wide[CdfLines::wide_index(run(block, i))], u[i], block, i);
-    }
+    for_vectors(count, [&](std::size_t i) HWY_ATTR { widen(block, i); });
+    for (std::size_t k = 0; k < wides; ++k) choose_wide(block, wide[k]);
   }
 
   HWY_INLINE Texel texels(const double* u, const Block& block, std::size_t i) const {
     const Int knots = load(block.knots + i);
-    const Number low = to_number(low_half(knots));
+    const Number index = hn::PromoteTo(Numbers(), load(block.index + i));
+    const Number before = to_number(low_half(knots));
+    const Number low = hn::IfThenZeroElse(hn::Eq(index, number(0.0)), before);
     const Number units = hn::Sub(to_number(high_half(knots)), low);
-    const Number scaled = hn::Mul(load(u + i), number(0x1p31));
-    return {to_number(load(block.index + i)), hn::Mul(units, number(0x1p-31)),
-            hn::Div(hn::Sub(scaled, low), units)};
+    const Number scaled = hn::Mul(load(u + i), number(kWideOne));
+    return {index, hn::Mul(units, number(1.0 / kWideOne)), hn::Div(hn::Sub(scaled, low), units)};
   }
 
  private:
-  HWY_INLINE const CdfLines::Narrow& run(const Block& block, std::size_t i) const {
-    return view_.narrow[static_cast<std::size_t>(block.offset[i]) / sizeof(CdfLines::Narrow)];
+  static constexpr std::uint32_t kNarrowOne = 1U << 16U;
+  static constexpr double kWideOne = 0x1p31;
+
+  HWY_INLINE const CdfLines::Narrow& narrow(std::int64_t offset) const {
+    return view_.narrow[static_cast<std::size_t>(offset) / sizeof(CdfLines::Narrow)];
   }
 
-  /// What stands in for a wide run gives some texel or other.
-  template <class Integer, std::uint32_t kOne>
-  static HWY_INLINE void choose(const RunKnots<Integer, kOne>& run, double u, Block& block,
-                                std::size_t i) {
-    constexpr std::uint32_t kLast = RunKnots<Integer, kOne>::kLast;
-    constexpr std::uint32_t kUnit = (1U << 31U) / kOne;
-    const auto number = std::min<std::uint32_t>(static_cast<std::uint32_t>(u * kOne), kLast - 1);
-    // No branches, which would be guessed wrong as often as right.
-    const std::size_t index = count_up_to(run.upper, static_cast<Integer>(number)) % kRunTexels;
-    const std::uint32_t has_lower = index > 0 ? 1 : 0;
-    const std::uint32_t below = run.upper[(index - 1) % kRunTexels] * has_lower;
-    const std::uint32_t above = run.upper[index];
-    const std::uint64_t high = above + (above == kLast ? kOne - kLast : 0);
-    block.index[i] = static_cast<std::int64_t>(index);
-    block.knots[i] =
-        static_cast<std::int64_t>((high * kUnit) << 32U | std::uint64_t{below} * kUnit);
+  /// From 16-bit knots to 31-bit ones.
+  HWY_INLINE void widen(Block& block, std::size_t i) const {
+    const Int pair = hn::PromoteTo(Whole(), load(block.pair + i));
+    const Int upper = hn::And(hn::ShiftRight<16>(pair), whole(0xffff));
+    const Int high =
+        hn::IfThenElse(hn::Eq(upper, whole(CdfLines::Narrow::kLast)), whole(kNarrowOne), upper);
+    store(hn::Or(hn::ShiftLeft<15>(hn::And(pair, whole(0xffff))), hn::ShiftLeft<47>(high)),
+          block.knots + i);
   }
 
-  /// How many knots are not above this number.
+  HWY_INLINE void choose_wide(Block& block, std::size_t i) const {
+    const CdfLines::Wide& knots = view_.wide[CdfLines::wide_index(narrow(block.offset[i]))];
+    const std::size_t index = find(knots.upper, static_cast<std::uint32_t>(block.wide[i]));
+    block.index[i] = static_cast<std::int32_t>(index);
+    block.knots[i] = pair_at<std::int64_t>(knots.upper, index);
+  }
+
+  /// The first knot above this number; the last one is.
   template <class Integer>
-  static HWY_INLINE std::size_t count_up_to(const std::array<Integer, kRunTexels>& upper,
-                                            Integer number) {
+  static HWY_INLINE std::size_t find(const std::array<Integer, kRunTexels>& upper, Integer number) {
     const hn::CappedTag<Integer, kRunTexels> tag;
     const auto wanted = hn::Set(tag, number);
-    std::size_t count = upper.size();
+    std::size_t above = 0;
     for (std::size_t k = 0; k < upper.size(); k += hn::Lanes(tag)) {
-      count -= hn::CountTrue(tag, hn::Gt(hn::Load(tag, upper.data() + k), wanted));
+      above += hn::CountTrue(tag, hn::Gt(hn::Load(tag, upper.data() + k), wanted));
     }
-    return count;
+    return upper.size() - above;
+  }
+
+  /// A knot and, in the lower half, the one before it: of the first one, what comes before the run.
+  template <class Pair, class Integer>
+  static HWY_INLINE Pair pair_at(const std::array<Integer, kRunTexels>& upper, std::size_t index) {
+    static_assert(sizeof(Pair) == 2 * sizeof(Integer));
+    Pair pair;
+    std::memcpy(&pair, reinterpret_cast<const char*>(upper.data() + index) - sizeof(Integer),
+                sizeof pair);
+    return pair;
   }
 
   CdfLines::View view_;

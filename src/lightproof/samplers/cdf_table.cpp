@@ -50,9 +50,10 @@ double quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> kn
 /// weigh(y, weights) writes the weights of a row.
 template <class Weigh>
 void CdfTable::fill(const Weigh& weigh) {
-  const std::size_t stride = static_cast<std::size_t>(extent_.width) + 1;
-  rows_.resize(static_cast<std::size_t>(extent_.height) + 1);
-  columns_.resize(stride * static_cast<std::size_t>(extent_.height));
+  const std::size_t stride = knots_of(extent_.width);
+  rows_.resize(knots_of(extent_.height) + kKnotsAfter);
+  columns_.resize(stride * static_cast<std::size_t>(extent_.height) + kKnotsAfter);
+  std::fill_n(columns_.end() - kKnotsAfter, kKnotsAfter, 0U);
   std::vector<double> row_weights(static_cast<std::size_t>(extent_.height));
   parallel_for(row_weights.size(), [&](std::size_t row) {
     const auto width = static_cast<std::size_t>(extent_.width);
@@ -61,13 +62,13 @@ void CdfTable::fill(const Weigh& weigh) {
     weigh(static_cast<int>(row), weights);
     row_weights[row] = quantise_cdf(weights, {columns_.data() + row * stride, stride});
   });
-  quantise_cdf(row_weights, rows_);
+  quantise_cdf(row_weights, std::span(rows_).first(knots_of(extent_.height)));
 }
 
 CdfTable::CdfTable(const EnvironmentMap& map, TargetDensity target)
     : extent_(map.radiance.extent()) {
   fill([&](int y, std::span<double> weights) { weigh_row(map, target, y, weights); });
-  if (rows_.back() == 0) refuse_black(map);
+  if (rows().back() == 0) refuse_black(map);
 }
 
 CdfTable::CdfTable(const Grid<double>& weights) : extent_(weights.extent()) {

@@ -38,13 +38,13 @@ class CdfTable {
   explicit CdfTable(const Grid<double>& weights);
 
   Extent extent() const { return extent_; }
-  CdfKnots rows() const { return rows_; }
+  CdfKnots rows() const { return CdfKnots(rows_).first(knots_of(extent_.height)); }
   CdfKnots columns(int y) const {
-    const std::size_t stride = static_cast<std::size_t>(extent_.width) + 1;
+    const std::size_t stride = knots_of(extent_.width);
     return {columns_.data() + static_cast<std::size_t>(y) * stride, stride};
   }
   /// Probability of texel (x, y) as drawn.
-  double mass(int x, int y) const { return cdf_mass(units(rows_, y), units(columns(y), x)); }
+  double mass(int x, int y) const { return cdf_mass(units(rows(), y), units(columns(y), x)); }
   struct View {
     const std::uint32_t* rows;
     const std::uint32_t* columns;
@@ -52,15 +52,18 @@ class CdfTable {
 
     const std::uint32_t* row(std::size_t y) const { return columns + y * stride; }
   };
-  View view() const {
-    return {rows_.data(), columns_.data(), static_cast<std::size_t>(extent_.width) + 1};
-  }
+  View view() const { return {rows_.data(), columns_.data(), knots_of(extent_.width)}; }
+
+  /// Numbers behind the last knot of all rows, and of all columns, that may be read.
+  static constexpr std::size_t kKnotsAfter = 2;
+
   std::size_t bytes() const { return (rows_.size() + columns_.size()) * sizeof(std::uint32_t); }
 
  private:
   template <class Weigh>
   void fill(const Weigh& weigh);
 
+  static std::size_t knots_of(int cells) { return static_cast<std::size_t>(cells) + 1; }
   /// Mass of a cell in units of 2^-31.
   static double units(CdfKnots knots, int cell) {
     const auto k = static_cast<std::size_t>(cell);

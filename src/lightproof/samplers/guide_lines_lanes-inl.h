@@ -15,7 +15,7 @@ namespace lightproof::HWY_NAMESPACE {
 
 class GuideLinesLanes {
  public:
-  static constexpr int kStages = 3;
+  static constexpr int kStages = 4;
   struct Block : BlockPoints {
     GuidedLanes::Block runs;
     CdfLinesLanes::Block lines;
@@ -35,6 +35,8 @@ class GuideLinesLanes {
     if constexpr (kStage == 0) {
       guided_.choose_rows(block, block.runs, count);
     } else if constexpr (kStage == 1) {
+      guided_.begin_columns(block.runs, count);
+    } else if constexpr (kStage == 2) {
       guided_.choose_columns(block.runs, count);
       for_vectors(count, [&](std::size_t i) HWY_ATTR {
         const GuidedLanes::Found run = guided_.cells(block, block.runs, i);

@@ -38,13 +38,7 @@ class Guides {
     std::size_t part(std::size_t guide, std::uint32_t u) const {
       return guide * parts + (u >> shift);
     }
-    /// The cell of u in that part, if it is one of the first two; else one before it. Seldom is it
-    /// another.
-    std::size_t guess(std::size_t part, const std::uint32_t* knots, std::uint32_t u) const {
-      const std::size_t cell = first[part];
-      return cell + (knots[cell + 1] <= u ? 1 : 0);
-    }
-    /// By bisection from a guess on.
+    /// By bisection, from a cell of the part on that u lies in or after.
     std::size_t find_from(std::size_t cell, std::size_t part, const std::uint32_t* knots,
                           std::uint32_t u) const {
       for (std::size_t cells = first[part + 1] - cell + 1; cells > 1;) {

@@ -22,6 +22,7 @@ class GuidedLanes {
     alignas(64) std::int64_t y[kBatchBlock];
     alignas(64) std::int64_t x[kBatchBlock];
     alignas(64) std::int64_t columns[kBatchBlock];  ///< where the knots of the row's columns begin
+    alignas(64) std::int64_t knots[kBatchBlock];    ///< and where those of a part begin
     alignas(64) std::int64_t row[kBatchBlock];      ///< its knots: the lower and the upper one
     alignas(64) std::int64_t column[kBatchBlock];   ///< its knots
   };
@@ -45,7 +46,13 @@ class GuidedLanes {
       store(t, block.whole_t + i);
       store(part_of(guides_.rows, t), block.part + i);
     });
-    find_cells(guides_.rows, count, {block.whole_t, block.part, block.y, block.row},
+    Knots knots;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint16_t first = guides_.rows.first[block.part[i]];
+      block.y[i] = first;
+      knots.read(i, table_.rows + first);
+    }
+    find_cells(guides_.rows, count, knots, {block.whole_t, block.part, block.y, block.row},
                [&](std::size_t /*i*/) HWY_ATTR { return table_.rows; });
     for_vectors(count, [&](std::size_t i) HWY_ATTR {
       const Int y = load(block.y + i);
@@ -58,18 +65,22 @@ class GuidedLanes {
     }
   }
 
-  /// Asks for the knots that a column's guide names.
-  HWY_INLINE void fetch_columns(const Block& block, std::size_t count) const {
+  /// Reads the guides, and asks for the knots that they name.
+  HWY_INLINE void begin_columns(Block& block, std::size_t count) const {
     for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t* knots =
-          table_.columns + block.columns[i] + guides_.columns.first[block.part[i]];
+      const std::uint16_t first = guides_.columns.first[block.part[i]];
+      block.x[i] = first;
+      block.knots[i] = block.columns[i] + first;
+      const std::uint32_t* knots = table_.columns + block.knots[i];
       __builtin_prefetch(knots);
-      __builtin_prefetch(knots + 2);
+      __builtin_prefetch(knots + kKnots - 1);
     }
   }
 
   HWY_INLINE void choose_columns(Block& block, std::size_t count) const {
-    find_cells(guides_.columns, count, {block.whole_s, block.part, block.x, block.column},
+    Knots knots;
+    for (std::size_t i = 0; i < count; ++i) knots.read(i, table_.columns + block.knots[i]);
+    find_cells(guides_.columns, count, knots, {block.whole_s, block.part, block.x, block.column},
                [&](std::size_t i) HWY_ATTR { return table_.columns + block.columns[i]; });
   }
 
@@ -100,41 +111,67 @@ class GuidedLanes {
     return {units, hn::Div(hn::Sub(scaled, low), units)};
   }
 
+  /// Knots that are read for a part of a guide: those of the cell that it begins in and of the two
+  /// after it.
+  static constexpr std::size_t kKnots = 4;
+  static_assert(kKnots - 2 == CdfTable::kKnotsAfter);
+
+  struct Knots {
+    HWY_INLINE void read(std::size_t i, const std::uint32_t* from) {
+      std::memcpy(of + kKnots * i, from, sizeof(std::uint32_t) * kKnots);
+    }
+    alignas(64) std::uint32_t of[kBatchBlock * kKnots];
+  };
+
   /// What is looked for, and what is found.
   struct Search {
     const std::int32_t* whole;
     const std::int64_t* part;
-    std::int64_t* cell;
+    std::int64_t* cell;   ///< that the part begins in, then the one that is sought
     std::int64_t* knots;  ///< of the cell, the lower and the upper one
   };
 
-  /// Guesses all cells without a branch, then corrects the few wrong ones. knots_of(i): where the
-  /// knots of that sample's distribution begin.
+  /// Chooses among the first three cells of all parts, then corrects the few samples that lie in
+  /// none of them. knots_of(i): where the knots of that sample's distribution begin.
   template <class KnotsOf>
   static HWY_INLINE void find_cells(const Guides::View& guides, std::size_t count,
-                                    const Search& search, const KnotsOf& knots_of) {
-    std::array<std::uint16_t, kBatchBlock> wrong;
-    std::size_t wrongs = 0;
-    const auto set = [&](std::size_t i, std::size_t cell, const std::uint32_t* knots) HWY_ATTR {
-      search.cell[i] = static_cast<std::int64_t>(cell);
-      std::memcpy(search.knots + i, knots + cell, sizeof search.knots[i]);
-    };
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto u = static_cast<std::uint32_t>(search.whole[i]);
-      const std::uint32_t* knots = knots_of(i);
-      const std::size_t cell = guides.guess(static_cast<std::size_t>(search.part[i]), knots, u);
-      set(i, cell, knots);
-      wrong[wrongs] = static_cast<std::uint16_t>(i);
-      wrongs += knots[cell + 1] <= u ? 1 : 0;
-    }
-    for (std::size_t k = 0; k < wrongs; ++k) {
-      const std::size_t i = wrong[k];
+                                    const Knots& first_knots, const Search& search,
+                                    const KnotsOf& knots_of) {
+    Marks others;
+    for_vectors(count, [&](std::size_t i) HWY_ATTR {
+      others.set(i, choose(first_knots.of + kKnots * i, search, i));
+    });
+    others.for_each(count, [&](std::size_t i) HWY_ATTR {
       const auto from = static_cast<std::size_t>(search.cell[i]);
       const auto part = static_cast<std::size_t>(search.part[i]);
       const std::uint32_t* knots = knots_of(i);
-      set(i, guides.find_from(from, part, knots, static_cast<std::uint32_t>(search.whole[i])),
-          knots);
-    }
+      const std::size_t cell =
+          guides.find_from(from, part, knots, static_cast<std::uint32_t>(search.whole[i]));
+      search.cell[i] = static_cast<std::int64_t>(cell);
+      std::memcpy(search.knots + i, knots + cell, sizeof search.knots[i]);
+    });
+  }
+
+  /// Returns which samples lie in a cell after these.
+  static HWY_INLINE hn::Mask<Whole> choose(const std::uint32_t* four, const Search& search,
+                                           std::size_t i) {
+    const auto* pairs = reinterpret_cast<const std::int64_t*>(four);
+    const Int even = load(pairs);
+    const Int odd = load(pairs + hn::Lanes(Whole()));
+    const Int first = hn::ConcatEven(Whole(), odd, even);  // knots 0 and 1
+    const Int last = hn::ConcatOdd(Whole(), odd, even);    // knots 2 and 3
+    const Int u = hn::PromoteTo(Whole(), load(search.whole + i));
+    // What follows the last knot of all, which is above u, may be anything.
+    const auto after_first = hn::Not(hn::Gt(high_half(first), u));
+    const auto after_second = hn::And(after_first, hn::Not(hn::Gt(low_half(last), u)));
+    const auto after_third = hn::And(after_second, hn::Not(hn::Gt(high_half(last), u)));
+    const Int middle = hn::Or(high_half(first), hn::ShiftLeft<32>(last));
+    const Int steps =
+        hn::Add(hn::VecFromMask(Whole(), after_first), hn::VecFromMask(Whole(), after_second));
+    store(hn::Sub(load(search.cell + i), steps), search.cell + i);
+    store(hn::IfThenElse(after_second, last, hn::IfThenElse(after_first, middle, first)),
+          search.knots + i);
+    return after_third;
   }
 
   CdfTable::View table_;
@@ -156,7 +193,7 @@ class GuideTableLanes {
     if constexpr (kStage == 0) {
       guided_.choose_rows(block, block.cells, count);
     } else if constexpr (kStage == 1) {
-      guided_.fetch_columns(block.cells, count);
+      guided_.begin_columns(block.cells, count);
     } else {
       guided_.choose_columns(block.cells, count);
       for_vectors(count, [&](std::size_t i) HWY_ATTR {

@@ -14,10 +14,12 @@
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <span>
 #include <type_traits>
+#include <utility>
 
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/texel_places.h"
@@ -42,8 +44,11 @@ using Half = hn::Vec<Halves>;
 HWY_INLINE Number number(double value) { return hn::Set(Numbers(), value); }
 HWY_INLINE Number to_number(Int value) { return hn::ConvertTo(Numbers(), value); }
 HWY_INLINE Int whole(std::int64_t value) { return hn::Set(Whole(), value); }
-/// Towards zero.
-HWY_INLINE Int to_whole(Number value) { return hn::ConvertTo(Whole(), value); }
+/// Of whole numbers from 0 to below 2^52, which are the last bits of their sums with it.
+HWY_INLINE Int to_whole(Number value) {
+  const Int bits = hn::BitCast(Whole(), hn::Add(value, number(0x1p52)));
+  return hn::And(bits, whole((std::int64_t{1} << 52U) - 1));
+}
 HWY_INLINE Half to_half(Number value) { return hn::DemoteTo(Halves(), value); }
 HWY_INLINE Half load(const std::int32_t* from) { return hn::Load(Halves(), from); }
 HWY_INLINE void store(Half value, std::int32_t* to) { hn::Store(value, Halves(), to); }
@@ -163,7 +168,7 @@ class LanePlaces {
     }
     static_assert(sizeof(TexelSample) == 32 && offsetof(TexelSample, x) == 16 &&
                   offsetof(TexelSample, y) == 20 && offsetof(TexelSample, pdf) == 24);
-    const Int texel = hn::Or(to_whole(cell.x), hn::ShiftLeft<32>(to_whole(cell.y)));
+    const Int texel = to_whole(hn::Add(hn::Mul(cell.y, number(0x1p32)), cell.x));
     hn::StoreInterleaved4(s, t, hn::BitCast(Numbers(), texel), pdf, Numbers(),
                           reinterpret_cast<double*>(to));
   }
@@ -272,6 +277,33 @@ HWY_INLINE void for_vectors(std::size_t count, const Body& body) {
   for (std::size_t i = 0; i < count; i += hn::Lanes(Numbers())) body(i);
 }
 
+/// Those samples of a block that something is true of: a byte for every vector.
+class Marks {
+ public:
+  /// Of all vectors of a block in turn, from the first on.
+  HWY_INLINE void set(std::size_t i, hn::Mask<Whole> mask) {
+    std::uint8_t bits[8];
+    hn::StoreMaskBits(Whole(), mask, bits);
+    bytes_[i / hn::Lanes(Whole())] = bits[0];
+  }
+  /// Calls body(i) for every marked sample, in their order.
+  template <class Body>
+  HWY_INLINE void for_each(std::size_t count, const Body& body) const {
+    const std::size_t vectors = count / hn::Lanes(Whole());
+    for (std::size_t first = 0; first < vectors; first += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes_ + first, std::min(sizeof word, vectors - first));
+      for (; word != 0; word &= word - 1) {
+        const auto bit = static_cast<std::size_t>(std::countr_zero(word));
+        body((first + bit / 8) * hn::Lanes(Whole()) + bit % 8);
+      }
+    }
+  }
+
+ private:
+  std::uint8_t bytes_[kBatchBlock];
+};
+
 /// Draws whole vectors of samples; returns how many samples that were. A kernel works in stages,
 /// each of which asks for the lines that the next one reads; while these come, other blocks go
 /// through theirs.
@@ -287,29 +319,22 @@ std::size_t draw_vectors(Kernel&& kernel, const BatchPoints& points, std::size_t
   const std::size_t lanes = hn::Lanes(Numbers());
   const std::size_t total = samples / lanes * lanes;
   const std::size_t blocks = (total + kBatchBlock - 1) / kBatchBlock;
-  const auto count_of = [&](std::size_t block) {
-    return std::min(kBatchBlock, total - block * kBatchBlock);
+  const auto run = [&]<int kStage>(std::size_t step) HWY_ATTR {
+    if (step < kStage || step - kStage >= blocks) return;
+    const std::size_t number = step - kStage;
+    const std::size_t first = number * kBatchBlock;
+    const std::size_t count = std::min(kBatchBlock, total - first);
+    Block& block = ring[number % kStages];
+    if constexpr (kStage == 0) {
+      points.fill(first, std::span(block.s).first(count), std::span(block.t).first(count));
+    }
+    kernel.template stage<kStage>(block, count, output + first);
   };
   for (std::size_t step = 0; step < blocks + kStages - 1; ++step) {
-    if (step < blocks) {
-      Block& block = ring[step % kStages];
-      const std::size_t count = count_of(step);
-      points.fill(step * kBatchBlock, std::span(block.s).first(count),
-                  std::span(block.t).first(count));
-      kernel.template stage<0>(block, count, output + step * kBatchBlock);
+    [&]<int... kStage>(std::integer_sequence<int, kStage...>) HWY_ATTR {
+      (run.template operator()<kStage>(step), ...);
     }
-    if constexpr (kStages > 1) {
-      if (step >= 1 && step - 1 < blocks) {
-        kernel.template stage<1>(ring[(step - 1) % kStages], count_of(step - 1),
-                                 output + (step - 1) * kBatchBlock);
-      }
-    }
-    if constexpr (kStages > 2) {
-      if (step >= 2 && step - 2 < blocks) {
-        kernel.template stage<2>(ring[(step - 2) % kStages], count_of(step - 2),
-                                 output + (step - 2) * kBatchBlock);
-      }
-    }
+    (std::make_integer_sequence<int, kStages>());
   }
   return total;
 }

@@ -33,12 +33,7 @@ class PackedAliasLanes {
       fetch(table_.words.data(), block.offset, count);
     } else {
       read_words(table_.words.data(), block.offset, count, block.word);
-      for_vectors(count, [&](std::size_t i) HWY_ATTR { choose_cell(block, i); });
-      read_words(table_.palette.data(), block.code, count, block.word);
-      for_vectors(count, [&](std::size_t i) HWY_ATTR {
-        places_.store_samples(places_.cell(load(block.cell + i)), load(block.within + i),
-                              load(block.t + i), float_in(load(block.word + i)), out + i);
-      });
+      for_vectors(count, [&](std::size_t i) HWY_ATTR { choose_cell(block, i, out); });
     }
   }
 
@@ -46,13 +41,13 @@ class PackedAliasLanes {
   HWY_INLINE void choose_column(Block& block, std::size_t i) const {
     const Number scaled =
         hn::Mul(load(block.s + i), number(static_cast<double>(table_.words.size())));
-    const Int column = to_whole(scaled);
-    store(hn::ShiftLeft<3>(column), block.offset + i);
-    store(hn::Sub(scaled, to_number(column)), block.within + i);
+    const Number column = hn::Trunc(scaled);
+    store(hn::ShiftLeft<3>(to_whole(column)), block.offset + i);
+    store(hn::Sub(scaled, column), block.within + i);
   }
 
-  /// Leaves what remains of t.
-  HWY_INLINE void choose_cell(Block& block, std::size_t i) const {
+  template <class Output>
+  HWY_INLINE void choose_cell(const Block& block, std::size_t i, const Output& out) const {
     const PackedAliasLayout& layout = table_.layout;
     const Int word = load(block.word + i);
     const Number share =
@@ -65,9 +60,14 @@ class PackedAliasLanes {
     const Int code = hn::And(
         hn::IfThenElse(own_whole, shifted(word, layout.own_at), shifted(word, layout.alias_at)),
         whole(static_cast<std::int64_t>(layout.code_mask)));
-    store(hn::ShiftLeft<2>(code), block.code + i);
-    store(to_number(hn::IfThenElse(own_whole, column, alias)), block.cell + i);
-    store(rest_of_choice(choice, share, own), block.t + i);
+    const hn::Rebind<float, Whole> floats;
+    const hn::RebindToUnsigned<Whole> wide;
+    const hn::Rebind<std::uint32_t, Whole> narrow;
+    const auto index = hn::BitCast(Halves(), hn::TruncateTo(narrow, hn::BitCast(wide, code)));
+    const auto masses = hn::GatherIndex(floats, table_.palette.data(), index);
+    places_.store_samples(places_.cell(to_number(hn::IfThenElse(own_whole, column, alias))),
+                          load(block.within + i), rest_of_choice(choice, share, own),
+                          hn::PromoteTo(Numbers(), masses), out + i);
   }
 
   static HWY_INLINE Int shifted(Int word, unsigned bits) {
