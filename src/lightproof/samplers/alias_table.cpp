@@ -78,34 +78,24 @@ Scale scale_of(std::span<const double> weights, std::uint64_t total) {
   return {bits, std::ldexp(shared, static_cast<int>(bits)) / bright.sum};
 }
 
-/// Calls take(first cell, shares) for the weights' shares in fixed point, block by block.
-template <class Take>
-void for_shares(std::span<const double> weights, const Scale& scale, const Take& take) {
+/// Of the cells of a task.
+struct Rounded {
+  std::size_t largest;  ///< cell
+  std::int64_t sum;     ///< of the masses
+};
+
+/// What rounding leaves of a cell goes on to the next.
+Rounded round_masses(std::span<const double> weights, const Scale& scale,
+                     std::span<std::uint64_t> masses) {
   const FixedPoint form = {scale.fixed, std::int64_t{1} << scale.fraction_bits, 0};
+  std::int64_t sum = form.least / 2;
+  std::uint64_t most = 0;
+  std::size_t largest = 0;
   std::array<std::int64_t, kBlock> shares;
   for (std::size_t first = 0; first < weights.size(); first += kBlock) {
     const std::size_t count = std::min(kBlock, weights.size() - first);
     to_fixed_point(weights.subspan(first, count), form, std::span(shares).first(count));
-    take(first, std::span<const std::int64_t>(shares).first(count));
-  }
-}
-
-std::int64_t sum_of_shares(std::span<const double> weights, const Scale& scale) {
-  std::int64_t sum = 0;
-  for_shares(weights, scale, [&](std::size_t /*first*/, std::span<const std::int64_t> shares) {
-    sum = std::accumulate(shares.begin(), shares.end(), sum);
-  });
-  return sum;
-}
-
-/// What rounding leaves of a cell goes on to the next; `sum` is that of the shares before them.
-/// Returns the largest one's index.
-std::size_t round_masses(std::span<const double> weights, const Scale& scale, std::int64_t sum,
-                         std::span<std::uint64_t> masses) {
-  std::uint64_t most = 0;
-  std::size_t largest = 0;
-  for_shares(weights, scale, [&](std::size_t first, std::span<const std::int64_t> shares) {
-    for (std::size_t i = 0; i < shares.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       const std::int64_t before = sum >> scale.fraction_bits;
       sum += shares[i];
       const auto mass = static_cast<std::uint64_t>((sum >> scale.fraction_bits) - before);
@@ -114,8 +104,8 @@ std::size_t round_masses(std::span<const double> weights, const Scale& scale, st
       most = mass;
       largest = first + i;
     }
-  });
-  return largest;
+  }
+  return {largest, sum >> scale.fraction_bits};
 }
 
 /// Adds the rest, of either sign, in equal parts to those of these masses that are at least half
@@ -138,21 +128,18 @@ void share_out(std::int64_t rest, std::uint64_t average, std::span<const std::si
 TableVector<std::uint64_t> whole_masses(std::span<const double> weights, unsigned bits) {
   const std::uint64_t total = weights.size() << bits;
   const Scale scale = scale_of(weights, total);
-  std::vector<std::int64_t> sums(chunks_of(weights.size(), kChunk));
+  TableVector<std::uint64_t> masses(weights.size());
+  std::vector<std::size_t> largest(chunks_of(weights.size(), kChunk));
+  std::vector<std::int64_t> sums(largest.size());
   for_chunks(weights.size(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
-    sums[chunk] = sum_of_shares(weights.subspan(first, end - first), scale);
+    const std::size_t count = end - first;
+    const Rounded rounded =
+        round_masses(weights.subspan(first, count), scale, std::span(masses).subspan(first, count));
+    largest[chunk] = first + rounded.largest;
+    sums[chunk] = rounded.sum;
   });
   const std::int64_t sum = std::accumulate(sums.begin(), sums.end(), std::int64_t{0});
-  std::exclusive_scan(sums.begin(), sums.end(), sums.begin(), std::int64_t{0});
-  TableVector<std::uint64_t> masses(weights.size());
-  std::vector<std::size_t> largest(sums.size());
-  for_chunks(weights.size(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
-    const auto of_chunk = std::span(masses).subspan(first, end - first);
-    largest[chunk] =
-        first + round_masses(weights.subspan(first, end - first), scale, sums[chunk], of_chunk);
-  });
-  share_out(static_cast<std::int64_t>(total) - (sum >> scale.fraction_bits),
-            std::uint64_t{1} << bits, largest, masses);
+  share_out(static_cast<std::int64_t>(total) - sum, std::uint64_t{1} << bits, largest, masses);
   return masses;
 }
 
