@@ -1,6 +1,7 @@
 // Inversion by bisection: O(log W + log H) per sample, texel for texel the same as LinearScan.
 #pragma once
 
+#include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/cdf_inversion.h"
 
 namespace lightproof {
@@ -20,7 +21,19 @@ inline int search_by_bisection(CdfKnots knots, std::uint32_t u) {
   return static_cast<int>(cell - knots.data());
 }
 
-using BinarySearch = CdfInversion<SortedKnots<search_by_bisection>>;
+class BisectedKnots : public SortedKnots<search_by_bisection> {
+ public:
+  using SortedKnots::SortedKnots;
+  struct View {};  ///< all that is needed is the table
+  View view() const { return {}; }
+};
+
+using BinarySearch = CdfInversion<BisectedKnots>;
+using BinarySearchView = CdfInversionView<BisectedKnots::View>;
 static_assert(EnvSampler<BinarySearch>);
+
+/// Whole vectors of a batch; returns how many samples these are.
+std::size_t sample_vectors(const BinarySearchView& table, const BatchPoints& points,
+                           const BatchOutput& output);
 
 }  // namespace lightproof

@@ -6,9 +6,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <new>
-#include <vector>
+#include <iterator>
 
+#include "lightproof/core/large_pages.h"
+#include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/cdf_inversion.h"
 
 namespace lightproof {
@@ -43,10 +44,19 @@ class KnotTrees {
   }
   std::size_t bytes() const { return lines_.size() * sizeof(CacheLine); }
 
+  struct View {
+    unsigned levels;
+    std::size_t words_per_tree;
+    const std::uint32_t* words;  ///< one behind the last may be read
+  };
+  View view() const {
+    return {levels_, lines_per_tree_ * std::size(lines_[0].words), lines_[0].words};
+  }
+
  private:
   unsigned levels_;
   std::size_t lines_per_tree_;
-  std::vector<CacheLine> lines_;
+  TableVector<CacheLine> lines_;
 };
 
 class EytzingerKnots {
@@ -58,12 +68,23 @@ class EytzingerKnots {
   }
   std::size_t bytes() const { return rows_.bytes() + columns_.bytes(); }
 
+  struct View {
+    KnotTrees::View rows;
+    KnotTrees::View columns;
+  };
+  View view() const { return {rows_.view(), columns_.view()}; }
+
  private:
   KnotTrees rows_;
   KnotTrees columns_;
 };
 
 using Eytzinger = CdfInversion<EytzingerKnots>;
+using EytzingerView = CdfInversionView<EytzingerKnots::View>;
 static_assert(EnvSampler<Eytzinger>);
+
+/// Whole vectors of a batch; returns how many samples these are.
+std::size_t sample_vectors(const EytzingerView& table, const BatchPoints& points,
+                           const BatchOutput& output);
 
 }  // namespace lightproof

@@ -39,7 +39,7 @@ class GuideLinesLanes {
     } else if constexpr (kStage == 2) {
       guided_.choose_columns(block.runs, count);
       for_vectors(count, [&](std::size_t i) HWY_ATTR {
-        const GuidedLanes::Found run = guided_.cells(block, block.runs, i);
+        const FoundCells run = found_cells(block, block.runs, i);
         const Number index = hn::Add(hn::Mul(run.y, number(across_)), run.x);
         store(hn::ShiftLeft<6>(to_whole(index)), block.lines.offset + i);
         store(run.across, block.across + i);

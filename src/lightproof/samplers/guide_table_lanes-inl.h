@@ -6,8 +6,8 @@
 #define LIGHTPROOF_SAMPLERS_GUIDE_TABLE_LANES_INL_H
 #endif
 
+#include "lightproof/samplers/cdf_inversion_lanes-inl.h"
 #include "lightproof/samplers/guide_table.h"
-#include "lightproof/samplers/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lightproof::HWY_NAMESPACE {
@@ -15,24 +15,10 @@ namespace lightproof::HWY_NAMESPACE {
 /// Finds a row and a column of a CdfTable.
 class GuidedLanes {
  public:
-  struct Block {
-    alignas(64) std::int32_t whole_s[kBatchBlock];  ///< in units of 2^-31, without fractions
-    alignas(64) std::int32_t whole_t[kBatchBlock];
-    alignas(64) std::int64_t part[kBatchBlock];  ///< of the guides of rows, then of columns
-    alignas(64) std::int64_t y[kBatchBlock];
-    alignas(64) std::int64_t x[kBatchBlock];
+  struct Block : CdfCells {
+    alignas(64) std::int64_t part[kBatchBlock];     ///< of the guides of rows, then of columns
     alignas(64) std::int64_t columns[kBatchBlock];  ///< where the knots of the row's columns begin
     alignas(64) std::int64_t knots[kBatchBlock];    ///< and where those of a part begin
-    alignas(64) std::int64_t row[kBatchBlock];      ///< its knots: the lower and the upper one
-    alignas(64) std::int64_t column[kBatchBlock];   ///< its knots
-  };
-  /// Where in which cells the points lie.
-  struct Found {
-    Number x;
-    Number y;
-    Number across;
-    Number along;
-    Number mass;
   };
 
   GuidedLanes(const CdfTable::View& table, const GuidedKnots::View& guides)
@@ -40,11 +26,8 @@ class GuidedLanes {
 
   HWY_INLINE void choose_rows(const BlockPoints& points, Block& block, std::size_t count) const {
     for_vectors(count, [&](std::size_t i) HWY_ATTR {
-      const Half s = to_half(scaled(points.s + i));
-      const Half t = to_half(scaled(points.t + i));
-      store(s, block.whole_s + i);
-      store(t, block.whole_t + i);
-      store(part_of(guides_.rows, t), block.part + i);
+      set_whole(points, block, i);
+      store(part_of(guides_.rows, load(block.whole_t + i)), block.part + i);
     });
     Knots knots;
     for (std::size_t i = 0; i < count; ++i) {
@@ -84,31 +67,9 @@ class GuidedLanes {
                [&](std::size_t i) HWY_ATTR { return table_.columns + block.columns[i]; });
   }
 
-  HWY_INLINE Found cells(const BlockPoints& points, const Block& block, std::size_t i) const {
-    const Share along = share(block.row + i, scaled(points.t + i));
-    const Share across = share(block.column + i, scaled(points.s + i));
-    return {to_number(load(block.x + i)), to_number(load(block.y + i)), across.fraction,
-            along.fraction, hn::Mul(hn::Mul(number(0x1p-62), along.units), across.units)};
-  }
-
  private:
-  /// In units of 2^-31.
-  static HWY_INLINE Number scaled(const double* points) {
-    return hn::Mul(load(points), number(kCdfOne));
-  }
   static HWY_INLINE Int part_of(const Guides::View& guides, Half whole) {
     return hn::PromoteTo(Whole(), hn::ShiftRightSame(whole, static_cast<int>(guides.shift)));
-  }
-
-  struct Share {
-    Number units;
-    Number fraction;
-  };
-  static HWY_INLINE Share share(const std::int64_t* knots, Number scaled) {
-    const Int pair = load(knots);
-    const Number low = to_number(low_half(pair));
-    const Number units = hn::Sub(to_number(high_half(pair)), low);
-    return {units, hn::Div(hn::Sub(scaled, low), units)};
   }
 
   /// Knots that are read for a part of a guide: those of the cell that it begins in and of the two
@@ -197,8 +158,7 @@ class GuideTableLanes {
     } else {
       guided_.choose_columns(block.cells, count);
       for_vectors(count, [&](std::size_t i) HWY_ATTR {
-        const GuidedLanes::Found found = guided_.cells(block, block.cells, i);
-        places_.store_samples({found.x, found.y}, found.across, found.along, found.mass, out + i);
+        store_found(places_, found_cells(block, block.cells, i), out + i);
       });
     }
   }

@@ -14,6 +14,7 @@
 #include "lightproof/samplers/guide_lines_lanes-inl.h"
 #include "lightproof/samplers/guide_table_lanes-inl.h"
 #include "lightproof/samplers/packed_alias_lanes-inl.h"
+#include "lightproof/samplers/search_lanes-inl.h"
 #endif
 
 HWY_BEFORE_NAMESPACE();
@@ -25,6 +26,8 @@ namespace {
 /// Without vectors the scalar interface draws everything.
 class AliasLanes;
 class AliasLinesLanes;
+class BinarySearchLanes;
+class EytzingerLanes;
 class GuideLinesLanes;
 class GuideTableLanes;
 class PackedAliasLanes;
@@ -56,6 +59,14 @@ std::size_t draw_alias_lines(const AliasLines::View& table, const BatchPoints& p
                              const BatchOutput& output) {
   return draw<AliasLinesLanes>(table, points, output);
 }
+std::size_t draw_binary_search(const BinarySearchView& table, const BatchPoints& points,
+                               const BatchOutput& output) {
+  return draw<BinarySearchLanes>(table, points, output);
+}
+std::size_t draw_eytzinger(const EytzingerView& table, const BatchPoints& points,
+                           const BatchOutput& output) {
+  return draw<EytzingerLanes>(table, points, output);
+}
 std::size_t draw_guide_lines(const GuideLines::View& table, const BatchPoints& points,
                              const BatchOutput& output) {
   return draw<GuideLinesLanes>(table, points, output);
@@ -79,6 +90,8 @@ namespace {
 
 HWY_EXPORT(draw_alias);
 HWY_EXPORT(draw_alias_lines);
+HWY_EXPORT(draw_binary_search);
+HWY_EXPORT(draw_eytzinger);
 HWY_EXPORT(draw_guide_lines);
 HWY_EXPORT(draw_guide_table);
 HWY_EXPORT(draw_packed_alias);
@@ -93,6 +106,16 @@ std::size_t sample_vectors(const Alias::View& table, const BatchPoints& points,
 std::size_t sample_vectors(const AliasLines::View& table, const BatchPoints& points,
                            const BatchOutput& output) {
   return HWY_DYNAMIC_DISPATCH(draw_alias_lines)(table, points, output);
+}
+
+std::size_t sample_vectors(const BinarySearchView& table, const BatchPoints& points,
+                           const BatchOutput& output) {
+  return HWY_DYNAMIC_DISPATCH(draw_binary_search)(table, points, output);
+}
+
+std::size_t sample_vectors(const EytzingerView& table, const BatchPoints& points,
+                           const BatchOutput& output) {
+  return HWY_DYNAMIC_DISPATCH(draw_eytzinger)(table, points, output);
 }
 
 std::size_t sample_vectors(const GuideLines::View& table, const BatchPoints& points,
