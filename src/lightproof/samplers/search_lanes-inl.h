@@ -16,58 +16,68 @@ HWY_BEFORE_NAMESPACE();
 namespace lightproof::HWY_NAMESPACE {
 
 /// A search of one distribution per sample, among several of the same number of cells.
-struct SearchBlock {
+struct Search {
   const std::int32_t* whole;         ///< what is looked for, in units of 2^-31
   const std::int64_t* distribution;  ///< in which
   std::int64_t* cell;                ///< that it lies in
   std::int64_t* knots;               ///< of the cell, the lower and the upper one
 };
 
-/// Sorted knots of several distributions, one after the other.
+/// Of sorted knots, those of all distributions one after the other.
 class BisectionLanes {
  public:
   BisectionLanes(const std::uint32_t* knots, int cells)
       : knots_(knots), cells_(static_cast<std::size_t>(cells)) {}
 
-  HWY_INLINE void find(const SearchBlock& search, std::size_t count) const {
-    for_vectors(count, [&](std::size_t i) HWY_ATTR { store(whole(0), search.cell + i); });
+  HWY_INLINE void find(const Search& search, std::size_t count) const {
+    alignas(64) std::int64_t start[kBatchBlock];  // of the distribution, in bytes
+    alignas(64) std::int64_t at[kBatchBlock];     // of the cell's lower knot, in bytes
+    for_vectors(count, [&](std::size_t i) HWY_ATTR {
+      store(hn::ShiftLeft<2>(product(load(search.distribution + i), cells_ + 1)), start + i);
+      store(load(start + i), at + i);
+    });
     for (std::size_t cells = cells_; cells > 1; cells -= cells / 2) {
-      const Int half = whole(static_cast<std::int64_t>(cells / 2));
+      const std::size_t half = cells / 2;
+      const Int step = whole(static_cast<std::int64_t>(half * sizeof(std::uint32_t)));
+      read_words(knots_ + half, at, count, search.knots);
       for_vectors(count, [&](std::size_t i) HWY_ATTR {
-        const Int cell = load(search.cell + i);
-        const Int knot = low_half(pair_at(search, hn::Add(cell, half), i));
-        const Int u = hn::PromoteTo(Whole(), load(search.whole + i));
-        store(hn::Add(cell, hn::IfThenZeroElse(hn::Gt(knot, u), half)), search.cell + i);
+        const auto before = hn::Gt(low_half(load(search.knots + i)), wanted(search, i));
+        store(hn::Add(load(at + i), hn::IfThenZeroElse(before, step)), at + i);
       });
     }
+    read_words(knots_, at, count, search.knots);
     for_vectors(count, [&](std::size_t i) HWY_ATTR {
-      store(pair_at(search, load(search.cell + i), i), search.knots + i);
+      store(hn::ShiftRight<2>(hn::Sub(load(at + i), load(start + i))), search.cell + i);
     });
   }
 
  private:
-  /// The knot before a cell and, in the upper half, the one after it.
-  HWY_INLINE Int pair_at(const SearchBlock& search, Int cell, std::size_t i) const {
-    const Int first = product(load(search.distribution + i), cells_ + 1);
-    return gather(knots_, hn::ShiftLeft<2>(hn::Add(first, cell)));
+  static HWY_INLINE Int wanted(const Search& search, std::size_t i) {
+    return hn::PromoteTo(Whole(), load(search.whole + i));
   }
 
   const std::uint32_t* knots_;
   std::size_t cells_;
 };
 
+/// Of KnotTrees.
 class TreeLanes {
  public:
   explicit TreeLanes(const KnotTrees::View& trees) : trees_(trees) {}
 
-  HWY_INLINE void find(const SearchBlock& search, std::size_t count) const {
-    // Nodes stand where the cells will.
+  HWY_INLINE void find(const Search& search, std::size_t count) const {
+    Nodes nodes;
     for_vectors(count, [&](std::size_t i) HWY_ATTR {
+      const Int root = product(load(search.distribution + i), trees_.words_per_tree);
+      store(hn::ShiftLeft<2>(root), nodes.start + i);
       store(whole(1), search.cell + i);
       store(whole(std::int64_t{kCdfOne} << 32U), search.knots + i);
+      place(nodes, whole(1), i);
     });
     for (unsigned level = 0; level < trees_.levels; ++level) {
-      for_vectors(count, [&](std::size_t i) HWY_ATTR { descend(search, i); });
+      if (level + 4 < trees_.levels) fetch(trees_.words, nodes.below, count);
+      read_words(trees_.words, nodes.at, count, nodes.words);
+      for_vectors(count, [&](std::size_t i) HWY_ATTR { descend(search, nodes, i); });
     }
     const Int leaves = whole(std::int64_t{1} << trees_.levels);
     for_vectors(count, [&](std::size_t i) HWY_ATTR {
@@ -76,24 +86,39 @@ class TreeLanes {
   }
 
  private:
-  HWY_INLINE void descend(const SearchBlock& search, std::size_t i) const {
-    const Int node = load(search.cell + i);
-    const Int tree = product(load(search.distribution + i), trees_.words_per_tree);
-    const Int knot = low_half(gather(trees_.words, hn::ShiftLeft<2>(hn::Add(tree, node))));
+  /// Where the search is, in bytes; the numbers of the nodes stand where the cells will.
+  struct Nodes {
+    alignas(64) std::int64_t start[kBatchBlock];  ///< of the tree
+    alignas(64) std::int64_t at[kBatchBlock];
+    alignas(64) std::int64_t below[kBatchBlock];  ///< four levels down
+    alignas(64) std::int64_t words[kBatchBlock];  ///< of the nodes, in the lower halves
+  };
+
+  static HWY_INLINE void place(Nodes& nodes, Int node, std::size_t i) {
+    const Int start = load(nodes.start + i);
+    store(hn::Add(start, hn::ShiftLeft<2>(node)), nodes.at + i);
+    store(hn::Add(start, hn::ShiftLeft<6>(node)), nodes.below + i);
+  }
+
+  static HWY_INLINE void descend(const Search& search, Nodes& nodes, std::size_t i) {
+    const Int knot = low_half(load(nodes.words + i));
     const auto left = hn::Gt(knot, hn::PromoteTo(Whole(), load(search.whole + i)));
     const Int knots = load(search.knots + i);
-    const Int to_left = hn::Or(low_half(knots), hn::ShiftLeft<32>(knot));
-    const Int to_right = hn::Or(hn::Sub(knots, low_half(knots)), knot);
+    const Int low = low_half(knots);
+    const Int to_left = hn::Or(low, hn::ShiftLeft<32>(knot));
+    const Int to_right = hn::Or(hn::Sub(knots, low), knot);
     store(hn::IfThenElse(left, to_left, to_right), search.knots + i);
-    const Int right = hn::IfThenZeroElse(left, whole(1));
-    store(hn::Add(hn::Add(node, node), right), search.cell + i);
+    const Int parent = load(search.cell + i);
+    const Int node = hn::Add(hn::Add(parent, parent), hn::IfThenZeroElse(left, whole(1)));
+    store(node, search.cell + i);
+    place(nodes, node, i);
   }
 
   KnotTrees::View trees_;
 };
 
 /// Finds rows, then columns, with one of the searches above.
-template <class Search>
+template <class Finder>
 class SearchLanes {
  public:
   static constexpr int kStages = 1;
@@ -101,7 +126,7 @@ class SearchLanes {
     CdfCells cells;
   };
 
-  SearchLanes(const Search& rows, const Search& columns, const TexelPlacesView& places)
+  SearchLanes(const Finder& rows, const Finder& columns, const TexelPlacesView& places)
       : rows_(rows), columns_(columns), places_(places) {}
 
   template <int kStage, class Output>
@@ -117,8 +142,8 @@ class SearchLanes {
   }
 
  private:
-  Search rows_;
-  Search columns_;
+  Finder rows_;
+  Finder columns_;
   LanePlaces places_;
 };
 
