@@ -61,8 +61,8 @@ CdfLines::CdfLines(const Grid<double>& weights)
     for (int column = 0; column < extent_.width; ++column) {
       const auto texels = run(weights, column, y);
       Narrow& knots = narrow_[kBefore + index(column, y)];
-      knots.upper.fill(
-          Narrow::kLast);  // as it stays without light: the run itself has no mass then
+      // As it stays without light: the run itself has no mass then.
+      knots.upper.fill(Narrow::kLast);
       if (!(sum(texels) > 0.0)) continue;
       set_knots(knots, texels);
       if (!is_close(knots, texels)) wide_in_row[row].push_back(column);

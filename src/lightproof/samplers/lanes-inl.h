@@ -282,6 +282,7 @@ class Marks {
  public:
   /// Of all vectors of a block in turn, from the first on.
   HWY_INLINE void set(std::size_t i, hn::Mask<Whole> mask) {
+    static_assert(hn::MaxLanes(Whole()) <= 8);
     std::uint8_t bits[8];
     hn::StoreMaskBits(Whole(), mask, bits);
     bytes_[i / hn::Lanes(Whole())] = bits[0];
@@ -330,11 +331,12 @@ std::size_t draw_vectors(Kernel&& kernel, const BatchPoints& points, std::size_t
     }
     kernel.template stage<kStage>(block, count, output + first);
   };
+  const auto run_all = [&]<int... kStage>(std::size_t step, std::integer_sequence<int, kStage...>)
+      HWY_ATTR {
+    (run.template operator()<kStage>(step), ...);
+  };
   for (std::size_t step = 0; step < blocks + kStages - 1; ++step) {
-    [&]<int... kStage>(std::integer_sequence<int, kStage...>) HWY_ATTR {
-      (run.template operator()<kStage>(step), ...);
-    }
-    (std::make_integer_sequence<int, kStages>());
+    run_all(step, std::make_integer_sequence<int, kStages>());
   }
   return total;
 }

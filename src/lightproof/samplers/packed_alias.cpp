@@ -157,7 +157,6 @@ PackedAlias::PackedAlias(const EnvironmentMap& map, TargetDensity target)
   for (const std::uint64_t mass : palette.masses) {
     palette_.push_back(static_cast<float>(probability * static_cast<double>(mass)));
   }
-  palette_.push_back(0.0F);  // vectors read two at a time
   AliasSweep(masses, threshold_bits).for_columns([&](std::size_t cell, const AliasColumn& column) {
     words_[cell] = column.alias | std::uint64_t{palette.codes[column.alias]} << layout_.alias_at |
                    std::uint64_t{palette.codes[cell]} << layout_.own_at |

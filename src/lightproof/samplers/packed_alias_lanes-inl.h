@@ -19,8 +19,6 @@ class PackedAliasLanes {
     alignas(64) std::int64_t offset[kBatchBlock];  ///< of the column's word, in bytes
     alignas(64) double within[kBatchBlock];        ///< the column
     alignas(64) std::int64_t word[kBatchBlock];
-    alignas(64) std::int64_t code[kBatchBlock];  ///< where the probability is, in bytes
-    alignas(64) double cell[kBatchBlock];
   };
 
   explicit PackedAliasLanes(const PackedAlias::View& table)
