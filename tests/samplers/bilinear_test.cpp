@@ -181,7 +181,7 @@ CdfCell find(CdfKnots knots, double u) {
   int index = 0;
   while (knots[static_cast<std::size_t>(index) + 1] <= u * kCdfOne) ++index;
   const auto k = static_cast<std::size_t>(index);
-  return {index, knots[k], knots[k + 1]};
+  return {knots[k], knots[k + 1], index};
 }
 
 Patch patch_of(const Bilinear& sampler, SquarePoint u, Extent extent) {

@@ -40,7 +40,7 @@ class KnotTrees {
       high = right ? high : knot;
       node = 2 * node + (right ? 1 : 0);
     }
-    return {static_cast<int>(node - (std::size_t{1} << levels_)), low, high};
+    return {low, high, static_cast<int>(node - (std::size_t{1} << levels_))};
   }
   std::size_t bytes() const { return lines_.size() * sizeof(CacheLine); }
 

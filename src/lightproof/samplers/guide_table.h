@@ -26,7 +26,7 @@ class Guides {
   CdfCell find(std::size_t guide, CdfKnots knots, std::uint32_t u) const {
     const View all = view();
     const std::size_t cell = all.find(all.part(guide, u), knots.data(), u);
-    return {static_cast<int>(cell), knots[cell], knots[cell + 1]};
+    return {knots[cell], knots[cell + 1], static_cast<int>(cell)};
   }
 
   struct View {
