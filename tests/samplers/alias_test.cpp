@@ -64,9 +64,9 @@ TEST(WholeMasses, TheBrightestOfManyCellsHasItsShare) {
     const std::uint64_t whole = kCells << bits;
     EXPECT_EQ(sum_of(masses), whole);
     // Shares are rounded to 2^-8 of a unit at 31 bits, where the sum is below 2^54, and to 2^-20 at
-    // fewer; 65 cells take what that leaves.
+    // fewer; 65 cells take what that leaves, in proportion: the brightest 1.3 parts of 65.3.
     const double half_step = bits == 31U ? 0x1p-9 : 0x1p-21;
-    const double rest = 1.0 + static_cast<double>(kCells) * half_step / 65.0;
+    const double rest = 1.0 + static_cast<double>(kCells) * half_step * 1.3 / 65.3;
     double worst = 0.0;
     for (std::size_t i = 0; i < kCells; ++i) {
       const double share = static_cast<double>(whole) * weights[i] / total;
@@ -76,6 +76,22 @@ TEST(WholeMasses, TheBrightestOfManyCellsHasItsShare) {
     const ThreadLimit one(1);
     EXPECT_TRUE(whole_masses(weights, bits) == masses) << bits;
   }
+}
+
+// What every task leaves of a unit adds up under an even sky: a lamp among the few bright cells
+// must not bear as much of it as the sun.
+TEST(WholeMasses, ALampBesideASunHasItsShare) {
+  constexpr std::size_t kCells = std::size_t{1} << 22U;
+  constexpr unsigned kBits = 4;
+  constexpr double kSky = 3.0 + 0x1p-17;  // units: each task of sky has half a unit left
+  constexpr std::size_t kLamp = std::size_t{10} << 16U;
+  std::vector<double> weights(kCells, kSky);
+  weights[kLamp] = 8.0;
+  const double total = 16.0 * static_cast<double>(kCells);
+  weights[std::size_t{20} << 16U] = total - 8.0 - kSky * static_cast<double>(kCells - 2);
+  const Masses masses = whole_masses(weights, kBits);
+  EXPECT_EQ(sum_of(masses), kCells << kBits);
+  EXPECT_NEAR(static_cast<double>(masses[kLamp]), 8.0, 1.0 + 8.0 * 0x1p-4);
 }
 
 TEST(WholeMasses, FaintWeightsGetOneUnitBesideASun) {

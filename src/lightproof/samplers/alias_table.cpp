@@ -88,7 +88,7 @@ struct Rounded {
 Rounded round_masses(std::span<const double> weights, const Scale& scale,
                      std::span<std::uint64_t> masses) {
   const FixedPoint form = {scale.fixed, std::int64_t{1} << scale.fraction_bits, 0};
-  std::int64_t sum = form.least / 2;
+  std::int64_t sum = form.least / 2;  // half a unit: the end of the task is rounded to the nearest
   std::uint64_t most = 0;
   std::size_t largest = 0;
   std::array<std::int64_t, kBlock> shares;
@@ -108,18 +108,23 @@ Rounded round_masses(std::span<const double> weights, const Scale& scale,
   return {largest, sum >> scale.fraction_bits};
 }
 
-/// Adds the rest, of either sign, in equal parts to those of these masses that are at least half
-/// the average; one is.
+/// Adds the rest, of either sign, to those of these masses that are at least half the average, in
+/// proportion to them; one is. They hold at least half of all, so that the rest changes each by a
+/// small share of itself, whatever their number.
 void share_out(std::int64_t rest, std::uint64_t average, std::span<const std::size_t> largest,
                std::span<std::uint64_t> masses) {
   std::vector<std::size_t> takers;
   std::ranges::copy_if(largest, std::back_inserter(takers),
                        [&](std::size_t cell) { return 2 * masses[cell] >= average; });
-  for (std::size_t k = 0; k < takers.size(); ++k) {
-    const auto left = static_cast<std::int64_t>(takers.size() - k);
-    const std::int64_t part = rest / left;
-    masses[takers[k]] += static_cast<std::uint64_t>(part);  // modulo 2^64: of either sign
+  double left = 0.0;
+  for (const std::size_t cell : takers) left += static_cast<double>(masses[cell]);
+  for (const std::size_t cell : takers) {
+    const auto mass = static_cast<double>(masses[cell]);
+    const std::int64_t part =
+        cell == takers.back() ? rest : std::llround(static_cast<double>(rest) * (mass / left));
+    masses[cell] += static_cast<std::uint64_t>(part);  // modulo 2^64: of either sign
     rest -= part;
+    left -= mass;
   }
 }
 

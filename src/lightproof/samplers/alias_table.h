@@ -20,10 +20,11 @@ namespace lightproof {
 
 /// Masses in units of 2^-bits / weights.size(), that is with a sum of weights.size() << bits.
 /// Positive weights of less than one unit get one; the others share the rest in proportion, to
-/// within one unit and 2^-20 of one (more if the sum is above 2^42). What that leaves of the sum,
-/// half a unit for every 65536 cells at most besides the rounding of shares to so much, is given in
-/// equal parts to the largest of every 65536 cells, if it is at least half the average. In
-/// parallel, the same for any number of threads. All weights are >= 0 and one is positive;
+/// within one unit and the precision of their shares: 2^-20 of a unit (more if the sum is 2^42 or
+/// more), and 2^-53 of the share. What that leaves of the sum goes to the largest of every 65536
+/// cells, if it is at least half the average, in proportion to their masses: that changes none by
+/// more than some 2^-bits of itself, which is why there are at least 4 bits. In parallel, the same
+/// for any number of threads. All weights are >= 0 and one is positive;
 /// (weights.size() << bits) < 2^62.
 TableVector<std::uint64_t> whole_masses(std::span<const double> weights, unsigned bits);
 

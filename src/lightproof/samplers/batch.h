@@ -1,7 +1,7 @@
 // Many samples at once. Every sampler draws batches; those whose tables suit it do so with vectors
-// (Highway: AVX-512, AVX2, SSE4 or, without any of these, the scalar code), which fetch the lines
-// that a block of samples needs ahead of reading them. The texels are those of the scalar
-// interface.
+// (Highway: AVX-512, AVX2, SSE4 or, without any of these, the scalar code): look-ups fetch the
+// lines that a block of samples needs ahead of reading them, searches take each step for a block
+// together. The texels are those of the scalar interface.
 #pragma once
 
 #include <algorithm>

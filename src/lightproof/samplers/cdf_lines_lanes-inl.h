@@ -51,7 +51,7 @@ class CdfLinesLanes {
       block.index[i] = static_cast<std::int32_t>(index);
       block.pair[i] = static_cast<std::int32_t>(pair);
       wide[wides] = static_cast<std::uint16_t>(i);
-      wides += pair < kNarrowOne ? 1 : 0;  // no narrow knot is 0 above a number
+      wides += pair >> 16U == 0 ? 1 : 0;  // the knot above a number is 0 in no narrow run
     }
     for_vectors(count, [&](std::size_t i) HWY_ATTR { widen(block, i); });
     for (std::size_t k = 0; k < wides; ++k) choose_wide(block, wide[k]);
@@ -92,7 +92,8 @@ class CdfLinesLanes {
     block.knots[i] = pair_at<std::int64_t>(knots.upper, index);
   }
 
-  /// The first knot above this number; the last one is.
+  /// The first knot above this number; the last one of a run is, and of what stands in for a wide
+  /// run the third.
   template <class Integer>
   static HWY_INLINE std::size_t find(const std::array<Integer, kRunTexels>& upper, Integer number) {
     const hn::CappedTag<Integer, kRunTexels> tag;

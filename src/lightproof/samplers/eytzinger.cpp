@@ -9,7 +9,9 @@ namespace lightproof {
 KnotTrees::KnotTrees(std::size_t count, std::size_t cells)
     : levels_(static_cast<unsigned>(std::bit_width(cells - 1))),
       lines_per_tree_(((std::size_t{1} << levels_) + 15) / 16),
-      lines_(count * lines_per_tree_ + 1) {}
+      lines_(count * lines_per_tree_ + 1) {  // vectors read a word behind what they need
+  lines_.back() = {};
+}
 
 void KnotTrees::set(std::size_t tree, CdfKnots knots) {
   CacheLine* lines = &lines_[tree * lines_per_tree_];

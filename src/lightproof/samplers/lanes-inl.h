@@ -14,8 +14,10 @@
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <span>
 #include <type_traits>
@@ -73,10 +75,6 @@ HWY_INLINE Number float_in(Int value) {
   const hn::Rebind<std::uint32_t, Whole> half;
   const auto bits = hn::TruncateTo(half, hn::BitCast(hn::RebindToUnsigned<Whole>(), value));
   return hn::PromoteTo(Numbers(), hn::BitCast(hn::Rebind<float, Whole>(), bits));
-}
-/// 64-bit words at these byte offsets, which need not be aligned.
-HWY_INLINE Int gather(const void* base, Int offset) {
-  return hn::GatherOffset(Whole(), static_cast<const std::int64_t*>(base), offset);
 }
 HWY_INLINE Number gather_numbers(const double* base, Int index) {
   return hn::GatherIndex(Numbers(), base, index);
@@ -322,10 +320,10 @@ std::size_t draw_vectors(Kernel&& kernel, const BatchPoints& points, std::size_t
   const std::size_t blocks = (total + kBatchBlock - 1) / kBatchBlock;
   const auto run = [&]<int kStage>(std::size_t step) HWY_ATTR {
     if (step < kStage || step - kStage >= blocks) return;
-    const std::size_t number = step - kStage;
-    const std::size_t first = number * kBatchBlock;
+    const std::size_t index = step - kStage;
+    const std::size_t first = index * kBatchBlock;
     const std::size_t count = std::min(kBatchBlock, total - first);
-    Block& block = ring[number % kStages];
+    Block& block = ring[index % kStages];
     if constexpr (kStage == 0) {
       points.fill(first, std::span(block.s).first(count), std::span(block.t).first(count));
     }
