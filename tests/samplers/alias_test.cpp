@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "lightproof/image/synthetic.h"
 #include "lightproof/samplers/registry.h"
 #include "lightproof/warp/lat_long.h"
 #include "reference/texel_masses.h"
+#include "tests/core/kinds_of_vectors.h"
 
 namespace lightproof {
 namespace {
@@ -26,12 +28,16 @@ std::vector<double> weights_of(std::string_view name, Extent extent) {
   return {exact.values().begin(), exact.values().end()};
 }
 
+Masses masses_of(std::span<const double> weights, unsigned bits) {
+  return whole_masses(weights, bits);
+}
+
 TEST(WholeMasses, AreWithinOneUnitOfTheirSharesAndSumToTheirNumber) {
   for (const std::string_view name : {"constant", "sun-sky", "gradient", "checker", "one-texel"}) {
     const std::vector<double> weights = weights_of(name, {64, 32});
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     for (const unsigned bits : {8U, 13U, 31U}) {
-      const Masses masses = whole_masses(weights, bits);
+      const Masses masses = masses_of(weights, bits);
       const std::uint64_t whole = weights.size() << bits;
       EXPECT_EQ(sum_of(masses), whole) << name;
       const bool any_faint = std::any_of(weights.begin(), weights.end(), [&](double w) {
@@ -60,7 +66,7 @@ TEST(WholeMasses, TheBrightestOfManyCellsHasItsShare) {
   weights[100'000] = 1.3;
   const double total = static_cast<double>(kCells) + 0.3;
   for (const unsigned bits : {9U, 13U, 31U}) {
-    const Masses masses = whole_masses(weights, bits);
+    const Masses masses = masses_of(weights, bits);
     const std::uint64_t whole = kCells << bits;
     EXPECT_EQ(sum_of(masses), whole);
     // Shares are rounded to 2^-8 of a unit at 31 bits, where the sum is below 2^54, and to 2^-20 at
@@ -74,7 +80,7 @@ TEST(WholeMasses, TheBrightestOfManyCellsHasItsShare) {
     }
     EXPECT_LT(worst, 1.0 + half_step + rest) << bits;
     const ThreadLimit one(1);
-    EXPECT_TRUE(whole_masses(weights, bits) == masses) << bits;
+    EXPECT_TRUE(masses_of(weights, bits) == masses) << bits;
   }
 }
 
@@ -89,7 +95,7 @@ TEST(WholeMasses, ALampBesideASunHasItsShare) {
   weights[kLamp] = 8.0;
   const double total = 16.0 * static_cast<double>(kCells);
   weights[std::size_t{20} << 16U] = total - 8.0 - kSky * static_cast<double>(kCells - 2);
-  const Masses masses = whole_masses(weights, kBits);
+  const Masses masses = masses_of(weights, kBits);
   EXPECT_EQ(sum_of(masses), kCells << kBits);
   EXPECT_NEAR(static_cast<double>(masses[kLamp]), 8.0, 1.0 + 8.0 * 0x1p-4);
 }
@@ -97,7 +103,7 @@ TEST(WholeMasses, ALampBesideASunHasItsShare) {
 TEST(WholeMasses, FaintWeightsGetOneUnitBesideASun) {
   std::vector<double> weights(1000, 1.0);
   weights[500] = 1e15;
-  const Masses masses = whole_masses(weights, 13);
+  const Masses masses = masses_of(weights, 13);
   for (std::size_t i = 0; i < weights.size(); ++i) EXPECT_EQ(masses[i] == 1, i != 500) << i;
   EXPECT_EQ(sum_of(masses), weights.size() << 13U);
 }
@@ -107,7 +113,7 @@ TEST(WholeMasses, FaintWeightsGetOneUnitBesideASun) {
 TEST(WholeMasses, ASkyBesideASunIsNotDrawnTooOften) {
   std::vector<double> weights(1000, 0.01 / 999.0);
   weights[500] = 0.99;
-  const Masses masses = whole_masses(weights, 9);
+  const Masses masses = masses_of(weights, 9);
   const std::uint64_t sky = sum_of(masses) - masses[500];
   EXPECT_NEAR(static_cast<double>(sky), 0.01 * 512000.0, 1.0);
 }
@@ -167,6 +173,42 @@ TEST(AliasSweep, GoesOnAlikeInManyPlacesAtOnce) {
   }
 }
 
+// With stretches that one large cell fills up, stretches with large ones among them, averages,
+// black cells, and an end in the middle of a vector.
+TEST(AliasTable, EntriesAreTheColumnsOfTheSweep) {
+  constexpr std::size_t kCells = 70'003;
+  std::vector<std::vector<double>> cases;
+  cases.emplace_back(kCells, 1.0);
+  cases.emplace_back(kCells, 1.0);
+  cases.back()[2000] = 1e5;
+  cases.emplace_back(kCells, 0.0);
+  for (std::size_t i = 0; i < kCells; i += 3) cases.back()[i] = static_cast<double>(i % 50'000);
+  // The sun is at the end, and what is before it at the average.
+  cases.emplace_back(kCells, 2.0);
+  std::fill(cases.back().begin() + 60'000, cases.back().end() - 1, 1.0);
+  cases.back().back() += 10'002.0;
+  for (const std::vector<double>& weights : cases) {
+    constexpr unsigned kBits = AliasTable::kBits;
+    const Masses masses = masses_of(weights, kBits);
+    const std::vector<AliasColumn> columns = columns_of(masses, kBits);
+    const auto probability = [&](std::size_t cell) {
+      const double unit = 0x1p-31 / static_cast<double>(kCells);
+      return static_cast<float>(unit * static_cast<double>(masses[cell]));
+    };
+    for_each_kind_of_vector([&](const char* vectors) {
+      SCOPED_TRACE(vectors);
+      const AliasTable table{CellWeights(weights)};
+      for (std::size_t i = 0; i < kCells; ++i) {
+        const AliasTable::Entry& entry = table.entries()[i];
+        ASSERT_EQ(entry.threshold, columns[i].threshold) << i;
+        ASSERT_EQ(entry.alias, columns[i].alias) << i;
+        ASSERT_EQ(entry.mass, probability(i)) << i;
+        ASSERT_EQ(entry.alias_mass, probability(columns[i].alias)) << i;
+      }
+    });
+  }
+}
+
 TEST(MassPalette, SmallMapsKeepEveryMass) {
   const Masses exact = {5, 0, 123456789, 7};
   const MassPalette palette(exact, 2);
@@ -180,7 +222,7 @@ TEST(MassPalette, RoundsByLittleAndLosesNothing) {
   for (const std::string_view name : {"constant", "sun-sky", "gradient", "checker", "one-texel"}) {
     const std::vector<double> weights = weights_of(name, {256, 128});
     for (const unsigned bits : {13U, 31U}) {
-      const Masses exact = whole_masses(weights, bits);
+      const Masses exact = masses_of(weights, bits);
       const MassPalette palette(exact, 13);
       EXPECT_LE(palette.masses.size(), 1U << 13U);
       Masses rounded;
@@ -202,7 +244,7 @@ TEST(MassPalette, RoundsByLittleAndLosesNothing) {
 // Rounded up and down by turns: no stretch of the map gains or loses more than a step of each
 // brightness, which are half as large from one octave to the next.
 TEST(MassPalette, StretchesKeepTheirMass) {
-  const Masses exact = whole_masses(weights_of("gradient", {256, 128}), 31);
+  const Masses exact = masses_of(weights_of("gradient", {256, 128}), 31);
   const MassPalette palette(exact, 13);
   std::vector<std::int64_t> steps;
   for (std::size_t i = 0; i < exact.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "lightproof/core/random.h"
@@ -62,7 +63,8 @@ TEST(WeightVectors, SumsAreTheSameWhateverTheVectors) {
         least = std::min(least, weights[i]);
         ++positive;
       }
-      const WeightSums sums(weights);
+      WeightSums sums(weights.first(count / 16 * 8));
+      sums.add(weights.subspan(count / 16 * 8));
       EXPECT_EQ(sums.sum(), ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) +
                                 ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7])));
       EXPECT_EQ(sums.least_positive(), least);
@@ -86,6 +88,27 @@ TEST(WeightVectors, FixedPointIsTheNearest) {
         }
         EXPECT_EQ(fixed[count], -1);
       }
+    }
+  });
+}
+
+TEST(WeightVectors, BalancesCountWhatIsBelowAndWhatIsAbove) {
+  const std::uint64_t full = 1000;
+  std::vector<std::uint64_t> numbers;
+  for (std::size_t i = 0; i < kMost; ++i) numbers.push_back(i % 7 == 0 ? full : 400 * (i % 5));
+  numbers[11] = std::uint64_t{1} << 61U;
+  for_each_kind_of_vector([&](const char* vectors) {
+    SCOPED_TRACE(vectors);
+    for (std::size_t count = 0; count <= kMost; ++count) {
+      std::uint64_t lack = 0;
+      std::uint64_t excess = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        (numbers[i] < full ? lack : excess) +=
+            numbers[i] < full ? full - numbers[i] : numbers[i] - full;
+      }
+      const Balance balance = balance_of(std::span(numbers).first(count), full);
+      EXPECT_EQ(balance.lack, lack);
+      EXPECT_EQ(balance.excess, excess);
     }
   });
 }

@@ -9,7 +9,7 @@ AliasLines::AliasLines(const EnvironmentMap& map, TargetDensity target)
 
 AliasLines::AliasLines(const Grid<double>& weights, Weighting weighting)
     : lines_(weights),
-      table_(run_weights(weights).values()),
+      table_(std::span<const double>(run_weights(weights).values())),
       places_(weights.extent(), weighting) {}
 
 }  // namespace lightproof

@@ -7,15 +7,13 @@
 #include <iterator>
 #include <numeric>
 
-#include "lightproof/samplers/weight_vectors.h"
-
 namespace lightproof {
 namespace {
 
 /// Cells of one task; fixed, so that the split does not depend on the threads.
 constexpr std::size_t kChunk = std::size_t{1} << 16U;
-/// Weights that are rounded while they are in the nearest cache.
-constexpr std::size_t kBlock = 512;
+/// Weights that are looked at while they are in the nearest cache.
+constexpr std::size_t kBlock = 1024;
 
 std::size_t chunks_of(std::size_t count, std::size_t chunk) { return (count + chunk - 1) / chunk; }
 
@@ -27,21 +25,34 @@ void for_chunks(std::size_t count, const Body& body) {
   });
 }
 
+/// Calls body(first cell, weights) for all blocks of these cells, in their order.
+template <class Body>
+void for_blocks(const CellWeights& weights, std::size_t first, std::size_t end, const Body& body) {
+  std::array<double, kBlock> memory;
+  for (; first < end; first += kBlock) {
+    const auto block = std::span(memory).first(std::min(kBlock, end - first));
+    weights.get(first, block);
+    body(first, std::span<const double>(block));
+  }
+}
+
 /// Of weights that are positive; some are less than a unit.
 struct Bright {
   std::size_t faint = 0;  ///< how many of the others
   double sum = 0.0;
 };
 
-Bright bright_of(std::span<const double> weights, double unit) {
-  std::vector<Bright> parts(chunks_of(weights.size(), kChunk));
-  for_chunks(weights.size(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
+Bright bright_of(const CellWeights& weights, double unit) {
+  std::vector<Bright> parts(chunks_of(weights.count(), kChunk));
+  for_chunks(weights.count(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
     Bright part;
-    for (const double weight : weights.subspan(first, end - first)) {
-      const bool faint = weight > 0.0 && weight < unit;
-      part.faint += faint ? 1 : 0;
-      part.sum += faint ? 0.0 : weight;
-    }
+    for_blocks(weights, first, end, [&](std::size_t /*first*/, std::span<const double> block) {
+      for (const double weight : block) {
+        const bool faint = weight > 0.0 && weight < unit;
+        part.faint += faint ? 1 : 0;
+        part.sum += faint ? 0.0 : weight;
+      }
+    });
     parts[chunk] = part;
   });
   Bright all;
@@ -58,11 +69,13 @@ struct Scale {
   double fixed;            ///< of a weight, to its share in units of 2^-fraction_bits
 };
 
-Scale scale_of(std::span<const double> weights, std::uint64_t total) {
-  std::vector<double> sums(chunks_of(weights.size(), kChunk));
+Scale scale_of(const CellWeights& weights, std::uint64_t total) {
+  std::vector<double> sums(chunks_of(weights.count(), kChunk));
   std::vector<double> least(sums.size());
-  for_chunks(weights.size(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
-    const WeightSums part(weights.subspan(first, end - first));
+  for_chunks(weights.count(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
+    WeightSums part;
+    for_blocks(weights, first, end,
+               [&](std::size_t /*first*/, std::span<const double> block) { part.add(block); });
     sums[chunk] = part.sum();
     least[chunk] = part.least_positive();
   });
@@ -85,26 +98,26 @@ struct Rounded {
 };
 
 /// What rounding leaves of a cell goes on to the next.
-Rounded round_masses(std::span<const double> weights, const Scale& scale,
+Rounded round_masses(const CellWeights& weights, const Scale& scale, std::size_t first_of_all,
                      std::span<std::uint64_t> masses) {
   const FixedPoint form = {scale.fixed, std::int64_t{1} << scale.fraction_bits, 0};
   std::int64_t sum = form.least / 2;  // half a unit: the end of the task is rounded to the nearest
   std::uint64_t most = 0;
-  std::size_t largest = 0;
+  std::size_t largest = first_of_all;
   std::array<std::int64_t, kBlock> shares;
-  for (std::size_t first = 0; first < weights.size(); first += kBlock) {
-    const std::size_t count = std::min(kBlock, weights.size() - first);
-    to_fixed_point(weights.subspan(first, count), form, std::span(shares).first(count));
-    for (std::size_t i = 0; i < count; ++i) {
+  const auto round = [&](std::size_t first, std::span<const double> block) {
+    to_fixed_point(block, form, std::span(shares).first(block.size()));
+    for (std::size_t i = 0; i < block.size(); ++i) {
       const std::int64_t before = sum >> scale.fraction_bits;
       sum += shares[i];
       const auto mass = static_cast<std::uint64_t>((sum >> scale.fraction_bits) - before);
-      masses[first + i] = mass;
+      masses[first - first_of_all + i] = mass;
       if (mass <= most) continue;
       most = mass;
       largest = first + i;
     }
-  }
+  };
+  for_blocks(weights, first_of_all, first_of_all + masses.size(), round);
   return {largest, sum >> scale.fraction_bits};
 }
 
@@ -130,17 +143,16 @@ void share_out(std::int64_t rest, std::uint64_t average, std::span<const std::si
 
 }  // namespace
 
-TableVector<std::uint64_t> whole_masses(std::span<const double> weights, unsigned bits) {
-  const std::uint64_t total = weights.size() << bits;
+TableVector<std::uint64_t> whole_masses(const CellWeights& weights, unsigned bits) {
+  const std::uint64_t total = weights.count() << bits;
   const Scale scale = scale_of(weights, total);
-  TableVector<std::uint64_t> masses(weights.size());
-  std::vector<std::size_t> largest(chunks_of(weights.size(), kChunk));
+  TableVector<std::uint64_t> masses(weights.count());
+  std::vector<std::size_t> largest(chunks_of(weights.count(), kChunk));
   std::vector<std::int64_t> sums(largest.size());
-  for_chunks(weights.size(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
-    const std::size_t count = end - first;
+  for_chunks(weights.count(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
     const Rounded rounded =
-        round_masses(weights.subspan(first, count), scale, std::span(masses).subspan(first, count));
-    largest[chunk] = first + rounded.largest;
+        round_masses(weights, scale, first, std::span(masses).subspan(first, end - first));
+    largest[chunk] = rounded.largest;
     sums[chunk] = rounded.sum;
   });
   const std::int64_t sum = std::accumulate(sums.begin(), sums.end(), std::int64_t{0});
@@ -151,15 +163,16 @@ TableVector<std::uint64_t> whole_masses(std::span<const double> weights, unsigne
 AliasSweep::AliasSweep(std::span<const std::uint64_t> masses, unsigned bits)
     : masses_(masses),
       full_(std::uint64_t{1} << bits),
-      before_(chunks_of(masses.size(), kStretch)) {
+      before_(chunks_of(masses.size(), kStretch) + 1) {
   for_chunks(masses.size(), [&](std::size_t /*task*/, std::size_t first, std::size_t end) {
     static_assert(kChunk % kStretch == 0);
     for (std::size_t cell = first; cell < end; cell += kStretch) {
-      before_[cell / kStretch] = balance(cell, std::min(end, cell + kStretch));
+      before_[cell / kStretch] =
+          balance_of(masses_.subspan(cell, std::min(end - cell, kStretch)), full_);
     }
   });
   Balance sum{0, 0};
-  for (Balance& stretch : before_) {
+  for (Balance& stretch : before_) {  // the last is still zero
     const Balance before = sum;
     sum.lack += stretch.lack;
     sum.excess += stretch.excess;
@@ -167,14 +180,18 @@ AliasSweep::AliasSweep(std::span<const std::uint64_t> masses, unsigned bits)
   }
 }
 
-AliasSweep::Balance AliasSweep::balance(std::size_t first, std::size_t end) const {
-  std::uint64_t sum = 0;
-  std::uint64_t lack = 0;
-  for (const std::uint64_t mass : masses_.subspan(first, end - first)) {
-    sum += mass;
-    lack += full_ - std::min(mass, full_);
+std::size_t AliasSweep::next_large(std::size_t cell) const {
+  while (cell < masses_.size()) {
+    const std::size_t stretch = cell / kStretch;
+    const std::size_t end = std::min(masses_.size(), (stretch + 1) * kStretch);
+    if (has_large(stretch)) {
+      for (; cell < end; ++cell) {
+        if (masses_[cell] > full_) return cell;
+      }
+    }
+    cell = end;
   }
-  return {lack, sum + lack - (end - first) * full_};
+  return cell;
 }
 
 AliasSweep::Filling AliasSweep::start_of(std::size_t stretch) const {
@@ -186,22 +203,27 @@ AliasSweep::Filling AliasSweep::start_of(std::size_t stretch) const {
       static_cast<std::size_t>(std::max(beyond - before_.begin() - 1, std::ptrdiff_t{0}));
   std::uint64_t excess = before_[from].excess;
   for (std::size_t large = next_large(from * kStretch);; large = next_large(large + 1)) {
+    if (large == masses_.size()) return {large, full_};
     excess += masses_[large] - full_;
     if (excess >= lack) return {large, full_ + (excess - lack)};
   }
 }
 
-AliasTable::AliasTable(std::span<const double> weights) : entries_(weights.size()) {
+AliasTable::AliasTable(const CellWeights& weights) : entries_(weights.count()) {
   const TableVector<std::uint64_t> masses = whole_masses(weights, kBits);
-  const double unit = kUnit / static_cast<double>(weights.size());
+  const double unit = kUnit / static_cast<double>(weights.count());
   const auto probability = [&](std::size_t cell) {
     // Quicker of signed numbers.
     return static_cast<float>(unit * static_cast<double>(static_cast<std::int64_t>(masses[cell])));
   };
-  AliasSweep(masses, kBits).for_columns([&](std::size_t cell, const AliasColumn& column) {
+  const auto take = [&](std::size_t cell, const AliasColumn& column) {
     entries_[cell] = {static_cast<std::uint32_t>(column.threshold),
                       static_cast<std::uint32_t>(column.alias), probability(cell),
                       probability(column.alias)};
+  };
+  AliasSweep(masses, kBits).for_columns(take, [&](const AliasRun& run) {
+    const float alias_mass = run.alias < masses.size() ? probability(run.alias) : 0.0F;
+    write_entries(run, unit, alias_mass, std::span(entries_).subspan(run.first, run.masses.size()));
   });
 }
 

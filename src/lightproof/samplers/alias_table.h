@@ -15,18 +15,20 @@
 
 #include "lightproof/core/large_pages.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/samplers/texel_weights.h"
+#include "lightproof/samplers/weight_vectors.h"
 
 namespace lightproof {
 
-/// Masses in units of 2^-bits / weights.size(), that is with a sum of weights.size() << bits.
+/// Masses in units of 2^-bits / weights.count(), that is with a sum of weights.count() << bits.
 /// Positive weights of less than one unit get one; the others share the rest in proportion, to
 /// within one unit and the precision of their shares: 2^-20 of a unit (more if the sum is 2^42 or
 /// more), and 2^-53 of the share. What that leaves of the sum goes to the largest of every 65536
 /// cells, if it is at least half the average, in proportion to their masses: that changes none by
 /// more than some 2^-bits of itself, which is why there are at least 4 bits. In parallel, the same
 /// for any number of threads. All weights are >= 0 and one is positive;
-/// (weights.size() << bits) < 2^62.
-TableVector<std::uint64_t> whole_masses(std::span<const double> weights, unsigned bits);
+/// (weights.count() << bits) < 2^62.
+TableVector<std::uint64_t> whole_masses(const CellWeights& weights, unsigned bits);
 
 /// A column of the method: its own cell below the threshold, else the alias.
 struct AliasColumn {
@@ -35,6 +37,17 @@ struct AliasColumn {
   std::uint64_t alias;
 
   friend bool operator==(const AliasColumn&, const AliasColumn&) = default;
+};
+
+/// Neighbouring cells of at most the average mass; what those below it lack comes from one alias.
+struct AliasRun {
+  std::size_t first;
+  std::span<const std::uint64_t> masses;
+  std::size_t alias;
+
+  AliasColumn column(std::size_t i, std::uint64_t full) const {
+    return masses[i] < full ? AliasColumn{masses[i], alias} : AliasColumn{0, first + i};
+  }
 };
 
 /// The pairing of the cells below the average mass with those above it: two pointers sweep both
@@ -50,59 +63,89 @@ class AliasSweep {
   /// Calls take(column index, AliasColumn) once for every column, from several threads.
   template <class Take>
   void for_columns(const Take& take) const {
+    for_columns(take, [&](const AliasRun& run) {
+      for (std::size_t i = 0; i < run.masses.size(); ++i) {
+        take(run.first + i, run.column(i, full_));
+      }
+    });
+  }
+  /// The same, but columns that share their alias go to take_run(AliasRun) where they are many.
+  template <class Take, class TakeRun>
+  void for_columns(const Take& take, const TakeRun& take_run) const {
     parallel_for((masses_.size() + kTask - 1) / kTask, [&](std::size_t task) {
-      sweep(task * kTask, std::min(masses_.size(), (task + 1) * kTask), take);
+      sweep(task * kTask, std::min(masses_.size(), (task + 1) * kTask), take, take_run);
     });
   }
 
  private:
-  /// A large cell, and what is left of it; at least the average.
+  /// A cell above the average, and what is left of it: at least the average. Where there is none,
+  /// the cell behind the last.
   struct Filling {
     std::size_t large;
     std::uint64_t left;
   };
-  /// What cells lack of the average, and what they have above it.
-  struct Balance {
-    std::uint64_t lack;
-    std::uint64_t excess;
-  };
 
-  Balance balance(std::size_t first, std::size_t end) const;
   /// What fills the columns of the small cells from the first of a stretch on.
   Filling start_of(std::size_t stretch) const;
-  std::size_t next_large(std::size_t cell) const {
-    while (cell < masses_.size() && masses_[cell] < full_) ++cell;
-    return cell;
+  /// The first cell above the average from this one on.
+  std::size_t next_large(std::size_t cell) const;
+  bool has_large(std::size_t stretch) const {
+    return before_[stretch + 1].excess > before_[stretch].excess;
+  }
+  std::uint64_t lack_of(std::size_t stretch) const {
+    return before_[stretch + 1].lack - before_[stretch].lack;
   }
 
   /// The columns of the small cells from one to another, and of the large ones that they use up.
-  template <class Take>
-  void sweep(std::size_t first, std::size_t end, const Take& take) const {
-    auto [large, left] = start_of(first / kStretch);
-    for (std::size_t small = first; small < end; ++small) {
-      if (masses_[small] >= full_) continue;
-      take(small, AliasColumn{masses_[small], large});
-      left -= full_ - masses_[small];
-      // What has fallen below the average is filled up by the next.
-      while (left < full_) {
-        const std::size_t next = next_large(large + 1);
-        take(large, AliasColumn{left, next});
-        left += masses_[next] - full_;
-        large = next;
+  template <class Take, class TakeRun>
+  void sweep(std::size_t first, std::size_t end, const Take& take, const TakeRun& take_run) const {
+    Filling filling = start_of(first / kStretch);
+    for (std::size_t stretch = first / kStretch; first < end; ++stretch, first += kStretch) {
+      const auto masses = masses_.subspan(first, std::min(kStretch, end - first));
+      const std::uint64_t lack = lack_of(stretch);
+      if (!has_large(stretch) && lack <= filling.left - full_) {
+        take_run(AliasRun{first, masses, filling.large});
+        filling.left -= lack;
+      } else {
+        fill(first, masses, filling, take);
       }
     }
-    if (end < masses_.size()) return;
-    for (; large < end; large = next_large(large + 1)) take(large, AliasColumn{0, large});
+    if (end == masses_.size() && filling.large < end) {
+      take(filling.large, AliasColumn{0, filling.large});
+    }
+  }
+
+  /// Those of a stretch.
+  template <class Take>
+  void fill(std::size_t first, std::span<const std::uint64_t> masses, Filling& filling,
+            const Take& take) const {
+    for (std::size_t i = 0; i < masses.size(); ++i) {
+      if (masses[i] > full_) continue;
+      const std::size_t cell = first + i;
+      if (masses[i] == full_) {
+        take(cell, AliasColumn{0, cell});
+        continue;
+      }
+      take(cell, AliasColumn{masses[i], filling.large});
+      filling.left -= full_ - masses[i];
+      // What has fallen below the average is filled up by the next.
+      while (filling.left < full_) {
+        const std::size_t next = next_large(filling.large + 1);
+        take(filling.large, AliasColumn{filling.left, next});
+        filling.left += masses_[next] - full_;
+        filling.large = next;
+      }
+    }
   }
 
   /// Cells whose balance is known, and cells of one task: fixed, so that the split does not depend
   /// on the threads.
-  static constexpr std::size_t kStretch = std::size_t{1} << 11U;
-  static constexpr std::size_t kTask = 32 * kStretch;
+  static constexpr std::size_t kStretch = std::size_t{1} << 9U;
+  static constexpr std::size_t kTask = 128 * kStretch;
 
   std::span<const std::uint64_t> masses_;
   std::uint64_t full_;
-  std::vector<Balance> before_;  ///< each stretch, of all cells
+  std::vector<Balance> before_;  ///< each stretch, of all cells; and of all, at the end
 };
 
 /// What is left of a uniform number in [0,1) that has chosen the part below or above `share`: a
@@ -116,7 +159,7 @@ inline double rest_of_choice(double choice, double share) {
 class AliasTable {
  public:
   /// Weights >= 0, one of them positive; at most 2^31 - 1.
-  explicit AliasTable(std::span<const double> weights);
+  explicit AliasTable(const CellWeights& weights);
 
   struct Drawn {
     std::uint32_t cell;
@@ -146,11 +189,17 @@ class AliasTable {
   };
   std::span<const Entry> entries() const { return entries_; }
 
- private:
   static constexpr unsigned kBits = 31;
+
+ private:
   static constexpr double kUnit = 0x1p-31;
 
   TableVector<Entry> entries_;
 };
+
+/// The entries of a run, vectorised; unit is the probability of one unit of mass. The two last are
+/// of one size.
+void write_entries(const AliasRun& run, double unit, float alias_mass,
+                   std::span<AliasTable::Entry> entries);
 
 }  // namespace lightproof

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "lightproof/samplers/alias_table.h"
-#include "lightproof/samplers/texel_weights.h"
 
 namespace lightproof {
 namespace {
@@ -149,8 +148,7 @@ PackedAlias::PackedAlias(const EnvironmentMap& map, TargetDensity target)
       layout_(map.radiance.extent().count()),
       words_(map.radiance.extent().count()) {
   const unsigned threshold_bits = layout_.threshold_bits;
-  TableVector<std::uint64_t> masses =
-      whole_masses(texel_weights(map, target).values(), threshold_bits);
+  TableVector<std::uint64_t> masses = whole_masses(CellWeights(map, target), threshold_bits);
   const MassPalette palette(masses, layout_.code_bits);
   for (std::size_t i = 0; i < masses.size(); ++i) masses[i] = palette.masses[palette.codes[i]];
   const double probability = layout_.unit / static_cast<double>(words_.size());

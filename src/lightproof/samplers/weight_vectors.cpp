@@ -30,6 +30,10 @@ std::size_t to_fixed_point_front(std::span<const double> /*weights*/, const Fixe
                                  std::int64_t* /*fixed*/) {
   return 0;
 }
+std::size_t balance_front(std::span<const std::uint64_t> /*numbers*/, std::uint64_t /*full*/,
+                          Balance& /*balance*/) {
+  return 0;
+}
 
 #else
 
@@ -37,6 +41,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Numbers = hn::ScalableTag<double>;
 using Whole = hn::ScalableTag<std::int64_t>;
+using WholeUnsigned = hn::ScalableTag<std::uint64_t>;
 using Number = hn::Vec<Numbers>;
 using Floats = hn::Vec<hn::Half<hn::ScalableTag<float> > >;
 
@@ -103,9 +108,9 @@ std::size_t sum_front(std::span<const double> weights, WeightSums::Lanes& lanes)
   hn::Vec<Numbers> least[kVectors];
   hn::Vec<Whole> positive[kVectors];
   for (std::size_t k = 0; k < kVectors; ++k) {
-    sum[k] = zero;
-    least[k] = none;
-    positive[k] = hn::Zero(whole);
+    sum[k] = hn::LoadU(numbers, lanes.sum.data() + k * hn::Lanes(numbers));
+    least[k] = hn::LoadU(numbers, lanes.least_positive.data() + k * hn::Lanes(numbers));
+    positive[k] = hn::LoadU(whole, lanes.positive.data() + k * hn::Lanes(numbers));
   }
   std::size_t done = 0;
   for (; done + WeightSums::kLanes <= weights.size(); done += WeightSums::kLanes) {
@@ -144,6 +149,24 @@ std::size_t to_fixed_point_front(std::span<const double> weights, const FixedPoi
   return done;
 }
 
+std::size_t balance_front(std::span<const std::uint64_t> numbers, std::uint64_t full,
+                          Balance& balance) {
+  const Whole whole;
+  const auto one = hn::Set(whole, static_cast<std::int64_t>(full));
+  auto lack = hn::Zero(whole);
+  auto excess = hn::Zero(whole);
+  std::size_t done = 0;
+  for (; done + hn::Lanes(whole) <= numbers.size(); done += hn::Lanes(whole)) {
+    const auto number = hn::BitCast(whole, hn::LoadU(WholeUnsigned(), numbers.data() + done));
+    const auto least = hn::Min(number, one);
+    lack = hn::Add(lack, hn::Sub(one, least));
+    excess = hn::Add(excess, hn::Sub(number, least));
+  }
+  balance.lack = static_cast<std::uint64_t>(hn::GetLane(hn::SumOfLanes(whole, lack)));
+  balance.excess = static_cast<std::uint64_t>(hn::GetLane(hn::SumOfLanes(whole, excess)));
+  return done;
+}
+
 #endif
 
 }  // namespace
@@ -157,6 +180,7 @@ namespace {
 HWY_EXPORT(weigh_front);
 HWY_EXPORT(sum_front);
 HWY_EXPORT(to_fixed_point_front);
+HWY_EXPORT(balance_front);
 
 /// In the order of a vector of eight.
 template <class T, class Combine>
@@ -173,8 +197,11 @@ void weigh(std::span<const Rgb> texels, LuminanceWeights grey, double area,
   for (; i < texels.size(); ++i) weights[i] = area * luminance(texels[i], grey);
 }
 
-WeightSums::WeightSums(std::span<const double> weights) : lanes_{} {
+WeightSums::WeightSums() : lanes_{} {
   lanes_.least_positive.fill(std::numeric_limits<double>::infinity());
+}
+
+void WeightSums::add(std::span<const double> weights) {
   std::size_t i = HWY_DYNAMIC_DISPATCH(sum_front)(weights, lanes_);
   for (; i < weights.size(); ++i) {
     const std::size_t lane = i % kLanes;
@@ -202,6 +229,17 @@ void to_fixed_point(std::span<const double> weights, const FixedPoint& form,
     const auto rounded = static_cast<std::int64_t>(std::floor(form.scale * weights[i] + 0.5));
     fixed[i] = weights[i] > 0.0 ? std::max(rounded, form.least) + form.more : 0;
   }
+}
+
+Balance balance_of(std::span<const std::uint64_t> numbers, std::uint64_t full) {
+  Balance balance{0, 0};
+  std::size_t i = HWY_DYNAMIC_DISPATCH(balance_front)(numbers, full, balance);
+  for (; i < numbers.size(); ++i) {
+    const std::uint64_t least = std::min(numbers[i], full);
+    balance.lack += full - least;
+    balance.excess += numbers[i] - least;
+  }
+  return balance;
 }
 
 }  // namespace lightproof

@@ -19,7 +19,11 @@ void weigh(std::span<const Rgb> texels, LuminanceWeights grey, double area,
 /// i % kLanes.
 class WeightSums {
  public:
-  explicit WeightSums(std::span<const double> weights);
+  WeightSums();
+  explicit WeightSums(std::span<const double> weights) : WeightSums() { add(weights); }
+
+  /// All additions but the last are of a multiple of kLanes.
+  void add(std::span<const double> weights);
 
   double sum() const;
   std::size_t positive() const;
@@ -49,5 +53,14 @@ struct FixedPoint {
 /// size.
 void to_fixed_point(std::span<const double> weights, const FixedPoint& form,
                     std::span<std::int64_t> fixed);
+
+/// What whole numbers lack of another, in sum, and what they have above it.
+struct Balance {
+  std::uint64_t lack;
+  std::uint64_t excess;
+};
+
+/// All below 2^62; both sums below 2^64.
+Balance balance_of(std::span<const std::uint64_t> numbers, std::uint64_t full);
 
 }  // namespace lightproof

@@ -1,0 +1,60 @@
+// Weights that are computed when asked for are those of the grid.
+#include "lightproof/samplers/texel_weights.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "lightproof/core/error.h"
+#include "lightproof/image/synthetic.h"
+#include "lightproof/samplers/registry.h"
+
+namespace lightproof {
+namespace {
+
+TEST(CellWeights, OfAMapAreThoseOfItsGrid) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {38, 19});
+  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+    const Grid<double> grid = texel_weights(map, {weighting, kRec709});
+    const CellWeights weights(map, {weighting, kRec709});
+    ASSERT_EQ(weights.count(), grid.values().size());
+    for (const std::size_t block : {1U, 7U, 38U, 100U, 722U}) {
+      std::vector<double> some(block);
+      for (std::size_t first = 0; first + block <= weights.count(); first += block) {
+        weights.get(first, some);
+        EXPECT_TRUE(std::ranges::equal(some, grid.values().subspan(first, block)));
+      }
+    }
+  }
+}
+
+TEST(CellWeights, StoredOnesComeAsTheyAre) {
+  const std::vector<double> stored = {3.0, 0.0, 5.0, 2.0};
+  const CellWeights weights(stored);
+  std::vector<double> some(2);
+  weights.get(1, some);
+  EXPECT_EQ(some, (std::vector<double>{0.0, 5.0}));
+  EXPECT_EQ(weights.count(), 4U);
+}
+
+TEST(Samplers, RefuseAMapWithoutLightByName) {
+  EnvironmentMap map = {"cellar", Grid<Rgb>({70, 35})};
+  for (const SamplerInfo& info : samplers()) {
+    SCOPED_TRACE(info.name);
+    try {
+      info.make(map, Weighting::A);
+      ADD_FAILURE() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string_view(error.what()).find("cellar"), std::string_view::npos);
+    }
+  }
+  map.radiance(69, 34) = {0.0F, 1e-30F, 0.0F};
+  for (const SamplerInfo& info : samplers()) {
+    SCOPED_TRACE(info.name);
+    EXPECT_NO_THROW(info.make(map, Weighting::A));
+  }
+}
+
+}  // namespace
+}  // namespace lightproof
