@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lightproof/image/synthetic.h"
+#include "lightproof/samplers/mass_palette.h"
 #include "lightproof/samplers/registry.h"
 #include "lightproof/warp/lat_long.h"
 #include "reference/texel_masses.h"
@@ -211,7 +212,9 @@ TEST(AliasTable, EntriesAreTheColumnsOfTheSweep) {
 
 TEST(MassPalette, SmallMapsKeepEveryMass) {
   const Masses exact = {5, 0, 123456789, 7};
-  const MassPalette palette(exact, 2);
+  Masses cells = exact;
+  const MassPalette palette(cells, 2);
+  EXPECT_EQ(cells, exact);
   ASSERT_EQ(palette.codes.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {
     EXPECT_EQ(palette.masses[palette.codes[i]], exact[i]);
@@ -220,15 +223,19 @@ TEST(MassPalette, SmallMapsKeepEveryMass) {
 
 TEST(MassPalette, RoundsByLittleAndLosesNothing) {
   for (const std::string_view name : {"constant", "sun-sky", "gradient", "checker", "one-texel"}) {
-    const std::vector<double> weights = weights_of(name, {256, 128});
+    const std::vector<double> weights = weights_of(name, {600, 300});  // of several tasks
     for (const unsigned bits : {13U, 31U}) {
       const Masses exact = masses_of(weights, bits);
-      const MassPalette palette(exact, 13);
+      Masses rounded = exact;
+      const MassPalette palette(rounded, 13);
       EXPECT_LE(palette.masses.size(), 1U << 13U);
-      Masses rounded;
+      Masses rounded_by_one = exact;
+      const ThreadLimit one(1);
+      EXPECT_TRUE(MassPalette(rounded_by_one, 13).codes == palette.codes);
+      EXPECT_TRUE(rounded_by_one == rounded);
       double worst = 0.0;
       for (std::size_t i = 0; i < exact.size(); ++i) {
-        rounded.push_back(palette.masses[palette.codes[i]]);
+        ASSERT_EQ(rounded[i], palette.masses[palette.codes[i]]) << name << ", texel " << i;
         EXPECT_EQ(rounded[i] > 0, exact[i] > 0) << name << ", texel " << i;
         if (exact[i] == 0) continue;
         worst = std::max(
@@ -241,14 +248,22 @@ TEST(MassPalette, RoundsByLittleAndLosesNothing) {
   }
 }
 
+TEST(MassPalette, HasNoMoreMassesThanCodes) {
+  for (const std::string_view name : {"constant", "gradient"}) {
+    Masses cells = masses_of(weights_of(name, {600, 300}), 31);
+    EXPECT_LE(MassPalette(cells, 11).masses.size(), 1U << 11U) << name;
+  }
+}
+
 // Rounded up and down by turns: no stretch of the map gains or loses more than a step of each
 // brightness, which are half as large from one octave to the next.
 TEST(MassPalette, StretchesKeepTheirMass) {
-  const Masses exact = masses_of(weights_of("gradient", {256, 128}), 31);
-  const MassPalette palette(exact, 13);
+  const Masses exact = masses_of(weights_of("gradient", {600, 300}), 31);
+  Masses rounded = exact;
+  const MassPalette palette(rounded, 13);
   std::vector<std::int64_t> steps;
   for (std::size_t i = 0; i < exact.size(); ++i) {
-    steps.push_back(static_cast<std::int64_t>(palette.masses[palette.codes[i]] - exact[i]));
+    steps.push_back(static_cast<std::int64_t>(rounded[i] - exact[i]));
   }
   const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
   EXPECT_GT(*most - *least, 0);

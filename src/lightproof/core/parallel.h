@@ -2,6 +2,7 @@
 // own slot, and whoever called merges the slots in their order. TBB stays inside parallel.cpp.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -12,6 +13,20 @@ namespace lightproof {
 /// request_interrupt() was called. The first exception of a task is passed on; loops inside other
 /// tasks are then abandoned with Interrupted, which goes no further.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
+
+/// How many chunks of `size` items there are.
+inline std::size_t chunks_of(std::size_t items, std::size_t size) {
+  return (items + size - 1) / size;
+}
+
+/// Runs body(chunk, first item, last item + 1) for all chunks of `size` items, as parallel_for
+/// does. Where the split may show in the result, the size must not depend on the threads.
+template <class Body>
+void parallel_chunks(std::size_t items, std::size_t size, const Body& body) {
+  parallel_for(chunks_of(items, size), [&](std::size_t chunk) {
+    body(chunk, chunk * size, std::min(items, (chunk + 1) * size));
+  });
+}
 
 /// Limits parallel_for to `threads` threads while it lives; 0 means all cores.
 class ThreadLimit {

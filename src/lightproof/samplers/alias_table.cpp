@@ -15,16 +15,6 @@ constexpr std::size_t kChunk = std::size_t{1} << 16U;
 /// Weights that are looked at while they are in the nearest cache.
 constexpr std::size_t kBlock = 1024;
 
-std::size_t chunks_of(std::size_t count, std::size_t chunk) { return (count + chunk - 1) / chunk; }
-
-/// Calls body(chunk, first cell, last cell + 1) for all chunks, in parallel.
-template <class Body>
-void for_chunks(std::size_t count, const Body& body) {
-  parallel_for(chunks_of(count, kChunk), [&](std::size_t chunk) {
-    body(chunk, chunk * kChunk, std::min(count, (chunk + 1) * kChunk));
-  });
-}
-
 /// Calls body(first cell, weights) for all blocks of these cells, in their order.
 template <class Body>
 void for_blocks(const CellWeights& weights, std::size_t first, std::size_t end, const Body& body) {
@@ -44,17 +34,18 @@ struct Bright {
 
 Bright bright_of(const CellWeights& weights, double unit) {
   std::vector<Bright> parts(chunks_of(weights.count(), kChunk));
-  for_chunks(weights.count(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
-    Bright part;
-    for_blocks(weights, first, end, [&](std::size_t /*first*/, std::span<const double> block) {
-      for (const double weight : block) {
-        const bool faint = weight > 0.0 && weight < unit;
-        part.faint += faint ? 1 : 0;
-        part.sum += faint ? 0.0 : weight;
-      }
-    });
-    parts[chunk] = part;
-  });
+  parallel_chunks(
+      weights.count(), kChunk, [&](std::size_t chunk, std::size_t first, std::size_t end) {
+        Bright part;
+        for_blocks(weights, first, end, [&](std::size_t /*first*/, std::span<const double> block) {
+          for (const double weight : block) {
+            const bool faint = weight > 0.0 && weight < unit;
+            part.faint += faint ? 1 : 0;
+            part.sum += faint ? 0.0 : weight;
+          }
+        });
+        parts[chunk] = part;
+      });
   Bright all;
   for (const Bright& part : parts) {
     all.faint += part.faint;
@@ -72,13 +63,14 @@ struct Scale {
 Scale scale_of(const CellWeights& weights, std::uint64_t total) {
   std::vector<double> sums(chunks_of(weights.count(), kChunk));
   std::vector<double> least(sums.size());
-  for_chunks(weights.count(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
-    WeightSums part;
-    for_blocks(weights, first, end,
-               [&](std::size_t /*first*/, std::span<const double> block) { part.add(block); });
-    sums[chunk] = part.sum();
-    least[chunk] = part.least_positive();
-  });
+  parallel_chunks(
+      weights.count(), kChunk, [&](std::size_t chunk, std::size_t first, std::size_t end) {
+        WeightSums part;
+        for_blocks(weights, first, end,
+                   [&](std::size_t /*first*/, std::span<const double> block) { part.add(block); });
+        sums[chunk] = part.sum();
+        least[chunk] = part.least_positive();
+      });
   const double sum = WeightSums(sums).sum();
   const double unit = sum / static_cast<double>(total);
   const bool any_faint = *std::ranges::min_element(least) < unit;
@@ -149,12 +141,13 @@ TableVector<std::uint64_t> whole_masses(const CellWeights& weights, unsigned bit
   TableVector<std::uint64_t> masses(weights.count());
   std::vector<std::size_t> largest(chunks_of(weights.count(), kChunk));
   std::vector<std::int64_t> sums(largest.size());
-  for_chunks(weights.count(), [&](std::size_t chunk, std::size_t first, std::size_t end) {
-    const Rounded rounded =
-        round_masses(weights, scale, first, std::span(masses).subspan(first, end - first));
-    largest[chunk] = rounded.largest;
-    sums[chunk] = rounded.sum;
-  });
+  parallel_chunks(
+      weights.count(), kChunk, [&](std::size_t chunk, std::size_t first, std::size_t end) {
+        const Rounded rounded =
+            round_masses(weights, scale, first, std::span(masses).subspan(first, end - first));
+        largest[chunk] = rounded.largest;
+        sums[chunk] = rounded.sum;
+      });
   const std::int64_t sum = std::accumulate(sums.begin(), sums.end(), std::int64_t{0});
   share_out(static_cast<std::int64_t>(total) - sum, std::uint64_t{1} << bits, largest, masses);
   return masses;
@@ -164,13 +157,14 @@ AliasSweep::AliasSweep(std::span<const std::uint64_t> masses, unsigned bits)
     : masses_(masses),
       full_(std::uint64_t{1} << bits),
       before_(chunks_of(masses.size(), kStretch) + 1) {
-  for_chunks(masses.size(), [&](std::size_t /*task*/, std::size_t first, std::size_t end) {
-    static_assert(kChunk % kStretch == 0);
-    for (std::size_t cell = first; cell < end; cell += kStretch) {
-      before_[cell / kStretch] =
-          balance_of(masses_.subspan(cell, std::min(end - cell, kStretch)), full_);
-    }
-  });
+  parallel_chunks(masses.size(), kChunk,
+                  [&](std::size_t /*task*/, std::size_t first, std::size_t end) {
+                    static_assert(kChunk % kStretch == 0);
+                    for (std::size_t cell = first; cell < end; cell += kStretch) {
+                      before_[cell / kStretch] =
+                          balance_of(masses_.subspan(cell, std::min(end - cell, kStretch)), full_);
+                    }
+                  });
   Balance sum{0, 0};
   for (Balance& stretch : before_) {  // the last is still zero
     const Balance before = sum;

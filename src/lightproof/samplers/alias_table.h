@@ -72,9 +72,10 @@ class AliasSweep {
   /// The same, but columns that share their alias go to take_run(AliasRun) where they are many.
   template <class Take, class TakeRun>
   void for_columns(const Take& take, const TakeRun& take_run) const {
-    parallel_for((masses_.size() + kTask - 1) / kTask, [&](std::size_t task) {
-      sweep(task * kTask, std::min(masses_.size(), (task + 1) * kTask), take, take_run);
-    });
+    parallel_chunks(masses_.size(), kTask,
+                    [&](std::size_t /*task*/, std::size_t first, std::size_t end) {
+                      sweep(first, end, take, take_run);
+                    });
   }
 
  private:

@@ -20,16 +20,6 @@
 
 namespace lightproof {
 
-/// Masses of which at most 2^bits are different.
-struct MassPalette {
-  std::vector<std::uint64_t> masses;
-  std::vector<std::uint16_t> codes;  ///< of every texel, indices of `masses`
-
-  /// Rounds masses; their sum stays what it was, and what is positive stays so. 11 to 16
-  /// bits; fewer only if there are no more masses than codes.
-  MassPalette(std::span<const std::uint64_t> exact, unsigned bits);
-};
-
 /// Where the parts of a word lie, from the lowest bit: alias, alias's code, own code, threshold.
 struct PackedAliasLayout {
   unsigned code_bits;
