@@ -1,8 +1,10 @@
 // Batches give the texels of the scalar interface, whatever vectors the processor has.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "lightproof/core/large_pages.h"
@@ -11,6 +13,7 @@
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/registry.h"
 #include "tests/core/kinds_of_vectors.h"
+#include "tests/samplers/hostile_points.h"
 
 namespace lightproof {
 namespace {
@@ -74,6 +77,31 @@ TEST_P(Batch, GivesTheTexelsOfTheScalarInterface) {
             },
             any);
       }
+    }
+  }
+}
+
+TEST_P(Batch, GivesTheTexelsAtEveryKnotAndBesideIt) {
+  for (const std::string_view map_name : {"sun-sky", "black-first-row", "step"}) {
+    for (const Extent extent : {Extent{2, 1}, Extent{1, 5}, Extent{3, 2}, Extent{33, 65}}) {
+      const EnvironmentMap map = make_synthetic_map(map_name, extent);
+      const CdfTable table(map, {Weighting::A, GetParam().grey});
+      std::vector<SquarePoint> points = test::hostile_points_of_rows(table);
+      std::ranges::copy(test::hostile_points(table), std::back_inserter(points));
+      const AnySampler any = GetParam().make(map, Weighting::A);
+      std::visit(
+          [&](const auto& sampler) {
+            for_each_kind_of_vector([&](const char* vectors) {
+              SCOPED_TRACE(testing::Message() << map_name << " " << extent.width << " x "
+                                              << extent.height << ", " << vectors);
+              std::vector<TexelSample> samples(points.size());
+              sample(sampler, points, samples);
+              for (std::size_t i = 0; i < points.size() && !HasFailure(); ++i) {
+                expect_same(samples[i], sampler.sample(points[i]), Weighting::A);
+              }
+            });
+          },
+          any);
     }
   }
 }

@@ -5,32 +5,18 @@
 #include <vector>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
 #include "lightproof/image/look_up.h"
 #include "lightproof/image/synthetic.h"
+#include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/registry.h"
 #include "reference/slow_sampler.h"
 #include "reference/texel_masses.h"
+#include "tests/samplers/hostile_points.h"
 
 namespace lightproof {
 namespace {
-
-constexpr double kLastBelowOne = 1.0 - 0x1p-53;
-
-std::vector<SquarePoint> hostile_points(const CdfTable& table) {
-  std::vector<SquarePoint> points;
-  std::vector<double> edges = {0.0, 0x1p-60, 0x1p-31, 0.5, 1.0 - 0x1p-24, kLastBelowOne};
-  for (const std::uint32_t knot : table.rows()) {
-    const double u = knot * 0x1p-31;
-    for (const double v : {std::nextafter(u, 0.0), u, std::nextafter(u, 1.0)}) {
-      if (v < 1.0) edges.push_back(v);
-    }
-  }
-  for (const double s : edges) {
-    for (const double t : edges) points.push_back({s, t});
-  }
-  return points;
-}
 
 class InversionOnMaps : public testing::TestWithParam<std::tuple<std::string_view, Weighting>> {
  protected:
@@ -45,7 +31,7 @@ TEST_P(InversionOnMaps, EverySearchReturnsTheSameTexelAndPlace) {
     const BinarySearch search(map, {weighting, kRec709});
     const Eytzinger tree(map, {weighting, kRec709});
     const GuideTable guide(map, {weighting, kRec709});
-    std::vector<SquarePoint> points = hostile_points(scan.table());
+    std::vector<SquarePoint> points = test::hostile_points(scan.table());
     const RandomStream stream("every search", 1);
     for (std::uint64_t i = 0; i < 10000; ++i) points.push_back(stream.point(i));
     for (const SquarePoint u : points) {
@@ -64,7 +50,8 @@ TEST_P(InversionOnMaps, SamplesOfEverySoundSamplerStayInsideATexelWithLight) {
   const auto [name, weighting] = GetParam();
   for (const Extent extent : kSizes) {
     const EnvironmentMap map = make_synthetic_map(name, extent);
-    const std::vector<SquarePoint> points = hostile_points(CdfTable(map, {weighting, kRec709}));
+    const std::vector<SquarePoint> points =
+        test::hostile_points(CdfTable(map, {weighting, kRec709}));
     for (const SamplerInfo& info : samplers()) {
       if (info.known_defects) continue;
       SCOPED_TRACE(info.name);
@@ -170,6 +157,27 @@ TEST(Registry, NamesAreUniqueAndFoundAgain) {
     EXPECT_EQ(&sampler_by_name(info.name), &info);
   }
   EXPECT_THROW(sampler_by_name("no such sampler"), InputError);
+}
+
+// Of several tasks each.
+TEST(Registry, TablesAreTheSameForAnyNumberOfThreads) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {601, 301});
+  const RandomStream stream("threads", 1);
+  for (const SamplerInfo& info : samplers()) {
+    const auto draw = [&] {
+      std::vector<TexelSample> samples(20'000);
+      const AnySampler any = info.make(map, Weighting::B);
+      std::visit([&](const auto& sampler) { sample(sampler, stream, 0, samples); }, any);
+      return samples;
+    };
+    const std::vector<TexelSample> by_all = draw();
+    const ThreadLimit one(1);
+    const std::vector<TexelSample> by_one = draw();
+    for (std::size_t i = 0; i < by_all.size(); ++i) {
+      ASSERT_EQ(by_all[i].at, by_one[i].at) << info.name;
+      ASSERT_EQ(by_all[i].pdf.value, by_one[i].pdf.value) << info.name;
+    }
+  }
 }
 
 TEST(Registry, EverySamplerDrawsFromEveryMap) {

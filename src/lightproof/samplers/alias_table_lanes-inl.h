@@ -42,12 +42,8 @@ class AliasTableLanes {
                   sizeof block.entry[i]);
     }
     for_vectors(count, [&](std::size_t i) HWY_ATTR {
-      const auto* halves = reinterpret_cast<const std::int64_t*>(block.entry + i);
-      const Int even = load(halves);
-      const Int odd = load(halves + hn::Lanes(Whole()));
-      const Int column = hn::ConcatEven(Whole(), odd, even);  // threshold and alias
-      const Int masses =
-          hn::ConcatOdd(Whole(), odd, even);  // of the column's own cell and of the alias
+      // Threshold and alias; the masses of the column's own cell and of the alias.
+      const auto [column, masses] = load_pairs(block.entry + i);
       const Number share = hn::Mul(to_number(low_half(column)), number(0x1p-31));
       const Number u = load(choice + i);
       const Which own = hn::Lt(u, share);

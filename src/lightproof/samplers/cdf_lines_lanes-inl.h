@@ -40,7 +40,7 @@ class CdfLinesLanes {
       const Half wide = to_half(hn::Mul(load(u + i), number(kWideOne)));
       const Half most = hn::Set(Halves(), CdfLines::Narrow::kLast - 1);
       store(wide, block.wide + i);
-      store(hn::Min(hn::ShiftRight<15>(wide), most), block.narrow + i);
+      store(hn::Min(hn::ShiftRight<kFinerBits>(wide), most), block.narrow + i);
     });
     std::array<std::uint16_t, kBatchBlock> wide;
     std::size_t wides = 0;
@@ -70,6 +70,7 @@ class CdfLinesLanes {
  private:
   static constexpr std::uint32_t kNarrowOne = 1U << 16U;
   static constexpr double kWideOne = 0x1p31;
+  static constexpr int kFinerBits = 15;  ///< that wide knots have and narrow ones have not
 
   HWY_INLINE const CdfLines::Narrow& narrow(std::int64_t offset) const {
     return view_.narrow[static_cast<std::size_t>(offset) / sizeof(CdfLines::Narrow)];
@@ -81,7 +82,8 @@ class CdfLinesLanes {
     const Int upper = hn::And(hn::ShiftRight<16>(pair), whole(0xffff));
     const Int high =
         hn::IfThenElse(hn::Eq(upper, whole(CdfLines::Narrow::kLast)), whole(kNarrowOne), upper);
-    store(hn::Or(hn::ShiftLeft<15>(hn::And(pair, whole(0xffff))), hn::ShiftLeft<47>(high)),
+    store(hn::Or(hn::ShiftLeft<kFinerBits>(hn::And(pair, whole(0xffff))),
+                 hn::ShiftLeft<32 + kFinerBits>(high)),
           block.knots + i);
   }
 

@@ -18,7 +18,7 @@ class GuidedLanes {
   struct Block : CdfCells {
     alignas(64) std::int64_t part[kBatchBlock];     ///< of the guides of rows, then of columns
     alignas(64) std::int64_t columns[kBatchBlock];  ///< where the knots of the row's columns begin
-    alignas(64) std::int64_t knots[kBatchBlock];    ///< and where those of a part begin
+    alignas(64) std::int64_t first_knot[kBatchBlock];  ///< and where those of a part begin
   };
 
   GuidedLanes(const CdfTable::View& table, const GuidedKnots::View& guides)
@@ -53,8 +53,8 @@ class GuidedLanes {
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint16_t first = guides_.columns.first[block.part[i]];
       block.x[i] = first;
-      block.knots[i] = block.columns[i] + first;
-      const std::uint32_t* knots = table_.columns + block.knots[i];
+      block.first_knot[i] = block.columns[i] + first;
+      const std::uint32_t* knots = table_.columns + block.first_knot[i];
       __builtin_prefetch(knots);
       __builtin_prefetch(knots + kKnots - 1);
     }
@@ -62,7 +62,7 @@ class GuidedLanes {
 
   HWY_INLINE void choose_columns(Block& block, std::size_t count) const {
     Knots knots;
-    for (std::size_t i = 0; i < count; ++i) knots.read(i, table_.columns + block.knots[i]);
+    for (std::size_t i = 0; i < count; ++i) knots.read(i, table_.columns + block.first_knot[i]);
     find_cells(guides_.columns, count, knots, {block.whole_s, block.part, block.x, block.column},
                [&](std::size_t i) HWY_ATTR { return table_.columns + block.columns[i]; });
   }
@@ -85,7 +85,7 @@ class GuidedLanes {
   };
 
   /// What is looked for, and what is found.
-  struct Search {
+  struct Wanted {
     const std::int32_t* whole;
     const std::int64_t* part;
     std::int64_t* cell;   ///< that the part begins in, then the one that is sought
@@ -96,32 +96,28 @@ class GuidedLanes {
   /// none of them. knots_of(i): where the knots of that sample's distribution begin.
   template <class KnotsOf>
   static HWY_INLINE void find_cells(const Guides::View& guides, std::size_t count,
-                                    const Knots& first_knots, const Search& search,
+                                    const Knots& first_knots, const Wanted& wanted,
                                     const KnotsOf& knots_of) {
     Marks others;
     for_vectors(count, [&](std::size_t i) HWY_ATTR {
-      others.set(i, choose(first_knots.of + kKnots * i, search, i));
+      others.set(i, choose(first_knots.of + kKnots * i, wanted, i));
     });
     others.for_each(count, [&](std::size_t i) HWY_ATTR {
-      const auto from = static_cast<std::size_t>(search.cell[i]);
-      const auto part = static_cast<std::size_t>(search.part[i]);
+      const auto from = static_cast<std::size_t>(wanted.cell[i]);
+      const auto part = static_cast<std::size_t>(wanted.part[i]);
       const std::uint32_t* knots = knots_of(i);
       const std::size_t cell =
-          guides.find_from(from, part, knots, static_cast<std::uint32_t>(search.whole[i]));
-      search.cell[i] = static_cast<std::int64_t>(cell);
-      std::memcpy(search.knots + i, knots + cell, sizeof search.knots[i]);
+          guides.find_from(from, part, knots, static_cast<std::uint32_t>(wanted.whole[i]));
+      wanted.cell[i] = static_cast<std::int64_t>(cell);
+      std::memcpy(wanted.knots + i, knots + cell, sizeof wanted.knots[i]);
     });
   }
 
   /// Returns which samples lie in a cell after these.
-  static HWY_INLINE hn::Mask<Whole> choose(const std::uint32_t* four, const Search& search,
+  static HWY_INLINE hn::Mask<Whole> choose(const std::uint32_t* four, const Wanted& wanted,
                                            std::size_t i) {
-    const auto* pairs = reinterpret_cast<const std::int64_t*>(four);
-    const Int even = load(pairs);
-    const Int odd = load(pairs + hn::Lanes(Whole()));
-    const Int first = hn::ConcatEven(Whole(), odd, even);  // knots 0 and 1
-    const Int last = hn::ConcatOdd(Whole(), odd, even);    // knots 2 and 3
-    const Int u = hn::PromoteTo(Whole(), load(search.whole + i));
+    const auto [first, last] = load_pairs(four);  // knots 0 and 1; knots 2 and 3
+    const Int u = hn::PromoteTo(Whole(), load(wanted.whole + i));
     // What follows the last knot of all, which is above u, may be anything.
     const auto after_first = hn::Not(hn::Gt(high_half(first), u));
     const auto after_second = hn::And(after_first, hn::Not(hn::Gt(low_half(last), u)));
@@ -129,9 +125,9 @@ class GuidedLanes {
     const Int middle = hn::Or(high_half(first), hn::ShiftLeft<32>(last));
     const Int steps =
         hn::Add(hn::VecFromMask(Whole(), after_first), hn::VecFromMask(Whole(), after_second));
-    store(hn::Sub(load(search.cell + i), steps), search.cell + i);
+    store(hn::Sub(load(wanted.cell + i), steps), wanted.cell + i);
     store(hn::IfThenElse(after_second, last, hn::IfThenElse(after_first, middle, first)),
-          search.knots + i);
+          wanted.knots + i);
     return after_third;
   }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "lightproof/core/large_pages.h"
 #include "lightproof/samplers/alias_table.h"
 #include "lightproof/samplers/sampler.h"
 #include "lightproof/samplers/texel_places.h"
@@ -85,9 +86,11 @@ class Hierarchical {
     return {is_low ? 0 : 1, is_low ? share : high / (low + high), rest_of_choice(u, share)};
   }
 
+  void set_sums(const Level& level, const Grid<double>& sums, double scale);
+
   TexelPlaces places_;
   std::vector<Level> levels_;  ///< from the coarsest to the texels
-  std::vector<float> sums_;    ///< over the mean texel
+  TableVector<float> sums_;    ///< over the mean texel
 };
 static_assert(EnvSampler<Hierarchical>);
 

@@ -91,6 +91,19 @@ HWY_INLINE void read_words(const void* base, const std::int64_t* offsets, std::s
   }
 }
 
+/// Of items of two 64-bit words each.
+struct WordPairs {
+  Int first;
+  Int second;
+};
+/// A vector of items; aligned like a vector.
+HWY_INLINE WordPairs load_pairs(const void* items) {
+  const auto* words = static_cast<const std::int64_t*>(items);
+  const Int even = load(words);
+  const Int odd = load(words + hn::Lanes(Whole()));
+  return {hn::ConcatEven(Whole(), odd, even), hn::ConcatOdd(Whole(), odd, even)};
+}
+
 /// What is left of a uniform number that has chosen the part below or above `share`; see
 /// rest_of_choice of the scalar code.
 HWY_INLINE Number rest_of_choice(Number choice, Number share, Which below) {
