@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <ostream>
+#include <string>
 #include <vector>
 
 #include "lightproof/core/large_pages.h"
@@ -16,6 +18,10 @@
 #include "tests/samplers/hostile_points.h"
 
 namespace lightproof {
+
+/// For messages of parameterised tests.
+void PrintTo(const SamplerInfo& info, std::ostream* out) { *out << info.name; }
+
 namespace {
 
 /// Off by the rounding of vectorised sines and arc sines, some 10^-15 of a quarter circle each, in
