@@ -5,7 +5,6 @@
 // grey values. All others get their memory fresh. Counter: build_ms.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <array>
@@ -24,18 +23,9 @@
 namespace lightproof::bench {
 namespace {
 
-/// Every build gets its memory from the system, as in a program that builds a table once. Left to
-/// itself the heap keeps blocks of up to 32 MB as soon as one of that size has been freed, and what
-/// ran before decides what a build takes (Vose's of 2048x1024 texels: 13 or 27 ms).
-void keep_no_freed_memory() {
-  constexpr int kFromTheSystem = 128 << 10;  // bytes: glibc's own threshold, but fixed
-  mallopt(M_MMAP_THRESHOLD, kFromTheSystem);
-}
-
 template <class Build>
 void time_builds(benchmark::State& state, const Build& build) {
-  keep_no_freed_memory();
-  build();  // which touches memory that the system has to find first
+  build();  // which brings in the map, and starts the threads
   const auto start = std::chrono::steady_clock::now();
   for (auto _ : state) build();
   const std::chrono::duration<double, std::milli> elapsed =

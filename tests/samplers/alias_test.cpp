@@ -13,6 +13,7 @@
 #include "lightproof/warp/lat_long.h"
 #include "reference/texel_masses.h"
 #include "tests/core/kinds_of_vectors.h"
+#include "tests/samplers/parts.h"
 
 namespace lightproof {
 namespace {
@@ -212,55 +213,74 @@ TEST(AliasTable, EntriesAreTheColumnsOfTheSweep) {
 
 TEST(MassPalette, SmallMapsKeepEveryMass) {
   const Masses exact = {5, 0, 123456789, 7};
-  Masses cells = exact;
-  const MassPalette palette(cells, 2);
-  EXPECT_EQ(cells, exact);
+  const MassPalette palette(exact, 2);
+  EXPECT_EQ(palette.cells, exact);
   ASSERT_EQ(palette.codes.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {
     EXPECT_EQ(palette.masses[palette.codes[i]], exact[i]);
   }
 }
 
+/// That it has masses for so many bits, and that they differ from the exact ones by so much of
+/// these; the same on one thread.
+void expect_palette_of(const Masses& exact, unsigned bits, double worst_error) {
+  const MassPalette palette(exact, bits);
+  EXPECT_LE(palette.masses.size(), std::size_t{1} << bits);
+  {
+    const ThreadLimit one(1);
+    const MassPalette by_one(exact, bits);
+    EXPECT_TRUE(by_one.cells == palette.cells);
+    EXPECT_TRUE(by_one.codes == palette.codes);
+  }
+  double worst = 0.0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const std::uint64_t rounded = palette.cells[i];
+    ASSERT_EQ(rounded, palette.masses[palette.codes[i]]) << "cell " << i;
+    ASSERT_EQ(rounded > 0, exact[i] > 0) << "cell " << i;
+    if (exact[i] == 0) continue;
+    worst = std::max(worst,
+                     std::abs(static_cast<double>(rounded) / static_cast<double>(exact[i]) - 1.0));
+  }
+  EXPECT_EQ(sum_of(palette.cells), sum_of(exact));
+  EXPECT_LT(worst, worst_error);
+}
+
+/// Of masses rounded to so many binary digits: a step of the smallest.
+double step_at(int digits) { return std::ldexp(1.0, 1 - digits); }
+
 TEST(MassPalette, RoundsByLittleAndLosesNothing) {
   for (const std::string_view name : {"constant", "sun-sky", "gradient", "checker", "one-texel"}) {
     const std::vector<double> weights = weights_of(name, {600, 300});  // of several tasks
     for (const unsigned bits : {13U, 31U}) {
-      const Masses exact = masses_of(weights, bits);
-      Masses rounded = exact;
-      const MassPalette palette(rounded, 13);
-      EXPECT_LE(palette.masses.size(), 1U << 13U);
-      Masses rounded_by_one = exact;
-      const ThreadLimit one(1);
-      EXPECT_TRUE(MassPalette(rounded_by_one, 13).codes == palette.codes);
-      EXPECT_TRUE(rounded_by_one == rounded);
-      double worst = 0.0;
-      for (std::size_t i = 0; i < exact.size(); ++i) {
-        ASSERT_EQ(rounded[i], palette.masses[palette.codes[i]]) << name << ", texel " << i;
-        EXPECT_EQ(rounded[i] > 0, exact[i] > 0) << name << ", texel " << i;
-        if (exact[i] == 0) continue;
-        worst = std::max(
-            worst, std::abs(static_cast<double>(rounded[i]) / static_cast<double>(exact[i]) - 1.0));
-      }
-      EXPECT_EQ(sum_of(rounded), sum_of(exact)) << name;
-      // A step at nine digits.
-      EXPECT_LT(worst, 1.0 / 256.0) << name << ", " << bits << " bits";
+      SCOPED_TRACE(testing::Message() << name << ", " << bits << " bits");
+      expect_palette_of(masses_of(weights, bits), 13, step_at(12));
     }
   }
 }
 
-TEST(MassPalette, HasNoMoreMassesThanCodes) {
-  for (const std::string_view name : {"constant", "gradient"}) {
-    Masses cells = masses_of(weights_of(name, {600, 300}), 31);
-    EXPECT_LE(MassPalette(cells, 11).masses.size(), 1U << 11U) << name;
+// On maps with more brightnesses than codes masses have fewer digits.
+TEST(MassPalette, RoundsToAsManyDigitsAsThereAreCodesFor) {
+  expect_palette_of(masses_of(weights_of("cosine-lobe", {600, 300}), 31), 13, step_at(10));
+  expect_palette_of(masses_of(weights_of("cosine-lobe", {600, 300}), 31), 11, step_at(7));
+  expect_palette_of(masses_of(weights_of("black-first-row", {600, 300}), 31), 11, step_at(10));
+}
+
+// Where cells are counted in parts of several tasks each.
+TEST(MassPalette, OfManyCellsRoundsByLittleToo) {
+  constexpr std::size_t kCells = 1'200'000;
+  std::vector<double> weights;
+  const RandomStream stream("palette", 1);
+  for (std::size_t i = 0; i < kCells; ++i) {
+    weights.push_back(std::exp2(20.0 * stream.point(i).s));  // log-uniform
   }
+  expect_palette_of(masses_of(weights, 13), 13, step_at(9));
 }
 
 // Rounded up and down by turns: no stretch of the map gains or loses more than a step of each
 // brightness, which are half as large from one octave to the next.
 TEST(MassPalette, StretchesKeepTheirMass) {
   const Masses exact = masses_of(weights_of("gradient", {600, 300}), 31);
-  Masses rounded = exact;
-  const MassPalette palette(rounded, 13);
+  const Masses rounded = MassPalette(exact, 13).cells;
   std::vector<std::int64_t> steps;
   for (std::size_t i = 0; i < exact.size(); ++i) {
     steps.push_back(static_cast<std::int64_t>(rounded[i] - exact[i]));
@@ -286,17 +306,10 @@ Grid<double> drawn_masses(const Sampler& sampler, Extent extent, std::size_t col
       const TexelSample sample = sampler.sample({s, t});
       return std::pair(sample.x, sample.y);
     };
-    for (double start = 0.0; start < 1.0;) {
-      const auto [x, y] = texel(start);
-      double inside = start;
-      double outside = 1.0;
-      while (std::nextafter(inside, 1.0) < outside) {
-        const double middle = 0.5 * (inside + outside);
-        (texel(middle) == std::pair(x, y) ? inside : outside) = middle;
-      }
-      masses(x, y) += (outside - start) / static_cast<double>(columns);
-      start = outside;
-    }
+    test::for_parts(0.0, 1.0, texel, [&](const test::Part& part) {
+      const auto [x, y] = texel(part.first);
+      masses(x, y) += (part.end - part.first) / static_cast<double>(columns);
+    });
   }
   return masses;
 }
@@ -305,26 +318,13 @@ Grid<double> drawn_masses(const Sampler& sampler, Extent extent, std::size_t col
 template <class Sampler>
 Grid<double> drawn_by_inversion(const Sampler& sampler, Extent extent) {
   Grid<double> masses(extent);
-  /// visit(middle, length) of each part of [0,1) that leads to the same cell.
-  const auto parts = [](const auto& cell, const auto& visit) {
-    for (double start = 0.0; start < 1.0;) {
-      const int here = cell(start);
-      double inside = start;
-      double outside = 1.0;
-      while (std::nextafter(inside, 1.0) < outside) {
-        const double middle = 0.5 * (inside + outside);
-        (cell(middle) == here ? inside : outside) = middle;
-      }
-      visit(0.5 * (start + inside), outside - start);
-      start = outside;
-    }
-  };
   const auto row = [&](double t) { return sampler.sample({0.5, t}).y; };
-  parts(row, [&](double t, double height) {
+  test::for_parts(0.0, 1.0, row, [&](const test::Part& height) {
+    const double t = 0.5 * (height.first + height.last);
     const auto column = [&](double s) { return sampler.sample({s, t}).x; };
-    parts(column, [&](double s, double width) {
-      const TexelSample sample = sampler.sample({s, t});
-      masses(sample.x, sample.y) += width * height;
+    test::for_parts(0.0, 1.0, column, [&](const test::Part& width) {
+      const TexelSample sample = sampler.sample({0.5 * (width.first + width.last), t});
+      masses(sample.x, sample.y) += (width.end - width.first) * (height.end - height.first);
     });
   });
   return masses;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <iterator>
 #include <ostream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -87,27 +88,45 @@ TEST_P(Batch, GivesTheTexelsOfTheScalarInterface) {
   }
 }
 
-TEST_P(Batch, GivesTheTexelsAtEveryKnotAndBesideIt) {
+/// Under weighting A, with every kind of vector.
+template <class Sampler>
+void expect_same_as_one_by_one(const Sampler& sampler, std::span<const SquarePoint> points) {
+  for_each_kind_of_vector([&](const char* vectors) {
+    SCOPED_TRACE(vectors);
+    std::vector<TexelSample> samples(points.size());
+    sample(sampler, points, samples);
+    for (std::size_t i = 0; i < points.size() && !testing::Test::HasFailure(); ++i) {
+      expect_same(samples[i], sampler.sample(points[i]), Weighting::A);
+    }
+  });
+}
+
+TEST_P(Batch, GivesTheTexelsAtEveryKnotOfTheSumsAndBesideIt) {
   for (const std::string_view map_name : {"sun-sky", "black-first-row", "step"}) {
     for (const Extent extent : {Extent{2, 1}, Extent{1, 5}, Extent{3, 2}, Extent{33, 65}}) {
+      SCOPED_TRACE(testing::Message() << map_name << " " << extent.width << " x " << extent.height);
       const EnvironmentMap map = make_synthetic_map(map_name, extent);
       const CdfTable table(map, {Weighting::A, GetParam().grey});
       std::vector<SquarePoint> points = test::hostile_points_of_rows(table);
       std::ranges::copy(test::hostile_points(table), std::back_inserter(points));
-      const AnySampler any = GetParam().make(map, Weighting::A);
+      std::visit([&](const auto& sampler) { expect_same_as_one_by_one(sampler, points); },
+                 GetParam().make(map, Weighting::A));
+    }
+  }
+}
+
+// Thresholds of alias tables, knots of lines, edges of texels, whatever the sampler has.
+TEST_P(Batch, GivesTheTexelsOnBothSidesOfEveryChange) {
+  for (const std::string_view map_name : {"sun-sky", "black-first-row", "step"}) {
+    for (const Extent extent : {Extent{1, 5}, Extent{3, 2}, Extent{37, 9}}) {
+      SCOPED_TRACE(testing::Message() << map_name << " " << extent.width << " x " << extent.height);
+      const EnvironmentMap map = make_synthetic_map(map_name, extent);
       std::visit(
           [&](const auto& sampler) {
-            for_each_kind_of_vector([&](const char* vectors) {
-              SCOPED_TRACE(testing::Message() << map_name << " " << extent.width << " x "
-                                              << extent.height << ", " << vectors);
-              std::vector<TexelSample> samples(points.size());
-              sample(sampler, points, samples);
-              for (std::size_t i = 0; i < points.size() && !HasFailure(); ++i) {
-                expect_same(samples[i], sampler.sample(points[i]), Weighting::A);
-              }
-            });
+            expect_same_as_one_by_one(sampler,
+                                      test::points_beside_changes(sampler, extent.count()));
           },
-          any);
+          GetParam().make(map, Weighting::A));
     }
   }
 }

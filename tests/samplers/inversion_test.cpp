@@ -159,16 +159,37 @@ TEST(Registry, NamesAreUniqueAndFoundAgain) {
   EXPECT_THROW(sampler_by_name("no such sampler"), InputError);
 }
 
+/// Drawn from every column of a table of so many, twice.
+std::vector<TexelSample> samples_of_all_columns(const AnySampler& any, std::size_t columns) {
+  std::vector<SquarePoint> points;
+  for (std::size_t column = 0; column < columns; ++column) {
+    const double s = (static_cast<double>(column) + 0.5) / static_cast<double>(columns);
+    for (const double t : {0.01, 0.99}) points.push_back({s, t});
+  }
+  std::vector<TexelSample> samples(points.size());
+  std::visit([&](const auto& sampler) { sample(sampler, points, samples); }, any);
+  return samples;
+}
+
+/// With the density of every texel, at its centre.
+std::vector<TexelSample> whole_table(const AnySampler& any, Extent extent) {
+  std::vector<TexelSample> samples = samples_of_all_columns(any, extent.count());
+  for (int y = 0; y < extent.height; ++y) {
+    for (int x = 0; x < extent.width; ++x) {
+      const SquarePoint at = {(x + 0.5) / extent.width, (y + 0.5) / extent.height};
+      const PerSquare pdf = std::visit([&](const auto& sampler) { return sampler.pdf(at); }, any);
+      samples.push_back({at, x, y, pdf});
+    }
+  }
+  return samples;
+}
+
 // Of several tasks each.
 TEST(Registry, TablesAreTheSameForAnyNumberOfThreads) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {601, 301});
-  const RandomStream stream("threads", 1);
   for (const SamplerInfo& info : samplers()) {
     const auto draw = [&] {
-      std::vector<TexelSample> samples(20'000);
-      const AnySampler any = info.make(map, Weighting::B);
-      std::visit([&](const auto& sampler) { sample(sampler, stream, 0, samples); }, any);
-      return samples;
+      return whole_table(info.make(map, Weighting::A), map.radiance.extent());
     };
     const std::vector<TexelSample> by_all = draw();
     const ThreadLimit one(1);

@@ -14,6 +14,9 @@ namespace lightproof {
 /// tasks are then abandoned with Interrupted, which goes no further.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
+/// Items of one task where each is a cell of a table: some 100 microseconds of work.
+inline constexpr std::size_t kTaskCells = std::size_t{1} << 16U;
+
 /// How many chunks of `size` items there are.
 inline std::size_t chunks_of(std::size_t items, std::size_t size) {
   return (items + size - 1) / size;

@@ -1,3 +1,4 @@
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -78,11 +79,11 @@ HWY_EXPORT(entries_front);
 
 void write_entries(const AliasRun& run, double unit, float alias_mass,
                    std::span<AliasTable::Entry> entries) {
+  assert(entries.size() == run.masses.size());
   std::size_t i = HWY_DYNAMIC_DISPATCH(entries_front)(run, unit, alias_mass, entries.data());
   for (; i < entries.size(); ++i) {
     const AliasColumn column = run.column(i, std::uint64_t{1} << AliasTable::kBits);
-    const auto own =
-        static_cast<float>(unit * static_cast<double>(static_cast<std::int64_t>(run.masses[i])));
+    const float own = to_probability(run.masses[i], unit);
     entries[i] = {static_cast<std::uint32_t>(column.threshold),
                   static_cast<std::uint32_t>(column.alias), own,
                   column.alias == run.alias ? alias_mass : own};

@@ -10,8 +10,6 @@
 namespace lightproof {
 namespace {
 
-/// Cells of one task; fixed, so that the split does not depend on the threads.
-constexpr std::size_t kChunk = std::size_t{1} << 16U;
 /// Weights that are looked at while they are in the nearest cache.
 constexpr std::size_t kBlock = 1024;
 
@@ -33,9 +31,9 @@ struct Bright {
 };
 
 Bright bright_of(const CellWeights& weights, double unit) {
-  std::vector<Bright> parts(chunks_of(weights.count(), kChunk));
+  std::vector<Bright> parts(chunks_of(weights.count(), kTaskCells));
   parallel_chunks(
-      weights.count(), kChunk, [&](std::size_t chunk, std::size_t first, std::size_t end) {
+      weights.count(), kTaskCells, [&](std::size_t chunk, std::size_t first, std::size_t end) {
         Bright part;
         for_blocks(weights, first, end, [&](std::size_t /*first*/, std::span<const double> block) {
           for (const double weight : block) {
@@ -61,10 +59,10 @@ struct Scale {
 };
 
 Scale scale_of(const CellWeights& weights, std::uint64_t total) {
-  std::vector<double> sums(chunks_of(weights.count(), kChunk));
+  std::vector<double> sums(chunks_of(weights.count(), kTaskCells));
   std::vector<double> least(sums.size());
   parallel_chunks(
-      weights.count(), kChunk, [&](std::size_t chunk, std::size_t first, std::size_t end) {
+      weights.count(), kTaskCells, [&](std::size_t chunk, std::size_t first, std::size_t end) {
         WeightSums part;
         for_blocks(weights, first, end,
                    [&](std::size_t /*first*/, std::span<const double> block) { part.add(block); });
@@ -139,10 +137,10 @@ TableVector<std::uint64_t> whole_masses(const CellWeights& weights, unsigned bit
   const std::uint64_t total = weights.count() << bits;
   const Scale scale = scale_of(weights, total);
   TableVector<std::uint64_t> masses(weights.count());
-  std::vector<std::size_t> largest(chunks_of(weights.count(), kChunk));
+  std::vector<std::size_t> largest(chunks_of(weights.count(), kTaskCells));
   std::vector<std::int64_t> sums(largest.size());
   parallel_chunks(
-      weights.count(), kChunk, [&](std::size_t chunk, std::size_t first, std::size_t end) {
+      weights.count(), kTaskCells, [&](std::size_t chunk, std::size_t first, std::size_t end) {
         const Rounded rounded =
             round_masses(weights, scale, first, std::span(masses).subspan(first, end - first));
         largest[chunk] = rounded.largest;
@@ -157,9 +155,8 @@ AliasSweep::AliasSweep(std::span<const std::uint64_t> masses, unsigned bits)
     : masses_(masses),
       full_(std::uint64_t{1} << bits),
       before_(chunks_of(masses.size(), kStretch) + 1) {
-  parallel_chunks(masses.size(), kChunk,
+  parallel_chunks(masses.size(), kTask,
                   [&](std::size_t /*task*/, std::size_t first, std::size_t end) {
-                    static_assert(kChunk % kStretch == 0);
                     for (std::size_t cell = first; cell < end; cell += kStretch) {
                       before_[cell / kStretch] =
                           balance_of(masses_.subspan(cell, std::min(end - cell, kStretch)), full_);
@@ -206,10 +203,7 @@ AliasSweep::Filling AliasSweep::start_of(std::size_t stretch) const {
 AliasTable::AliasTable(const CellWeights& weights) : entries_(weights.count()) {
   const TableVector<std::uint64_t> masses = whole_masses(weights, kBits);
   const double unit = kUnit / static_cast<double>(weights.count());
-  const auto probability = [&](std::size_t cell) {
-    // Quicker of signed numbers.
-    return static_cast<float>(unit * static_cast<double>(static_cast<std::int64_t>(masses[cell])));
-  };
+  const auto probability = [&](std::size_t cell) { return to_probability(masses[cell], unit); };
   const auto take = [&](std::size_t cell, const AliasColumn& column) {
     entries_[cell] = {static_cast<std::uint32_t>(column.threshold),
                       static_cast<std::uint32_t>(column.alias), probability(cell),

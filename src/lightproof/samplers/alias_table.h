@@ -43,7 +43,7 @@ struct AliasColumn {
 struct AliasRun {
   std::size_t first;
   std::span<const std::uint64_t> masses;
-  std::size_t alias;
+  std::size_t alias;  ///< if no cell is above the average, and so none below it: how many there are
 
   AliasColumn column(std::size_t i, std::uint64_t full) const {
     return masses[i] < full ? AliasColumn{masses[i], alias} : AliasColumn{0, first + i};
@@ -69,7 +69,8 @@ class AliasSweep {
       }
     });
   }
-  /// The same, but columns that share their alias go to take_run(AliasRun) where they are many.
+  /// The same, but where one alias is enough for a whole stretch, its columns go to
+  /// take_run(AliasRun) together.
   template <class Take, class TakeRun>
   void for_columns(const Take& take, const TakeRun& take_run) const {
     parallel_chunks(masses_.size(), kTask,
@@ -142,12 +143,20 @@ class AliasSweep {
   /// Cells whose balance is known, and cells of one task: fixed, so that the split does not depend
   /// on the threads.
   static constexpr std::size_t kStretch = std::size_t{1} << 9U;
-  static constexpr std::size_t kTask = 128 * kStretch;
+  static constexpr std::size_t kTask = kTaskCells;
+  static_assert(kTask % kStretch == 0);
 
   std::span<const std::uint64_t> masses_;
   std::uint64_t full_;
   std::vector<Balance> before_;  ///< each stretch, of all cells; and of all, at the end
 };
+
+/// The probability of a mass, given that of one unit, as tables store it: rounded to 2^-24 of
+/// itself. Masses below 2^63.
+inline float to_probability(std::uint64_t mass, double unit) {
+  // Quicker of signed numbers.
+  return static_cast<float>(unit * static_cast<double>(static_cast<std::int64_t>(mass)));
+}
 
 /// What is left of a uniform number in [0,1) that has chosen the part below or above `share`: a
 /// uniform one in [0,1).
@@ -198,8 +207,8 @@ class AliasTable {
   TableVector<Entry> entries_;
 };
 
-/// The entries of a run, vectorised; unit is the probability of one unit of mass. The two last are
-/// of one size.
+/// The entries of a run, vectorised; unit is the probability of one unit of mass. As many entries
+/// as the run has masses.
 void write_entries(const AliasRun& run, double unit, float alias_mass,
                    std::span<AliasTable::Entry> entries);
 

@@ -4,10 +4,12 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <functional>
 #include <numeric>
 #include <ranges>
+#include <span>
 #include <utility>
 
 #include "lightproof/core/parallel.h"
@@ -15,8 +17,6 @@
 namespace lightproof {
 namespace {
 
-/// Cells of one task.
-constexpr std::size_t kChunk = std::size_t{1} << 16U;
 /// Cells are counted in so many parts at most, each with numbers of its own.
 constexpr std::size_t kParts = 16;
 /// Cells with a mass of their own.
@@ -62,8 +62,8 @@ struct Census {
 Census census_of(std::span<const std::uint64_t> cells) {
   const Steps finest(kMostDigits);
   Census census = {std::vector<std::size_t>(finest.count()),
-                   std::vector<ByBits>(chunks_of(cells.size(), kChunk))};
-  const std::size_t part_size = chunks_of(census.sums.size(), kParts) * kChunk;
+                   std::vector<ByBits>(chunks_of(cells.size(), kTaskCells))};
+  const std::size_t part_size = chunks_of(census.sums.size(), kParts) * kTaskCells;
   std::vector<std::vector<std::uint32_t>> parts(chunks_of(cells.size(), part_size));
   parallel_chunks(cells.size(), part_size,
                   [&](std::size_t part, std::size_t first, std::size_t end) {
@@ -71,7 +71,7 @@ Census census_of(std::span<const std::uint64_t> cells) {
                     for (std::size_t i = first; i < end; ++i) {
                       const unsigned bits = bits_of(cells[i]);
                       ++counts[finest.key(cells[i], bits)];
-                      census.sums[i / kChunk][bits] += cells[i];
+                      census.sums[i / kTaskCells][bits] += cells[i];
                     }
                     parts[part] = std::move(counts);
                   });
@@ -91,13 +91,15 @@ std::vector<std::size_t> brightest(std::span<const std::uint64_t> cells,
   const Steps finest(kMostDigits);
   const std::uint64_t all_from = finest.mass(key);
   const std::uint64_t some_from = key > 1 ? finest.mass(key - 1) : all_from;
-  std::vector<std::vector<std::size_t>> found(chunks_of(cells.size(), kChunk));
-  parallel_chunks(cells.size(), kChunk, [&](std::size_t chunk, std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i) {
-      if (cells[i] < some_from) continue;
-      if (cells[i] >= all_from || found[chunk].size() < kOwnMasses) found[chunk].push_back(i);
-    }
-  });
+  std::vector<std::vector<std::size_t>> found(chunks_of(cells.size(), kTaskCells));
+  parallel_chunks(cells.size(), kTaskCells,
+                  [&](std::size_t chunk, std::size_t first, std::size_t end) {
+                    for (std::size_t i = first; i < end; ++i) {
+                      if (cells[i] < some_from) continue;
+                      if (cells[i] >= all_from || found[chunk].size() < kOwnMasses)
+                        found[chunk].push_back(i);
+                    }
+                  });
   std::size_t more = kOwnMasses - above;
   std::vector<std::size_t> own;
   for (const std::size_t cell : std::views::join(found)) {
@@ -177,54 +179,66 @@ void round_cells(std::span<std::uint64_t> cells, const Steps& steps, ByBits& car
 /// All but some, which are given in their order.
 void round_all_but(std::span<const std::size_t> own, std::span<std::uint64_t> cells,
                    const Steps& steps, std::span<const ByBits> carries, Marks& used) {
-  parallel_chunks(cells.size(), kChunk, [&](std::size_t chunk, std::size_t first, std::size_t end) {
-    ByBits carry = carries[chunk];
-    auto next = std::ranges::lower_bound(own, first);
-    while (first < end) {
-      const std::size_t stop = next == own.end() ? end : std::min(end, *next);
-      round_cells(cells.subspan(first, stop - first), steps, carry, used);
-      if (stop < end) ++next;
-      first = stop + 1;
-    }
-  });
+  parallel_chunks(cells.size(), kTaskCells,
+                  [&](std::size_t chunk, std::size_t first, std::size_t end) {
+                    ByBits carry = carries[chunk];
+                    auto next = std::ranges::lower_bound(own, first);
+                    while (first < end) {
+                      const std::size_t stop = next == own.end() ? end : std::min(end, *next);
+                      round_cells(cells.subspan(first, stop - first), steps, carry, used);
+                      if (stop < end) ++next;
+                      first = stop + 1;
+                    }
+                  });
 }
 
 }  // namespace
 
-MassPalette::MassPalette(std::span<std::uint64_t> cells, unsigned bits) : codes(cells.size()) {
-  const std::size_t size = std::size_t{1} << bits;
-  if (cells.size() <= size) {
-    masses.assign(cells.begin(), cells.end());
-    std::iota(codes.begin(), codes.end(), std::uint16_t{0});
-    return;
+MassPalette::MassPalette(TableVector<std::uint64_t> exact, unsigned bits)
+    : cells(std::move(exact)), codes(cells.size()) {
+  const std::size_t most = std::size_t{1} << bits;
+  if (cells.size() <= most) {
+    keep_all();
+  } else {
+    assert(bits >= 11 && bits <= 16);
+    round_all(most);
   }
+}
+
+void MassPalette::keep_all() {
+  masses.assign(cells.begin(), cells.end());
+  std::iota(codes.begin(), codes.end(), std::uint16_t{0});
+}
+
+void MassPalette::round_all(std::size_t most) {
   auto [counts, sums] = census_of(cells);
   const std::vector<std::size_t> own = brightest(cells, counts);
-  for (const std::size_t cell : own) sums[cell / kChunk][bits_of(cells[cell])] -= cells[cell];
-  const Steps steps(digits_for(counts, size - kOwnMasses));
+  for (const std::size_t cell : own) sums[cell / kTaskCells][bits_of(cells[cell])] -= cells[cell];
+  const Steps steps(digits_for(counts, most - kOwnMasses));
   const ByBits carry = carry_on(sums, steps);
   Marks used(steps.count());
   round_all_but(own, cells, steps, sums, used);
 
   std::vector<std::uint16_t> code_of(steps.count());
   for (std::size_t key = 0; key < code_of.size(); ++key) {
-    if (!used.has(key)) continue;
-    code_of[key] = static_cast<std::uint16_t>(masses.size());
-    masses.push_back(steps.mass(key));
+    if (used.has(key)) code_of[key] = add(steps.mass(key));
   }
-  parallel_chunks(cells.size(), kChunk,
+  parallel_chunks(cells.size(), kTaskCells,
                   [&](std::size_t /*chunk*/, std::size_t first, std::size_t end) {
-                    for (std::size_t i = first; i < end; ++i) {
+                    for (std::size_t i = first; i < end; ++i)
                       codes[i] = code_of[steps.key(cells[i])];
-                    }
                   });
   const std::uint64_t left = std::accumulate(carry.begin(), carry.end(), std::uint64_t{0});
   for (std::size_t k = 0; k < own.size(); ++k) {
-    const std::uint64_t more = left / own.size() + (k < left % own.size() ? 1 : 0);
-    cells[own[k]] += more;
-    codes[own[k]] = static_cast<std::uint16_t>(masses.size());
-    masses.push_back(cells[own[k]]);
+    cells[own[k]] += left / own.size() + (k < left % own.size() ? 1 : 0);
+    codes[own[k]] = add(cells[own[k]]);
   }
+  assert(masses.size() <= most);
+}
+
+std::uint16_t MassPalette::add(std::uint64_t mass) {
+  masses.push_back(mass);
+  return static_cast<std::uint16_t>(masses.size() - 1);
 }
 
 }  // namespace lightproof

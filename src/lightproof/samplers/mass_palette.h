@@ -3,23 +3,30 @@
 // turns, so that no stretch of cells gains.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "lightproof/core/large_pages.h"
 
 namespace lightproof {
 
-/// Masses of which at most 2^bits are different.
+/// Cells' masses, of which at most 2^bits are different.
 struct MassPalette {
+  TableVector<std::uint64_t> cells;
   std::vector<std::uint64_t> masses;
   TableVector<std::uint16_t> codes;  ///< of every cell, indices of `masses`
 
-  /// Rounds the masses of cells where they are; their sum stays what it was, and what is positive
-  /// stays so. 11 to 16 bits; fewer only if there are no more cells than codes. In parallel, the
-  /// same for any number of threads.
-  MassPalette(std::span<std::uint64_t> cells, unsigned bits);
+  /// Rounds these masses; their sum, below 2^64, stays what it was, and what is positive stays so.
+  /// 11 to 16 bits; fewer only if there are no more cells than codes. In parallel, the same for any
+  /// number of threads.
+  MassPalette(TableVector<std::uint64_t> exact, unsigned bits);
+
+ private:
+  void keep_all();
+  void round_all(std::size_t most);
+  /// Returns its code.
+  std::uint16_t add(std::uint64_t mass);
 };
 
 }  // namespace lightproof

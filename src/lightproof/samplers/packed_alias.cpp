@@ -15,12 +15,10 @@ constexpr unsigned kCodeBits = 13;
 constexpr unsigned kMostThresholdBits = 31;
 constexpr unsigned kWordBits = 64;
 
-unsigned bits_of(std::uint64_t v) { return static_cast<unsigned>(std::bit_width(v)); }
-
 }  // namespace
 
 PackedAliasLayout::PackedAliasLayout(std::size_t texels)
-    : alias_at(std::max(1U, bits_of(texels - 1))) {
+    : alias_at(std::max(1U, static_cast<unsigned>(std::bit_width(texels - 1)))) {
   code_bits = std::min(alias_at, kCodeBits);
   threshold_bits = std::min(kWordBits - alias_at - 2 * code_bits, kMostThresholdBits);
   own_at = alias_at + code_bits;
@@ -35,17 +33,17 @@ PackedAlias::PackedAlias(const EnvironmentMap& map, TargetDensity target)
       layout_(map.radiance.extent().count()),
       words_(map.radiance.extent().count()) {
   const unsigned threshold_bits = layout_.threshold_bits;
-  TableVector<std::uint64_t> masses = whole_masses(CellWeights(map, target), threshold_bits);
-  const MassPalette palette(masses, layout_.code_bits);
-  const double probability = layout_.unit / static_cast<double>(words_.size());
-  for (const std::uint64_t mass : palette.masses) {
-    palette_.push_back(static_cast<float>(probability * static_cast<double>(mass)));
-  }
-  AliasSweep(masses, threshold_bits).for_columns([&](std::size_t cell, const AliasColumn& column) {
-    words_[cell] = column.alias | std::uint64_t{palette.codes[column.alias]} << layout_.alias_at |
-                   std::uint64_t{palette.codes[cell]} << layout_.own_at |
-                   column.threshold << layout_.threshold_at;
-  });
+  const MassPalette palette(whole_masses(CellWeights(map, target), threshold_bits),
+                            layout_.code_bits);
+  const double unit = layout_.unit / static_cast<double>(words_.size());
+  for (const std::uint64_t mass : palette.masses) palette_.push_back(to_probability(mass, unit));
+  AliasSweep(palette.cells, threshold_bits)
+      .for_columns([&](std::size_t cell, const AliasColumn& column) {
+        words_[cell] = column.alias |
+                       std::uint64_t{palette.codes[column.alias]} << layout_.alias_at |
+                       std::uint64_t{palette.codes[cell]} << layout_.own_at |
+                       column.threshold << layout_.threshold_at;
+      });
 }
 
 }  // namespace lightproof

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <vector>
 
 #include "lightproof/core/error.h"
@@ -28,15 +29,23 @@ void weigh_part(const EnvironmentMap& map, TargetDensity target, Texel first,
         target.grey, area, weights);
 }
 
-/// Looks no further than the first cell with some.
+bool any_light(std::span<const double> weights) {
+  return std::ranges::any_of(weights, [](double weight) { return weight > 0.0; });
+}
+
+/// Looks no further than to where some is found.
 bool has_light(const CellWeights& weights) {
-  std::array<double, 64> block;
-  for (std::size_t first = 0; first < weights.count(); first += block.size()) {
-    const auto some = std::span(block).first(std::min(block.size(), weights.count() - first));
-    weights.get(first, some);
-    if (std::ranges::any_of(some, [](double weight) { return weight > 0.0; })) return true;
-  }
-  return false;
+  std::atomic<bool> found = false;
+  parallel_chunks(
+      weights.count(), kTaskCells, [&](std::size_t /*task*/, std::size_t first, std::size_t end) {
+        std::array<double, 64> memory;
+        for (; first < end && !found.load(std::memory_order_relaxed); first += memory.size()) {
+          const auto block = std::span(memory).first(std::min(memory.size(), end - first));
+          weights.get(first, block);
+          if (any_light(block)) found.store(true, std::memory_order_relaxed);
+        }
+      });
+  return found;
 }
 
 }  // namespace
@@ -44,13 +53,13 @@ bool has_light(const CellWeights& weights) {
 Grid<double> texel_weights(const EnvironmentMap& map, TargetDensity target) {
   const Extent extent = map.radiance.extent();
   Grid<double> weights = Grid<double>::without_values(extent);
-  std::vector<char> has_light(static_cast<std::size_t>(extent.height));
-  parallel_for(has_light.size(), [&](std::size_t row) {
+  std::vector<char> lit(static_cast<std::size_t>(extent.height));
+  parallel_for(lit.size(), [&](std::size_t row) {
     const int y = static_cast<int>(row);
     weigh_row(map, target, y, weights.row(y));
-    has_light[row] = std::ranges::any_of(weights.row(y), [](double w) { return w > 0.0; }) ? 1 : 0;
+    lit[row] = any_light(weights.row(y)) ? 1 : 0;
   });
-  if (std::ranges::find(has_light, 1) == has_light.end()) refuse_black(map);
+  if (std::ranges::find(lit, 1) == lit.end()) refuse_black(map);
   return weights;
 }
 
