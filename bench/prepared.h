@@ -28,15 +28,15 @@ bool draws_texels(const SamplerInfo& info);
 
 struct Prepared {
   std::optional<AnySampler> sampler;
-  double build_ms = 0.0;           ///< of the one build, on all threads
+  double build_ms = 0.0;           ///< median of some builds, on all threads
   double worst_texel_error = 0.0;  ///< if it draws whole texels
   std::string why_not;             ///< what is wrong with the samples; empty if nothing is
 };
 
-/// Of the benchmarks' map of this size. Built and checked once, though Google Benchmark runs a
-/// benchmark several times; it stays until another is asked for. Its samples must fit the bins of
-/// reference/, one at a time and in batches; if it searches sums, its texels must be those of
-/// reference/.
+/// Of the benchmarks' map of this size. Built, some times, and checked once, though Google
+/// Benchmark runs a benchmark several times; it stays until another is asked for. Its samples must
+/// fit the bins of reference/, one at a time and in batches; if it searches sums, its texels must
+/// be those of reference/.
 const Prepared& prepared(const SamplerInfo& info, Extent extent);
 
 }  // namespace lightproof::bench

@@ -114,9 +114,9 @@ std::string build_table(const StudyResult& study) {
 }
 
 constexpr std::string_view kBuildNote =
-    "One build for each size, on all threads, from a map that lies in memory to a table that is "
-    "ready, with the time that it takes to get the memory; single times scatter. A build reads the "
-    "map from end to end, so an exponent near 1 is to be expected; on small maps starting the "
+    "Median of at least three builds for each size, on all threads, from a map that lies in "
+    "memory to a table that is ready, with the time that it takes to get the memory. A build reads "
+    "the map from end to end, so an exponent near 1 is to be expected; on small maps starting the "
     "threads takes its share. The exponent is fitted by least squares on logarithms, and its "
     "standard error comes from the scatter about the line.";
 

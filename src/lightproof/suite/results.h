@@ -103,7 +103,7 @@ struct ThroughputRecord {
   double ns_low = 0.0;         ///< smallest and largest repetition
   double ns_high = 0.0;
   double table_bytes = 0.0;
-  double build_ms = 0.0;  ///< of a single build, on all threads
+  double build_ms = 0.0;  ///< median of some builds, on all threads
 };
 
 /// What a sampler's table costs and how well it keeps the map: a row of the benchmark of batches
