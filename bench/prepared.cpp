@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "bench/maps.h"
@@ -13,6 +14,7 @@
 #include "lightproof/core/random.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/stats/goodness_of_fit.h"
+#include "lightproof/stats/median.h"
 #include "lightproof/suite/draws.h"
 #include "reference/slow_sampler.h"
 #include "reference/texel_masses.h"
@@ -147,9 +149,7 @@ double median_build_ms(std::optional<AnySampler>& sampler,
     times.push_back(time.count());
     all += time.count();
   }
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::ranges::nth_element(times, middle);
-  return *middle;
+  return median(std::move(times));
 }
 
 }  // namespace
