@@ -191,21 +191,39 @@ double BilinearTransform::mass_along(double low, double high) const {
   });
 }
 
+std::vector<double> BilinearTransform::rows() const {
+  std::vector<double> masses;
+  for (std::size_t row = 0; row + 1 < along_.size(); ++row) {
+    masses.push_back((along_[row + 1] - along_[row]) / total_);
+  }
+  return masses;
+}
+
 UnitPoint BilinearTransform::operator()(SquarePoint at) const {
   const int row = patch_at(at.t, extent_.height);
   const auto [first, second] = ends_of(row, extent_.height, false);
   const double rising = std::clamp(at.t * extent_.height + 0.5 - row, 0.0, 1.0);
   const auto low = static_cast<std::size_t>(first);
   const auto high = static_cast<std::size_t>(second);
+  const auto index = static_cast<std::size_t>(row);
   const double before = mass_along(patch_edge(row, extent_.height), at.t);
-  const double along = (along_[static_cast<std::size_t>(row)] + before) / total_;
+  const double along = (along_[index] + before) / total_;
   const auto mix = [&](double a, double b) { return (1.0 - rising) * a + rising * b; };
   const double whole = mix(row_means_[low], row_means_[high]);
   const double left =
       mix(below(sums_[low], grey_.row(first), at.s), below(sums_[high], grey_.row(second), at.s));
-  const double across = whole > 0.0 ? left / whole : 0.0;
-  const double column = below(column_sums_, columns_, at.s) / column_sums_.back();
-  return {std::min(along, 1.0), std::min(across, 1.0), std::min(column, 1.0)};
+  const auto patch = static_cast<std::size_t>(patch_at(at.s, extent_.width));
+  const double patch_left = mix(sums_[low][patch], sums_[high][patch]);
+  const double patch_right = mix(sums_[low][patch + 1], sums_[high][patch + 1]);
+  const auto share = [](double part, double of) {
+    return of > 0.0 ? std::clamp(part / of, 0.0, 1.0) : 0.0;
+  };
+  return {std::min(along, 1.0),
+          share(left, whole),
+          share(below(column_sums_, columns_, at.s), column_sums_.back()),
+          row,
+          share(before, along_[index + 1] - along_[index]),
+          share(left - patch_left, patch_right - patch_left)};
 }
 
 }  // namespace lightproof::reference

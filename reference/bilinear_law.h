@@ -37,6 +37,9 @@ class BilinearTransform {
 
   UnitPoint operator()(SquarePoint at) const;
 
+  /// Mass of every row of patches; they sum to 1.
+  std::vector<double> rows() const;
+
  private:
   using Sums = std::vector<double>;  ///< up to each edge of the patches across: W + 2
 

@@ -10,11 +10,16 @@
 
 namespace lightproof::reference {
 
-/// Each in [0,1], uniform if the density is right.
+/// Each share in [0,1], uniform if the density is right.
 struct UnitPoint {
   double along;   ///< mass of all rows below
   double across;  ///< mass to the left in its own row, as a share of that row's
   double column;  ///< mass to the left over all rows
+  /// Row of cells inside which the density has no edge: of texels, or of bilinear patches. -1 for a
+  /// density that has no such rows.
+  int row = -1;
+  double share_of_row = 0.0;   ///< of the row's mass, below the point
+  double share_of_cell = 0.0;  ///< of its cell's mass at the same t, to the left of the point
 };
 
 class UnitTransform {

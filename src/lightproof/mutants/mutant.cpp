@@ -8,6 +8,9 @@
 namespace lightproof {
 namespace {
 
+/// Sums of a LawSampler are doubles.
+constexpr double kLawResolution = 0x1p-53;
+
 BoundSampler bind(const Mutant& mutant, TargetDensity target, const EnvironmentMap& map) {
   Grid<double> masses = reference::texel_masses(map, target);
   if (!mutant.law.empty()) masses = alternative_law(mutant.law).masses({&masses, &map, target});
@@ -32,8 +35,13 @@ BoundSampler bind(const Mutant& mutant, TargetDensity target, const EnvironmentM
 
 Subject subject_of(const Mutant& mutant, Weighting weighting) {
   const TargetDensity target = {weighting, kRec709};
-  return {std::string(mutant.name), target, false, false,
-          [&mutant, target](const EnvironmentMap& map) { return bind(mutant, target, map); }};
+  return {std::string(mutant.name),
+          target,
+          false,
+          false,
+          [&mutant, target](const EnvironmentMap& map) { return bind(mutant, target, map); },
+          kLawResolution,
+          true};
 }
 
 }  // namespace lightproof

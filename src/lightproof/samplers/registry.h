@@ -36,6 +36,7 @@ struct SamplerInfo {
   /// searches no such sums.
   double resolution;
   bool monotone;            ///< in u.t along and in u.s across: it keeps stratification
+  bool inverts_rows = false;  ///< u.t alone, all its 53 bits, gives the row and the share of it
   bool known_defects;       ///< kept as published, to show what the gate finds
   bool inverts_shared_cdf;  ///< must return the texel of LinearScan for every point
   /// The map must outlive the sampler. Throws InputError if it is black.

@@ -18,12 +18,8 @@ struct Pool {
   double expected = 0.0;
 };
 
-/// 2/(λ(λ+1)) O((O/E)^λ − 1) for λ = 2/3, plus the terms that vanish when ΣO = ΣE but keep each
-/// cell's share positive: 2/(λ+1) (E − O).
 double cell_divergence(const Pool& pool) {
-  const double ratio = pool.observed / pool.expected;
-  return 1.8 * pool.observed * (std::cbrt(ratio * ratio) - 1.0) +
-         1.2 * (pool.expected - pool.observed);
+  return power_divergence(pool.observed, pool.expected);
 }
 
 template <class Count>
@@ -47,8 +43,20 @@ std::vector<Pool> pool_cells(std::span<const Count> observed, std::span<const do
   return pools;
 }
 
-/// The p-value of a statistic with its degrees of freedom.
-void judge(GoodnessOfFit& fit) {
+double sum_of(std::span<const std::uint64_t> counts) {
+  return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
+}
+
+}  // namespace
+
+double power_divergence(double observed, double expected) {
+  const double ratio = observed / expected;
+  const double divergence =
+      1.8 * observed * (std::cbrt(ratio * ratio) - 1.0) + 1.2 * (expected - observed);
+  return std::max(0.0, divergence);  // convex with its least value 0; rounding may leave less
+}
+
+void judge_fit(GoodnessOfFit& fit) {
   if (fit.dof <= 0.0) return;
   fit.log10_p = log10_chi_square_tail(fit.statistic, fit.dof);
   if (fit.dof < kLeastDofForLowerTail) return;
@@ -56,12 +64,6 @@ void judge(GoodnessOfFit& fit) {
   fit.too_even = lower < fit.log10_p;
   fit.log10_p = std::min(0.0, std::min(fit.log10_p, lower) + std::log10(2.0));
 }
-
-double sum_of(std::span<const std::uint64_t> counts) {
-  return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
-}
-
-}  // namespace
 
 GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
                            std::span<const double> probability, std::uint64_t samples) {
@@ -82,7 +84,7 @@ GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
   if (fit.impossible_hits > 0) {
     fit.log10_p = -INFINITY;
   } else {
-    judge(fit);
+    judge_fit(fit);
   }
   fit.effect = std::sqrt(std::max(0.0, fit.statistic - fit.dof) / n);
   return fit;
@@ -110,7 +112,7 @@ GoodnessOfFit two_sample_fit(std::span<const std::uint64_t> first,
     fit.statistic += cell_divergence(pool) + cell_divergence({rest, both - pool.expected});
   }
   fit.dof = pools.empty() ? 0.0 : static_cast<double>(pools.size() - 1);
-  judge(fit);
+  judge_fit(fit);
   fit.effect = std::sqrt(std::max(0.0, fit.statistic - fit.dof) * (n1 + n2) / (n1 * n2));
   return fit;
 }
@@ -134,9 +136,25 @@ double fit_power(std::span<const double> probability, std::span<const double> ac
   return chi_square_power(dof, upper, noncentrality);
 }
 
+double critical_count(double mean, double level) {
+  const double log10_level = std::log10(level);
+  double below = std::floor(mean);  // rejected by nobody: a level above 1/2 has no meaning here
+  double step = 1.0;
+  while (log10_poisson_upper(below + step, mean) > log10_level) step *= 2.0;
+  double reached = below + step;
+  while (reached - below > 1.0) {
+    const double middle = std::floor(0.5 * (below + reached));
+    (log10_poisson_upper(middle, mean) > log10_level ? below : reached) = middle;
+  }
+  return reached;
+}
+
 double detectable_excess(const WorstCell& worst, double level, double power, double samples) {
-  return detectable_z(level / static_cast<double>(worst.cells), power) /
-         std::sqrt(worst.likeliest * samples);
+  const double mean = worst.likeliest * samples;
+  if (!(mean > 0.0)) return HUGE_VAL;
+  const double count = critical_count(mean, 0.5 * level / static_cast<double>(worst.cells));
+  const double excess = poisson_mean_reaching(count, power) / mean - 1.0;
+  return (1.0 + excess) * worst.likeliest <= 1.0 ? excess : HUGE_VAL;
 }
 
 WorstCell worst_cell(std::span<const std::uint64_t> observed, std::span<const double> probability,

@@ -30,6 +30,13 @@ struct GoodnessOfFit {
   std::optional<std::size_t> first_impossible;  ///< index of the first impossible cell hit
 };
 
+/// A cell's share of the statistic, never negative: 2/(λ(λ+1)) O((O/E)^λ − 1) for λ = 2/3, plus
+/// 2/(λ+1) (E − O), which vanishes where ΣO = ΣE. `expected` is positive.
+double power_divergence(double observed, double expected);
+
+/// Sets the p-value of a statistic from its degrees of freedom, if it has any.
+void judge_fit(GoodnessOfFit& fit);
+
 /// Counts against probabilities, in an order in which neighbours in the sequence are neighbours in
 /// space. The probabilities sum to 1 within 1e-9; samples that are in no cell are the caller's.
 GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
@@ -64,8 +71,12 @@ double detectable_w(double dof, double level, double power, double samples);
 double fit_power(std::span<const double> probability, std::span<const double> actual, double level,
                  std::uint64_t samples);
 
-/// The relative excess of the likeliest cell that such a test finds with `power` at this level, by
-/// the normal law.
+/// The fewest counts whose upper Poisson tail at this mean is at most `level`, which is below 1/2.
+double critical_count(double mean, double level);
+
+/// The relative excess of the likeliest cell that such a test finds with at least `power` at this
+/// level: the Poisson critical count of Bonferroni's share of the level, and the mean at which that
+/// count is reached with this power. Infinite if the cell would need more than all samples.
 double detectable_excess(const WorstCell& worst, double level, double power, double samples);
 
 /// Row by row, every second row backwards, so that consecutive cells touch.

@@ -1,5 +1,6 @@
 #include "lightproof/stats/tails.h"
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -68,14 +69,16 @@ double log10_gamma_p(double a, double x) {
 }  // namespace
 
 double log10_chi_square_tail(double statistic, double dof) {
+  if (std::isnan(statistic)) return statistic;
   if (std::isinf(statistic)) return -INFINITY;
   const double a = 0.5 * dof;
-  const double x = 0.5 * statistic;
+  const double x = std::max(0.0, 0.5 * statistic);
   const double q = boost::math::gamma_q(a, x);
   return q > kSmallestNormal ? std::log10(q) : log_gamma_q(a, x) / kLn10;
 }
 
 double log10_chi_square_lower(double statistic, double dof) {
+  if (std::isnan(statistic)) return statistic;
   return log10_gamma_p(0.5 * dof, 0.5 * statistic);
 }
 
@@ -87,6 +90,11 @@ double log10_poisson_lower(double count, double mean) {
 double log10_poisson_upper(double count, double mean) {
   // P(X >= k) = P(k, mean).
   return count <= 0.0 ? 0.0 : log10_gamma_p(count, mean);
+}
+
+double poisson_mean_reaching(double count, double probability) {
+  // P(X >= k) = P(k, mean).
+  return boost::math::gamma_p_inv(count, probability);
 }
 
 double log10_normal_tails(double z) {

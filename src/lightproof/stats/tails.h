@@ -1,11 +1,12 @@
 // Upper tails of the distributions that the gate judges by, as logarithms: a p-value is never
 // rounded to 0, however small. Boost.Math where its doubles reach, continued fractions and series
-// beyond.
+// beyond. What is not a number has a tail that is none either: it is never taken for a pass.
 #pragma once
 
 namespace lightproof {
 
-/// log10 P(chi-square with `dof` degrees of freedom >= statistic). dof > 0; statistic >= 0.
+/// log10 P(chi-square with `dof` degrees of freedom >= statistic). dof > 0; a statistic that rounding
+/// has left below 0 counts as 0.
 double log10_chi_square_tail(double statistic, double dof);
 
 /// log10 P(chi-square < statistic): small where counts agree better than chance allows;
@@ -15,6 +16,9 @@ double log10_chi_square_lower(double statistic, double dof);
 /// log10 P(Poisson of this mean <= count), and of >= count. mean > 0.
 double log10_poisson_lower(double count, double mean);
 double log10_poisson_upper(double count, double mean);
+
+/// The mean at which a Poisson count is at least `count` (>= 1) with this probability.
+double poisson_mean_reaching(double count, double probability);
 
 /// log10 P(|standard normal| >= |z|).
 double log10_normal_tails(double z);

@@ -25,8 +25,10 @@ struct OwnDensity {
   Grid<double> bins;      ///< masses of kGateBins, over the integral
 };
 
-/// Integrates pdf() by 2 x 2 Gauss-Legendre nodes in every cell, split where bins begin. The pdf
-/// may be any function that is smooth inside a cell.
+/// Integrates pdf() by 2 x 3 Gauss-Legendre nodes in every cell, split where bins begin and along t
+/// into pieces of at most 1/64. A density that is linear across a cell, and linear times sin(pi t)
+/// along it, is integrated to a relative 1e-10 whatever the grid; another one as well as it is
+/// smooth inside a cell.
 OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells);
 
 /// |∫ pdf ds dt - 1| <= 1e-6.

@@ -2,134 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "lightproof/stats/goodness_of_fit.h"
+#include "lightproof/stats/independence.h"
 #include "lightproof/stats/moment_tests.h"
 #include "lightproof/stats/tails.h"
 #include "lightproof/stats/uniformity.h"
+#include "lightproof/suite/records.h"
 
 namespace lightproof {
 namespace {
-
-/// Collects the records of one configuration.
-class Records {
- public:
-  Records(const Configuration& configuration, std::uint64_t samples)
-      : configuration_(&configuration), samples_(samples) {}
-
-  Measured& add(std::string_view oracle, std::string_view test) {
-    return records_.emplace_back(Measured{record_of(*configuration_, oracle, test, samples_)});
-  }
-
-  void add_fit(std::string_view oracle, std::string_view test,
-               std::span<const std::uint64_t> observed, std::span<const double> probability) {
-    const GoodnessOfFit fit = cressie_read(observed, probability, samples_);
-    auto& [record, detectable] = add(oracle, test);
-    if (fit.dof > 0.0) {
-      detectable = [dof = fit.dof](double level, double power, double samples) {
-        return detectable_w(dof, level, power, samples);
-      };
-    }
-    record.statistic = fit.statistic;
-    record.dof = fit.dof;
-    record.effect = fit.effect;
-    if (fit.dof > 0.0 || fit.impossible_hits > 0) record.log10_p = fit.log10_p;
-    // With a single possible cell every sample is in it, unless it is an impossible hit.
-    if (fit.dof == 0.0 && fit.possible_cells <= 1) record.outcome = Outcome::accept;
-    if (fit.dof == 0.0 && fit.possible_cells > 1) record.detail = "too few samples for two pools";
-    if (fit.too_even && fit.log10_p < -3.0)
-      record.detail = "counts nearer to the expectation than chance makes them";
-    if (fit.impossible_hits > 0) {
-      record.detail = fmt::format("{} samples in cells without light, the first is cell {}",
-                                  fit.impossible_hits, *fit.first_impossible);
-    }
-  }
-
-  /// `share`: of the other sample, of both.
-  void add_two_samples(std::string_view test, const GoodnessOfFit& fit, double share) {
-    auto& [record, detectable] = add("reference", test);
-    record.statistic = fit.statistic;
-    record.dof = fit.dof;
-    record.effect = fit.effect;
-    if (fit.possible_cells <= 1) record.outcome = Outcome::accept;
-    if (fit.dof <= 0.0) return;
-    record.log10_p = fit.log10_p;
-    detectable = [dof = fit.dof, share](double level, double power, double samples) {
-      return detectable_w(dof, level, power, samples * share);
-    };
-  }
-
-  template <class Detectable>
-  void add_uniformity(std::string_view test, const UniformityTest& uniformity,
-                      const Detectable& found) {
-    auto& [record, detectable] = add("reference", test);
-    detectable = found;
-    record.statistic = uniformity.statistic;
-    record.log10_p = uniformity.log10_p;
-    record.effect = uniformity.distance;
-  }
-
-  void add_worst(std::string_view test, std::span<const std::uint64_t> observed,
-                 std::span<const double> probability) {
-    const WorstCell worst = worst_cell(observed, probability, samples_);
-    auto& [record, detectable] = add("reference", test);
-    detectable = [worst](double level, double power, double samples) {
-      return detectable_excess(worst, level, power, samples);
-    };
-    record.statistic = worst.observed;
-    record.log10_p = worst.log10_p;
-    if (worst.expected > 0.0) record.effect = worst.observed / worst.expected - 1.0;
-    record.detail = fmt::format("cell {}: {} samples where {:.5g} were expected", worst.cell,
-                                worst.observed, worst.expected);
-  }
-
-  /// `law`: of one sample of what is estimated, `exact` in the end.
-  void add_z(std::string_view oracle, std::string_view test, const ZTest& z, const ExactLaw& law,
-             double exact) {
-    auto& [record, detectable] = add(oracle, test);
-    detectable = [law, exact](double level, double power, double samples) {
-      return detectable_factor(level, power, samples, law, exact) - 1.0;
-    };
-    record.statistic = z.z;
-    record.log10_p = z.log10_p;
-    record.effect = z.effect;
-  }
-
-  void add_check(const CheckResult& result) {
-    TestRecord& record = add("check", result.name).record;
-    record.effect = result.worst;
-    record.outcome = result.passed ? Outcome::accept : Outcome::reject;
-    record.detail = result.detail;
-  }
-
-  void add_strays(std::string_view test, std::string_view what, const Strays& strays) {
-    TestRecord& record = add("check", test).record;
-    record.statistic = static_cast<double>(strays.count);
-    record.effect = record.statistic / static_cast<double>(samples_);
-    record.outcome = strays.count == 0 ? Outcome::accept : Outcome::reject;
-    if (!strays.first) return;
-    const auto& [u, sample] = *strays.first;
-    record.detail = fmt::format(
-        "{} of {} samples {}; first: u = ({:.17g}, {:.17g}) gives texel ({}, {}) at ({:.9g}, "
-        "{:.9g}), pdf {:.3g}",
-        strays.count, samples_, what, u.s, u.t, sample.x, sample.y, sample.at.s, sample.at.t,
-        sample.pdf.value);
-  }
-
-  /// The step of the sampler's sums makes an effect of this size by itself.
-  void set_resolution_floor(double effect) {
-    if (effect > 0.0) records_.back().record.resolution_floor = effect;
-  }
-
-  std::vector<Measured> take() { return std::move(records_); }
-
- private:
-  const Configuration* configuration_;
-  std::uint64_t samples_;
-  std::vector<Measured> records_;
-};
 
 /// Below this share of the mean square the fourth central moment drowns in rounding, and there is
 /// no test of the variance.
@@ -188,6 +74,66 @@ std::vector<double> uniform_masses(Extent bins) {
   return std::vector<double>(bins.count(), 1.0 / static_cast<double>(bins.count()));
 }
 
+constexpr std::array<std::string_view, 4> kPairNames = {
+    "theta with theta", "theta with phi", "phi with theta", "phi with phi"};
+
+/// Pairs of transformed coordinates of samples that are so far apart in the sequence: four tables,
+/// whose interactions are uncorrelated, so that statistics and degrees of freedom add up.
+void add_pairs(Records& records, const Draws& draws, std::size_t lag) {
+  const PairCounts counts = draws.successive.pairs(lag);
+  if (independence_dof(counts.total, kPairedCells) <= 0.0) return;
+  const std::string test = fmt::format("independence at lag {}", kLags[lag]);
+  records.attempt("reference", test, [&] {
+    std::vector<GoodnessOfFit> fits;
+    for (const auto& pair : counts.pairs) fits.push_back(independence_fit(pair));
+    const auto worst =
+        std::max_element(fits.begin(), fits.end(), [](const auto& a, const auto& b) {
+          return a.statistic < b.statistic;
+        });
+    records.add_partial_fit(test, sum_of_fits(fits, counts.total), counts.total);
+    records.set_detail(fmt::format("most of it between {} of samples {} apart",
+                                   kPairNames[static_cast<std::size_t>(worst - fits.begin())],
+                                   kLags[lag]));
+  });
+}
+
+void add_runs(Records& records, const Draws& draws) {
+  const std::vector<double> even(kRunCells, 1.0 / kRunCells);
+  for (const std::size_t coordinate : {0, 1}) {
+    const auto runs = draws.successive.runs(coordinate);
+    const std::uint64_t count = std::accumulate(runs.begin(), runs.end(), std::uint64_t{0});
+    const std::string test =
+        fmt::format("sums over runs of {}, {}", kRunLength, coordinate == 0 ? "theta" : "phi");
+    records.attempt("reference", test, [&] {
+      const GoodnessOfFit fit = cressie_read(runs, even, count);
+      if (fit.dof > 0.0) records.add_partial_fit(test, fit, count);
+    });
+  }
+}
+
+/// Positions inside cells, for the first row, the last one, and the bands between them together.
+void add_positions(Records& records, const Expectation& expectation, const Draws& draws) {
+  const std::vector<double> even = uniform_masses(kPositionCells);
+  const auto add = [&](std::string_view test, std::size_t first, std::size_t last) {
+    records.attempt("reference", test, [&] {
+      std::vector<GoodnessOfFit> fits;
+      std::uint64_t counted = 0;
+      for (std::size_t band = first; band < last; ++band) {
+        const auto counts = draws.positions.row(static_cast<int>(band));
+        const std::uint64_t count = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+        fits.push_back(cressie_read(counts, even, count));
+        counted += count;
+      }
+      const GoodnessOfFit fit = sum_of_fits(fits, counted);
+      if (fit.dof > 0.0) records.add_partial_fit(test, fit, counted);
+    });
+  };
+  const std::size_t bands = expectation.bands.size();
+  if (bands > 0) add("positions in the first row", 0, 1);
+  if (bands > 2) add("positions between the pole rows", 1, bands - 1);
+  if (bands > 1) add("positions in the last row", bands - 1, bands);
+}
+
 }  // namespace
 
 std::string Configuration::name() const {
@@ -211,6 +157,27 @@ TestRecord record_of(const Configuration& configuration, std::string_view oracle
   record.seed = configuration.seed;
   record.known_defect = configuration.candidate->known_defects;
   return record;
+}
+
+Draws draw_samples_of(const Configuration& configuration, const Expectation& expectation,
+                      const BoundSampler& sampler, std::string_view purpose,
+                      std::uint64_t samples) {
+  /// Points directed at each pole's row, as a share of the samples.
+  constexpr std::uint64_t kDirected = 64;
+  Draws draws =
+      draw_samples(sampler, expectation, configuration.stream(purpose), {0, samples});
+  if (!configuration.candidate->inverts_rows || expectation.bands.empty()) return draws;
+  const std::size_t last = expectation.bands.size() - 1;
+  for (const std::size_t band : last > 0 ? std::vector{std::size_t{0}, last} : std::vector{last}) {
+    if (expectation.bands[band].mass <= 0.0) continue;
+    // Sums that are rounded to the nearest step are off by half of it; twice that is no risk.
+    const double margin = std::max(0x1p-50, configuration.candidate->resolution);
+    const RandomStream stream =
+        configuration.stream(fmt::format("{}, directed at band {}", purpose, band));
+    add_directed_positions(draws, sampler, expectation, band, margin, stream,
+                           samples / kDirected);
+  }
+  return draws;
 }
 
 std::vector<Measured> test_draws(const Configuration& configuration, const Expectation& expectation,
@@ -239,14 +206,21 @@ std::vector<Measured> test_draws(const Configuration& configuration, const Expec
                            detectable_anderson_darling_distance);
     const std::vector<double> even = uniform_masses(kPairBins);
     records.add_fit("reference", "transformed pair", serpentine(draws.pairs), even);
+    add_positions(records, expectation, draws);
+    for (std::size_t lag = 0; lag < kLags.size(); ++lag) add_pairs(records, draws, lag);
+    add_runs(records, draws);
   }
   for (std::size_t i = 0; i < kMeanCaseCount; ++i) {
-    add_moments(records, "mean", kMeanCases[i].name, draws.estimators[i],
-                expectation.estimators[i]);
-    add_against_uniform(records, kMeanCases[i].name, draws.estimators[i], expectation.estimators[i],
-                        uniform[i], expectation.uniform[i]);
+    const std::string_view name = kMeanCases[i].name;
+    records.attempt("mean", name, [&] {
+      add_moments(records, "mean", name, draws.estimators[i], expectation.estimators[i]);
+      add_against_uniform(records, name, draws.estimators[i], expectation.estimators[i], uniform[i],
+                          expectation.uniform[i]);
+    });
   }
-  add_moments(records, "self", "mean of 1/pdf", draws.inverse_pdf, expectation.inverse_pdf);
+  records.attempt("self", "mean of 1/pdf", [&] {
+    add_moments(records, "self", "mean of 1/pdf", draws.inverse_pdf, expectation.inverse_pdf);
+  });
   return records.take();
 }
 
@@ -267,10 +241,13 @@ std::vector<Measured> test_against_twin(const Configuration& configuration, cons
                                         const std::optional<Twin>& twin) {
   if (!configuration.candidate->has_twin) return {};
   const auto samples = static_cast<double>(twin->samples);
+  constexpr std::string_view kTest = "two samples with linear_scan";
   Records records(configuration, draws.samples);
-  records.add_two_samples("two samples with linear_scan",
-                          two_sample_fit(serpentine(draws.bins), serpentine(twin->bins)),
-                          samples / (samples + static_cast<double>(draws.samples)));
+  records.attempt("reference", kTest, [&] {
+    records.add_two_samples(kTest,
+                            two_sample_fit(serpentine(draws.bins), serpentine(twin->bins)),
+                            samples / (samples + static_cast<double>(draws.samples)));
+  });
   return records.take();
 }
 

@@ -36,6 +36,12 @@ struct Measured {
   std::function<double(double level, double power, double samples)> detectable = {};
 };
 
+/// Draws so many samples for a purpose that names their stream; and, of a sampler that can be asked
+/// for them, positions in the rows of the poles, where few samples lie.
+Draws draw_samples_of(const Configuration& configuration, const Expectation& expectation,
+                      const BoundSampler& sampler, std::string_view purpose,
+                      std::uint64_t samples);
+
 /// The tests of drawn samples; their p-values are not judged yet.
 std::vector<Measured> test_draws(const Configuration& configuration, const Expectation& expectation,
                                  const OwnDensity& own, const Draws& draws,

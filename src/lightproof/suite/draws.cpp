@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 
 #include "lightproof/core/parallel.h"
@@ -30,8 +31,10 @@ void add_counts(Into&& into, const From& from) {
 /// What one task found. Its texels are a list: a grid for every task would not fit a large map. The
 /// finest counts are of half the size, so that they stay in the cache.
 struct Part {
-  Draws draws{Extent{0, 0}, 0};
+  explicit Part(std::size_t bands = 0) : draws(Extent{0, 0}, bands, 0) {}
+  Draws draws;
   std::vector<std::uint32_t> texels;
+  std::vector<std::uint8_t> codes;  ///< of the transformed coordinates, in order
   std::vector<std::uint32_t> along = std::vector<std::uint32_t>(kUniformCells);
   std::vector<std::uint32_t> column = std::vector<std::uint32_t>(kUniformCells);
 };
@@ -40,7 +43,10 @@ struct Part {
 struct Batch {
   std::vector<SquarePoint> points = std::vector<SquarePoint>(kBatch);
   std::vector<TexelSample> samples = std::vector<TexelSample>(kBatch);
+  std::vector<std::size_t> order = std::vector<std::size_t>(kBatch);  ///< in the batch as drawn
   std::size_t size = 0;
+  std::size_t drawn = 0;  ///< before those that left the map were taken out
+  std::vector<TransformedSample> transformed = std::vector<TransformedSample>(kBatch);
   std::vector<double> radiance = std::vector<double>(kBatch);  ///< as it is looked up
   std::vector<char> is_bright = std::vector<char>(kBatch);     ///< the samples' texels
   std::array<std::vector<double>, kMeanCaseCount> estimates;
@@ -56,11 +62,13 @@ bool is_on_lattice(double u) {
 /// Leaves what is on the map.
 void count_lost(Draws& draws, Batch& batch, Extent map) {
   std::size_t kept = 0;
+  batch.drawn = batch.size;
   for (std::size_t i = 0; i < batch.size; ++i) {
     if (!is_on_map(batch.samples[i], map)) {
       draws.lost.add(batch.points[i], batch.samples[i]);
       continue;
     }
+    batch.order[kept] = i;
     batch.points[kept] = batch.points[i];
     batch.samples[kept++] = batch.samples[i];
   }
@@ -84,9 +92,28 @@ void count_texels(Part& part, Batch& batch, const Expectation& expectation) {
   }
 }
 
-void count_transformed(Part& part, const Batch& batch, const Expectation& expectation) {
+void count_position(Draws& draws, const reference::UnitPoint& unit,
+                    const Expectation& expectation) {
+  if (unit.row < 0) return;
+  const int cell = kPositionCells.width * cell_of(unit.share_of_row, kPositionCells.height) +
+                   cell_of(unit.share_of_cell, kPositionCells.width);
+  ++draws.positions(cell, expectation.band_of_row[static_cast<std::size_t>(unit.row)]);
+}
+
+/// What is left of a batch's order once the samples that left the map are taken out.
+void count_successive(Part& part, const Batch& batch) {
+  const std::span<const TransformedSample> in_order =
+      std::span(batch.transformed).first(batch.drawn);
+  for (const TransformedSample& sample : in_order) part.codes.push_back(cells_code(sample));
+  part.draws.successive.add_runs(in_order);
+}
+
+void count_transformed(Part& part, Batch& batch, const Expectation& expectation) {
   constexpr auto kCells = static_cast<int>(kUniformCells);
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
   Draws& draws = part.draws;
+  std::fill(batch.transformed.begin(), batch.transformed.end(),
+            TransformedSample{kNowhere, kNowhere});
   for (std::size_t i = 0; i < batch.size; ++i) {
     const TexelSample& sample = batch.samples[i];
     const reference::UnitPoint unit = expectation.transform(sample.at, sample.x, sample.y);
@@ -95,7 +122,10 @@ void count_transformed(Part& part, const Batch& batch, const Expectation& expect
     draws.along_on_lattice += is_on_lattice(unit.along) ? 1 : 0;
     draws.across_on_lattice += is_on_lattice(unit.across) ? 1 : 0;
     ++draws.pairs(cell_of(unit.across, kPairBins.width), cell_of(unit.along, kPairBins.height));
+    count_position(draws, unit, expectation);
+    batch.transformed[batch.order[i]] = {unit.along, unit.across};
   }
+  count_successive(part, batch);
 }
 
 void add_estimates(Draws& draws, Batch& batch) {
@@ -120,7 +150,7 @@ void add_estimates(Draws& draws, Batch& batch) {
 
 Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
                const RandomStream& stream, Range range) {
-  Part part;
+  Part part(expectation.bands.size());
   part.draws.samples = range.count;
   part.texels.reserve(range.count);
   Batch batch;
@@ -134,6 +164,7 @@ Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
     if (expectation.transform) count_transformed(part, batch, expectation);
     add_estimates(part.draws, batch);
   }
+  part.draws.successive.add_pairs(part.codes);
   return part;
 }
 
@@ -156,8 +187,13 @@ void for_each_part(Range range, const Make& make, const Take& take) {
 
 }  // namespace
 
-Draws::Draws(Extent map, std::size_t cells)
-    : bins(kGateBins), texels(map), along(cells), column(cells), pairs(kPairBins) {}
+Draws::Draws(Extent map, std::size_t bands, std::size_t cells)
+    : bins(kGateBins),
+      texels(map),
+      along(cells),
+      column(cells),
+      pairs(kPairBins),
+      positions({static_cast<int>(kPositionCells.count()), static_cast<int>(bands)}) {}
 
 void Draws::merge(const Draws& other) {
   samples += other.samples;
@@ -166,6 +202,8 @@ void Draws::merge(const Draws& other) {
   add_counts(along, other.along);
   add_counts(column, other.column);
   add_counts(pairs.values(), other.pairs.values());
+  add_counts(positions.values(), other.positions.values());
+  successive.merge(other.successive);
   for (std::size_t i = 0; i < kMeanCaseCount; ++i) estimators[i].merge(other.estimators[i]);
   along_on_lattice += other.along_on_lattice;
   across_on_lattice += other.across_on_lattice;
@@ -210,7 +248,7 @@ UniformEstimates draw_uniformly(const Expectation& expectation, const RandomStre
 
 Draws draw_samples(const BoundSampler& sampler, const Expectation& expectation,
                    const RandomStream& stream, Range all_points) {
-  Draws all(expectation.masses.extent());
+  Draws all(expectation.masses.extent(), expectation.bands.size());
   for_each_part(
       all_points, [&](Range range) { return draw_part(sampler, expectation, stream, range); },
       [&](const Part& part) {
@@ -220,6 +258,25 @@ Draws draw_samples(const BoundSampler& sampler, const Expectation& expectation,
         for (const std::uint32_t texel : part.texels) ++all.texels.values()[texel];
       });
   return all;
+}
+
+void add_directed_positions(Draws& draws, const BoundSampler& sampler,
+                            const Expectation& expectation, std::size_t band, double margin,
+                            const RandomStream& stream, std::uint64_t count) {
+  const RowBand& rows = expectation.bands[band];
+  const double low = std::max(0.0, rows.below - margin);
+  const double high = std::min(1.0 - 0x1p-53, rows.below + rows.mass + margin);
+  std::vector<SquarePoint> points(static_cast<std::size_t>(count));
+  std::vector<TexelSample> samples(points.size());
+  fill_points(stream, 0, points);
+  for (SquarePoint& u : points) u.t = low + u.t * (high - low);
+  sampler.sample(points, samples);
+  for (const TexelSample& sample : samples) {
+    if (!is_on_map(sample, expectation.masses.extent())) continue;
+    const reference::UnitPoint unit = expectation.transform(sample.at, sample.x, sample.y);
+    if (expectation.band_of_row[static_cast<std::size_t>(unit.row)] != band) continue;
+    count_position(draws, unit, expectation);
+  }
 }
 
 std::vector<std::uint64_t> row_counts(const Grid<std::uint64_t>& texels) {

@@ -11,6 +11,7 @@
 #include "lightproof/stats/uniformity.h"
 #include "lightproof/suite/bound_sampler.h"
 #include "lightproof/suite/expectation.h"
+#include "lightproof/suite/successive.h"
 
 namespace lightproof {
 
@@ -37,7 +38,7 @@ struct Strays {
 /// Counts and moments; `merge` in a fixed order gives the same bits however the work was split.
 struct Draws {
   /// Without texels if the map is empty, without `along` and `column` if `cells` is 0.
-  explicit Draws(Extent map, std::size_t cells = kUniformCells);
+  explicit Draws(Extent map, std::size_t bands, std::size_t cells = kUniformCells);
 
   std::uint64_t samples = 0;
   Grid<std::uint64_t> bins;
@@ -45,6 +46,10 @@ struct Draws {
   std::vector<std::uint64_t> along;   ///< of reference::UnitPoint, over kUniformCells
   std::vector<std::uint64_t> column;  ///< likewise
   Grid<std::uint64_t> pairs;          ///< of (across, along) over kPairBins
+  SuccessiveCounts successive;
+  /// Of the shares of row and cell that reference::UnitPoint names, a row of counts for every band
+  /// of the expectation.
+  Grid<std::uint64_t> positions;
   /// Samples whose along, or across, is all but a multiple of 2^-20.
   std::uint64_t along_on_lattice = 0;
   std::uint64_t across_on_lattice = 0;
@@ -76,6 +81,14 @@ struct Range {
 /// Draws these points of the stream, in parallel.
 Draws draw_samples(const BoundSampler& sampler, const Expectation& expectation,
                    const RandomStream& stream, Range range);
+
+/// Adds the positions of samples whose points are directed at a band of rows, for a sampler that
+/// inverts the marginal of the rows by u.t: uniform over the band's share of u.t and `margin` on
+/// either side of it, by which the sampler's own sums may be off. What lands in another band is
+/// left out: given the row, its share below the sample is uniform all the same.
+void add_directed_positions(Draws& draws, const BoundSampler& sampler,
+                            const Expectation& expectation, std::size_t band, double margin,
+                            const RandomStream& stream, std::uint64_t count);
 
 std::vector<std::uint64_t> row_counts(const Grid<std::uint64_t>& texels);
 std::vector<std::uint64_t> column_counts(const Grid<std::uint64_t>& texels);

@@ -60,11 +60,13 @@ reference::LightMoments light_moments(const Expectation& expectation, Direction 
 void set_transform(Expectation& expectation, const EnvironmentMap& map, TargetDensity target) {
   if (target.lookup == Lookup::nearest) {
     expectation.transform = reference::UnitTransform(expectation.masses, target.weighting);
+    set_bands(expectation, expectation.rows);
     return;
   }
   // Shared: an expectation is copied, and this holds sums for every texel.
   const auto transform = std::make_shared<const reference::BilinearTransform>(map, target);
   expectation.transform = [transform](SquarePoint at, int, int) { return (*transform)(at); };
+  set_bands(expectation, transform->rows());
 }
 
 }  // namespace
@@ -101,6 +103,16 @@ Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
   expectation.inverse_pdf = inverse_pdf_moments(expectation);
   expectation.is_summed = true;
   return expectation;
+}
+
+void set_bands(Expectation& expectation, std::span<const double> row_masses) {
+  expectation.bands = row_bands(row_masses);
+  for (std::size_t band = 0; band < expectation.bands.size(); ++band) {
+    const RowBand& rows = expectation.bands[band];
+    expectation.band_of_row.insert(expectation.band_of_row.end(),
+                                   static_cast<std::size_t>(rows.last - rows.first + 1),
+                                   static_cast<std::uint8_t>(band));
+  }
 }
 
 // A knot that is rounded is off by a variance of 1/12, a share between two knots of 1/6. So

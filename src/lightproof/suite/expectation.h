@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "lightproof/core/grid.h"
 #include "lightproof/image/target_density.h"
 #include "reference/estimator_moments.h"
+#include "lightproof/suite/row_bands.h"
 #include "reference/unit_transform.h"
 
 namespace lightproof {
@@ -36,6 +39,11 @@ struct Expectation {
   std::vector<double> columns;         ///< marginal
   /// Of a place in texel (x, y); empty where the law inside one is not known in closed form.
   std::function<reference::UnitPoint(SquarePoint at, int x, int y)> transform;
+  /// Of the rows that `transform` names; empty if it names none.
+  std::vector<RowBand> bands;
+  std::vector<std::uint8_t> band_of_row;
+  /// Declared density over the square, in texel (x, y).
+  std::function<double(SquarePoint at, int x, int y)> density;
   std::array<reference::EstimatorMoments, kMeanCaseCount> estimators;
   std::array<reference::EstimatorMoments, kMeanCaseCount> uniform;  ///< drawn over the sphere
   /// 1/p(omega) over the texels at least a tenth as bright as the mean.
@@ -61,6 +69,9 @@ struct RoundingEffect {
   double texels = 0.0;
   double rows = 0.0;
 };
+
+/// Sets the bands of a law with rows of these masses.
+void set_bands(Expectation& expectation, std::span<const double> row_masses);
 
 /// 0 where nothing is summed.
 RoundingEffect rounding_effect(const Expectation& expectation, std::uint64_t samples);

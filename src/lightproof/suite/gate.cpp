@@ -11,6 +11,7 @@
 #include "lightproof/stats/tails.h"
 #include "lightproof/suite/configuration.h"
 #include "lightproof/suite/diagnosis.h"
+#include "lightproof/suite/records.h"
 
 namespace lightproof {
 namespace {
@@ -65,7 +66,7 @@ Slot run_first(const Configuration& configuration, const Yardstick& yardstick, d
   const BoundSampler sampler = configuration.candidate->bind();
   const Inspection inspection = configuration.candidate->inspect(sampler, expectation);
   Draws draws =
-      draw_samples(sampler, expectation, configuration.stream("draws"), {0, yardstick.samples});
+      draw_samples_of(configuration, expectation, sampler, "draws", yardstick.samples);
   Slot slot{test_draws(configuration, expectation, inspection.own, draws, yardstick.uniform),
             std::nullopt, inspection.own};
   append(slot.tests, test_against_twin(configuration, draws, yardstick.twin));
@@ -97,8 +98,8 @@ void run_again(const Configuration& configuration, const Yardstick& yardstick,
                const Again& is_suspicious, Slot& slot) {
   const Expectation& expectation = yardstick.expectation;
   const BoundSampler sampler = configuration.candidate->bind();
-  Draws draws = draw_samples(sampler, expectation, configuration.stream("draws again"),
-                             {0, yardstick.samples});
+  Draws draws =
+      draw_samples_of(configuration, expectation, sampler, "draws again", yardstick.samples);
   auto again = test_draws(configuration, expectation, slot.own, draws, yardstick.uniform);
   append(again, test_against_twin(configuration, draws, yardstick.twin));
   append(again, test_strays(configuration, draws));
@@ -122,7 +123,8 @@ class Judge {
         suspicious_(options.suspicious),
         at_once_(level_at_once(options, tests)),
         second_alpha_(0.5 * options.family_alpha),
-        second_level_(strictest_level(second_alpha_, tests)) {}
+        second_level_(strictest_level(second_alpha_, tests)),
+        family_(tests) {}
 
   Again again() const { return {at_once_, suspicious_}; }
 
@@ -132,14 +134,11 @@ class Judge {
       const TestRecord& record = test->record;
       if (record.stage == 2 && record.log10_p) second.push_back(*record.log10_p);
     }
-    const std::vector<bool> rejected = holm_rejections(second, second_alpha_);
+    const std::vector<bool> rejected = holm_rejections(second, second_alpha_, family_);
     std::size_t next = 0;
     for (Measured* test : tests) {
       TestRecord& record = test->record;
-      if (test->detectable) {
-        const double effect = detectable_effect(*test);
-        if (std::isfinite(effect)) record.detectable_effect = effect;
-      }
+      record.detectable_effect = detectable_effect(*test);
       if (!record.log10_p) continue;
       const bool reject =
           record.stage == 2 ? rejected[next++] : !(*record.log10_p >= std::log10(at_once_));
@@ -155,18 +154,24 @@ class Judge {
 
  private:
   /// The effect that both stages see with kStagePower each, and so together with
-  /// kDetectablePower.
-  double detectable_effect(const Measured& test) const {
+  /// kDetectablePower; none where it is infinite or cannot be computed.
+  std::optional<double> detectable_effect(const Measured& test) const {
+    if (!test.detectable) return std::nullopt;
     const double again = static_cast<double>(kSecondStage) * samples_;
-    return std::max(test.detectable(suspicious_, kStagePower, samples_),
-                    test.detectable(second_level_, kStagePower, again));
+    double effect = INFINITY;
+    const auto failure = failure_of([&] {
+      effect = std::max(test.detectable(suspicious_, kStagePower, samples_),
+                        test.detectable(second_level_, kStagePower, again));
+    });
+    return !failure && std::isfinite(effect) ? std::optional(effect) : std::nullopt;
   }
 
   double samples_;
   double suspicious_;
   double at_once_;
   double second_alpha_;
-  double second_level_;  ///< of Holm's strictest test, if all tests were run again
+  double second_level_;  ///< of Holm's strictest test
+  std::size_t family_;
 };
 
 /// Problems, and what is known of their candidates.

@@ -28,7 +28,8 @@ struct GateOptions {
 /// Runs in two stages. After the first, a test whose p-value is below `at_once` (or half of
 /// family_alpha shared out among all tests, if that is less) is rejected at once. One below
 /// `suspicious` runs again with four times the samples and other random numbers, and Holm's
-/// procedure judges those at the other half. Either way a correct sampler is rejected with at most
+/// procedure over all tests of the family judges those at the other half; tests that did not run
+/// again count as not rejected. Either way a correct sampler is rejected with at most
 /// family_alpha; a small defect must look suspicious first and show with four times the samples
 /// then. The same bits for any number of threads.
 GateResult run_gate(std::span<const Problem> problems, const GateOptions& options,

@@ -22,6 +22,8 @@ struct Candidate {
   /// Step of its sums and random numbers: a float's below 1 unless it is known to be finer, 0 if it
   /// searches no sums of rows and columns.
   double resolution = 0x1p-24;
+  /// Whether u.t alone, all its 53 bits, gives its row and the share of the row's mass below it.
+  bool inverts_rows = false;
   /// Whether it claims to return the texels of the problem's twin, point for point.
   bool has_twin = false;
   /// What is found does not depend on the seed.

@@ -72,7 +72,7 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
   const BoundSampler sampler = configuration.candidate->bind();
   const Evidence evidence(expectation);
   const RandomStream stream = configuration.stream("sequential");
-  Draws draws(expectation.masses.extent());
+  Draws draws(expectation.masses.extent(), expectation.bands.size());
   double log10_e = 0.0;
   for (std::uint64_t next = kFirstLook; log10_e < enough && draws.samples < options.samples;
        next += next / 2) {

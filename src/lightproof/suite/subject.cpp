@@ -24,6 +24,7 @@ Candidate candidate_of(const Subject& subject, const EnvironmentMap& map) {
           .known_defects = subject.known_defects,
           .bind = [bind = subject.bind, &map] { return bind(map); },
           .resolution = subject.resolution,
+          .inverts_rows = subject.inverts_rows,
           .has_twin = subject.inverts_shared_cdf};
 }
 
@@ -53,7 +54,8 @@ Subject subject_of(const SamplerInfo& sampler, Weighting weighting) {
             return std::visit([](auto made) { return bound(std::move(made)); },
                               sampler.make(map, weighting));
           },
-          sampler.resolution};
+          sampler.resolution,
+          sampler.inverts_rows};
 }
 
 std::vector<Subject> all_subjects() {

@@ -20,6 +20,7 @@ struct Subject {
   /// The map outlives what is bound to it. Throws InputError if the map is black.
   std::function<BoundSampler(const EnvironmentMap&)> bind;
   double resolution = 0x1p-24;  ///< as a Candidate's
+  bool inverts_rows = false;    ///< likewise
 };
 
 /// A row of the registry under one weighting.

@@ -16,7 +16,7 @@ Trial::Trial(const EnvironmentMap& map, Grid<double> masses)
              "",
              [shared = expectation] { return *shared; },
              [] { return std::vector<Alternative>(); },
-             {{"oracle", false, [sampler] { return *sampler; }}}};
+             {{.name = "oracle", .bind = [sampler] { return *sampler; }, .inverts_rows = true}}};
 }
 
 EnvironmentMap calibration_map() {
@@ -39,7 +39,7 @@ std::vector<Measured> run_once(const Trial& trial, std::uint64_t samples, std::u
   const Configuration configuration{&trial.problem, &trial.problem.candidates[0], seed};
   const BoundSampler sampler = configuration.candidate->bind();
   const Draws draws =
-      draw_samples(sampler, *trial.expectation, configuration.stream("draws"), {0, samples});
+      draw_samples_of(configuration, *trial.expectation, sampler, "draws", samples);
   const UniformEstimates uniform =
       draw_uniformly(*trial.expectation, RandomStream("self-test/uniform", seed), samples);
   return test_draws(configuration, *trial.expectation, trial.own, draws, uniform);

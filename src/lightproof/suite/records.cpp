@@ -1,0 +1,163 @@
+#include "lightproof/suite/records.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <exception>
+#include <new>
+
+#include "lightproof/core/error.h"
+
+namespace lightproof {
+namespace {
+
+void set_fit(TestRecord& record, const GoodnessOfFit& fit) {
+  record.statistic = fit.statistic;
+  record.dof = fit.dof;
+  record.effect = fit.effect;
+  if (fit.dof > 0.0 || fit.impossible_hits > 0) record.log10_p = fit.log10_p;
+}
+
+}  // namespace
+
+std::optional<std::string> failure_of(const std::function<void()>& computation) {
+  try {
+    computation();
+  } catch (const InputError&) {
+    throw;
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return std::nullopt;
+}
+
+Measured& Records::add(std::string_view oracle, std::string_view test) {
+  return records_.emplace_back(Measured{record_of(*configuration_, oracle, test, samples_)});
+}
+
+void Records::attempt(std::string_view oracle, std::string_view test,
+                      const std::function<void()>& run) {
+  const std::size_t before = records_.size();
+  const std::optional<std::string> failure = failure_of(run);
+  if (!failure) return;
+  records_.erase(records_.begin() + static_cast<std::ptrdiff_t>(before), records_.end());
+  add(oracle, test).record.detail = "could not be computed: " + *failure;
+}
+
+void Records::add_fit(std::string_view oracle, std::string_view test,
+                      std::span<const std::uint64_t> observed,
+                      std::span<const double> probability) {
+  attempt(oracle, test, [&] {
+    const GoodnessOfFit fit = cressie_read(observed, probability, samples_);
+    auto& [record, detectable] = add(oracle, test);
+    if (fit.dof > 0.0) {
+      detectable = [dof = fit.dof](double level, double power, double samples) {
+        return detectable_w(dof, level, power, samples);
+      };
+    }
+    set_fit(record, fit);
+    // With a single possible cell every sample is in it, unless it is an impossible hit.
+    if (fit.dof == 0.0 && fit.possible_cells <= 1) record.outcome = Outcome::accept;
+    if (fit.dof == 0.0 && fit.possible_cells > 1) record.detail = "too few samples for two pools";
+    if (fit.too_even && fit.log10_p < -3.0)
+      record.detail = "counts nearer to the expectation than chance makes them";
+    if (fit.impossible_hits > 0) {
+      record.detail = fmt::format("{} samples in cells without light, the first is cell {}",
+                                  fit.impossible_hits, *fit.first_impossible);
+    }
+  });
+}
+
+void Records::add_partial_fit(std::string_view test, const GoodnessOfFit& fit,
+                              std::uint64_t fit_samples) {
+  auto& [record, detectable] = add("reference", test);
+  set_fit(record, fit);
+  const double share = static_cast<double>(fit_samples) / static_cast<double>(samples_);
+  detectable = [dof = fit.dof, share](double level, double power, double samples) {
+    return detectable_w(dof, level, power, samples * share);
+  };
+}
+
+void Records::add_two_samples(std::string_view test, const GoodnessOfFit& fit, double share) {
+  auto& [record, detectable] = add("reference", test);
+  record.statistic = fit.statistic;
+  record.dof = fit.dof;
+  record.effect = fit.effect;
+  if (fit.possible_cells <= 1) record.outcome = Outcome::accept;
+  if (fit.dof <= 0.0) return;
+  record.log10_p = fit.log10_p;
+  detectable = [dof = fit.dof, share](double level, double power, double samples) {
+    return detectable_w(dof, level, power, samples * share);
+  };
+}
+
+void Records::add_uniformity(std::string_view test, const UniformityTest& uniformity,
+                             double (*detectable)(double, double, double)) {
+  Measured& measured = add("reference", test);
+  measured.detectable = detectable;
+  measured.record.statistic = uniformity.statistic;
+  measured.record.log10_p = uniformity.log10_p;
+  measured.record.effect = uniformity.distance;
+}
+
+void Records::add_worst(std::string_view test, std::span<const std::uint64_t> observed,
+                        std::span<const double> probability) {
+  attempt("reference", test, [&] {
+    const WorstCell worst = worst_cell(observed, probability, samples_);
+    auto& [record, detectable] = add("reference", test);
+    detectable = [worst](double level, double power, double samples) {
+      return detectable_excess(worst, level, power, samples);
+    };
+    record.statistic = worst.observed;
+    record.log10_p = worst.log10_p;
+    if (worst.expected > 0.0) record.effect = worst.observed / worst.expected - 1.0;
+    record.detail = fmt::format("cell {}: {} samples where {:.5g} were expected", worst.cell,
+                                worst.observed, worst.expected);
+  });
+}
+
+void Records::add_z(std::string_view oracle, std::string_view test, const ZTest& z,
+                    const ExactLaw& law, double exact) {
+  auto& [record, detectable] = add(oracle, test);
+  detectable = [law, exact](double level, double power, double samples) {
+    return detectable_factor(level, power, samples, law, exact) - 1.0;
+  };
+  record.statistic = z.z;
+  record.log10_p = z.log10_p;
+  record.effect = z.effect;
+}
+
+void Records::add_check(const CheckResult& result) {
+  TestRecord& record = add("check", result.name).record;
+  record.effect = result.worst;
+  record.outcome = result.passed ? Outcome::accept : Outcome::reject;
+  record.detail = result.detail;
+}
+
+void Records::add_strays(std::string_view test, std::string_view what, const Strays& strays) {
+  TestRecord& record = add("check", test).record;
+  record.statistic = static_cast<double>(strays.count);
+  record.effect = record.statistic / static_cast<double>(samples_);
+  record.outcome = strays.count == 0 ? Outcome::accept : Outcome::reject;
+  if (!strays.first) return;
+  const auto& [u, sample] = *strays.first;
+  record.detail = fmt::format(
+      "{} of {} samples {}; first: u = ({:.17g}, {:.17g}) gives texel ({}, {}) at ({:.9g}, "
+      "{:.9g}), pdf {:.3g}",
+      strays.count, samples_, what, u.s, u.t, sample.x, sample.y, sample.at.s, sample.at.t,
+      sample.pdf.value);
+}
+
+void Records::set_resolution_floor(double effect) {
+  if (effect > 0.0 && !records_.empty()) records_.back().record.resolution_floor = effect;
+}
+
+void Records::set_detail(std::string detail) {
+  if (!records_.empty()) records_.back().record.detail = std::move(detail);
+}
+
+}  // namespace lightproof
