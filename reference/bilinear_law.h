@@ -40,6 +40,9 @@ class BilinearTransform {
   /// Mass of every row of patches; they sum to 1.
   std::vector<double> rows() const;
 
+  /// ∫ of the interpolated grey over the square, under B times sin(pi t).
+  double total() const { return total_; }
+
  private:
   using Sums = std::vector<double>;  ///< up to each edge of the patches across: W + 2
 

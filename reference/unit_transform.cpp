@@ -50,7 +50,10 @@ UnitPoint UnitTransform::operator()(SquarePoint at, int x, int y) const {
           : std::clamp((cos_theta(at.t) - low) / (heights_[row + 1] - low), 0.0, 1.0);
   return {between(rows_[row], rows_[row + 1], along),
           between(within_(x, y), within_(x + 1, y), across),
-          between(columns_[column], columns_[column + 1], across), y, along, across};
+          between(columns_[column], columns_[column + 1], across),
+          y,
+          along,
+          across};
 }
 
 }  // namespace lightproof::reference

@@ -75,6 +75,17 @@ TEST(Holm, HoldsTheFamilyWiseErrorOfIndependentTests) {
   EXPECT_NEAR(wrong / 10000.0, 1.0 - std::pow(1.0 - 0.1 / 20.0, 20), 4.9 * 0.0029);
 }
 
+// In a run of which a part is done again the part must not reject what the whole accepted, though
+// it has fewer tests: both count the same family.
+TEST(Holm, APartOfAFamilyRejectsNothingThatTheWholeAccepts) {
+  const std::vector<double> whole = {-7.0, -5.0, -2.0, -0.5, -0.3};
+  const double alpha = 1e-4;  // levels -4.7, -4.6, ...
+  EXPECT_THAT(holm_rejections(whole, alpha, 100), ElementsAre(true, false, false, false, false));
+  EXPECT_THAT(holm_rejections(std::vector{-5.0}, alpha, 100), ElementsAre(false));
+  EXPECT_THAT(holm_rejections(std::vector{-5.0}, alpha), ElementsAre(true));
+  EXPECT_THAT(holm_rejections(std::vector{-7.0}, alpha, 100), ElementsAre(true));
+}
+
 TEST(Holm, StrictestLevelIsBonferronis) {
   EXPECT_EQ(strictest_level(1e-6, 1), 1e-6);
   EXPECT_EQ(strictest_level(1e-6, 8), 1.25e-7);

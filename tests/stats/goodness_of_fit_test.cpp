@@ -286,6 +286,67 @@ TEST(WorstCell, FindsAnOutlierInAFaintCellThatMovesNoSum) {
   EXPECT_GT(cressie_read(counts, probability, kSamples).log10_p, -3.0);
 }
 
+/// P(Poisson >= count), by its terms from there on.
+double poisson_upper(int count, double mean) {
+  double term = std::exp(count * std::log(mean) - mean - std::lgamma(count + 1.0));
+  double sum = 0.0;
+  for (int k = count; term > 1e-20 * sum || k < mean; ++k) {
+    sum += term;
+    term *= mean / (k + 1);
+  }
+  return sum;
+}
+
+TEST(WorstCell, CriticalCountIsTheFirstWhoseTailIsBelowTheLevel) {
+  for (const double mean : {0.01, 1.0, 32.0, 1000.0}) {
+    for (const double level : {1e-3, 1e-9}) {
+      const auto count = static_cast<int>(critical_count(mean, level));
+      EXPECT_LE(poisson_upper(count, mean), level) << mean;
+      EXPECT_GT(poisson_upper(count - 1, mean), level) << mean;
+    }
+  }
+}
+
+// The normal law promised 99.5 % of an excess that a Poisson count shows in 28 % of runs where a
+// texel expects two samples.
+TEST(WorstCell, TheExcessThatItPromisesIsFoundThatOften) {
+  constexpr double kLevel = 1e-3;
+  constexpr double kPower = 0.995;
+  for (const double mean : {2.0, 32.0, 320.0, 32000.0}) {
+    const WorstCell worst = {.cells = 1U << 17U, .likeliest = mean / 0x1p22};
+    const double excess = detectable_excess(worst, kLevel, kPower, 0x1p22);
+    const auto critical = static_cast<int>(critical_count(mean, 0.5 * kLevel / 0x1p17));
+    EXPECT_NEAR(poisson_upper(critical, mean * (1.0 + excess)), kPower, 1e-9) << mean;
+  }
+}
+
+TEST(WorstCell, PromisesNothingThatNeedsMoreThanAllSamples) {
+  const WorstCell all = {.cells = 1, .likeliest = 1.0};
+  EXPECT_TRUE(std::isinf(detectable_excess(all, 1e-3, 0.99, 1024.0)));
+  const WorstCell half = {.cells = 2, .likeliest = 0.5};
+  EXPECT_TRUE(std::isinf(detectable_excess(half, 1e-3, 0.99, 16.0)));
+  EXPECT_LT(detectable_excess(half, 1e-3, 0.99, 1024.0), 1.0);
+}
+
+// Counts equal to expectations that are not whole numbers of a double: the sum of what is 0 was
+// -1e-13, and no law knows that.
+TEST(CressieRead, IsNeverBelowZero) {
+  for (std::uint64_t n = 1000; n < 1200; ++n) {
+    for (int cells = 2; cells < 30; ++cells) {
+      Counts counts;
+      std::vector<double> probability;
+      const std::uint64_t all = n * static_cast<std::uint64_t>(cells * (cells + 1) / 2);
+      for (int i = 1; i <= cells; ++i) {
+        counts.push_back(n * static_cast<std::uint64_t>(i));
+        probability.push_back(static_cast<double>(counts.back()) / static_cast<double>(all));
+      }
+      const GoodnessOfFit fit = cressie_read(counts, probability, all);
+      ASSERT_GE(fit.statistic, 0.0);
+      ASSERT_LE(fit.log10_p, 0.0);
+    }
+  }
+}
+
 // Pearson's statistic of the table {40, 60}, {60, 40} is four times 10^2 / 50; Cressie and Read's
 // divergence is within a few percent of it.
 TEST(TwoSamples, OfTwoCellsAreNearPearson) {

@@ -267,6 +267,46 @@ constexpr std::array kMutants = {
            .oracle = "check",
            .needs = "texels without light",
            .law = "dark-texels-drawn"},
+    Mutant{.name = "s-from-last-t",
+           .defect = "s of every sample drawn with the number of the t before it",
+           .diagnosis = "dependent-samples",
+           .oracle = "reference",
+           .numbers =
+               [](std::span<const SquarePoint> batch, std::size_t i) {
+                 return SquarePoint{i > 0 ? batch[i - 1].t : batch[i].s, batch[i].t};
+               }},
+    Mutant{.name = "antithetic",
+           .defect = "every second sample antithetic to the one before it",
+           .diagnosis = "dependent-samples",
+           .oracle = "reference",
+           .numbers =
+               [](std::span<const SquarePoint> batch, std::size_t i) {
+                 if (i % 2 == 0) return batch[i];
+                 constexpr double kLast = 1.0 - 0x1p-53;
+                 return SquarePoint{kLast - batch[i - 1].s, kLast - batch[i - 1].t};
+               }},
+    Mutant{.name = "one-texel-missing",
+           .defect = "one texel of six times the median set to zero in the table and in pdf()",
+           .diagnosis = "one-texel-missing",
+           .oracle = "check",
+           .law = "one-texel-missing"},
+    Mutant{.name = "other-rows-at-poles",
+           .defect = "in the rows of the poles uniform in cos(theta) where t is declared, or in t",
+           .diagnosis = "uneven-in-texel",
+           .oracle = "reference",
+           .sample =
+               [](TexelSample& s, const LawSampler& law) {
+                 if (!is_pole_row(s, law)) return;
+                 const int height = law.extent().height;
+                 const double within = s.at.t * height - s.y;
+                 // A row of the poles counted from the pole: its solid angle grows with the square
+                 // of the angle there.
+                 const double from_pole = 2 * s.y < height ? within : 1.0 - within;
+                 const double moved =
+                     law.weighting() == Weighting::A ? std::sqrt(from_pole) : from_pole * from_pole;
+                 s.at.t = place_in_cell(s.y, 2 * s.y < height ? moved : 1.0 - moved, height);
+                 s.pdf = law.pdf(s.at);
+               }},
     // Of our own.
     Mutant{.name = "columns-of-next-row",
            .defect = "columns drawn from the next row's sums",

@@ -22,6 +22,41 @@ double halved(Extent map) { return std::log2(map.width) + std::log2(map.height);
 double quartered(Extent map) { return std::log2(std::max(map.width, map.height)); }
 double looked_up(Extent /*map*/) { return 1.0; }
 
+/// Knots in steps of `step`, each rounded to the nearest, after every lit cell got one step of its
+/// own out of the whole: two steps a cell, and a share of the cells for all of them.
+MassRounding summed(Extent map, double step) {
+  return {.relative = step * (map.width + map.height), .of_sums = 2.0 * step};
+}
+MassRounding summed_in_floats(Extent map) { return summed(map, 0x1p-24); }
+MassRounding summed_in_31_bits(Extent map) { return summed(map, 0x1p-31); }
+/// Runs as above; inside of them 16 bits, likewise.
+MassRounding of_runs(Extent map) {
+  MassRounding rounding = summed_in_31_bits(map);
+  rounding.relative += kRunTexels * 0x1p-16;
+  rounding.of_run = 2.0 * 0x1p-16;
+  return rounding;
+}
+/// One unit of 2^-32 of the average and at most that for what is left over; masses kept as floats.
+MassRounding of_alias(Extent /*map*/) { return {.relative = 0x1p-23, .of_average = 0x1p-31}; }
+MassRounding of_alias_runs(Extent map) {
+  MassRounding rounding = of_runs(map);
+  rounding.of_sums = 0.0;
+  // A run's unit is 2^-32 of an average run, which is as many texels.
+  rounding.of_average = kRunTexels * 0x1p-31;
+  rounding.relative += 0x1p-23;
+  return rounding;
+}
+/// Units of the threshold's bits, and a palette of 65536 masses over at most 64 binary orders of
+/// magnitude, 1024 of them kept for the brightest texels: at least 9 digits.
+MassRounding of_palette(Extent map) {
+  const double unit = PackedAliasLayout(map.count()).unit;
+  return {.relative = 0x1p-8 + unit, .of_average = 2.0 * unit};
+}
+/// Every level adds and divides floats.
+MassRounding of_levels(Extent map) {
+  return {.relative = 0x1p-22 * (2.0 + std::log2(std::max(map.width, map.height)))};
+}
+
 constexpr std::array<SamplerInfo, 11> kSamplers = {{
     {.name = "linear_scan_published",
      .source = "lecture \"Image-based Lighting\", GLSL listing",
@@ -29,6 +64,7 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
      .steps = scanned,
      .grey = kPublishedLuminance,
      .resolution = 0x1p-24,
+     .rounding = summed_in_floats,
      .monotone = true,
      .known_defects = true,
      .inverts_shared_cdf = false,
@@ -39,6 +75,7 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
      .steps = scanned,
      .grey = kRec709,
      .resolution = 0x1p-31,
+     .rounding = summed_in_31_bits,
      .monotone = true,
      .inverts_rows = true,
      .known_defects = false,
@@ -50,6 +87,7 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
      .steps = halved,
      .grey = kRec709,
      .resolution = 0x1p-31,
+     .rounding = summed_in_31_bits,
      .monotone = true,
      .inverts_rows = true,
      .known_defects = false,
@@ -61,6 +99,7 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
      .steps = halved,
      .grey = kRec709,
      .resolution = 0x1p-31,
+     .rounding = summed_in_31_bits,
      .monotone = true,
      .inverts_rows = true,
      .known_defects = false,
@@ -72,6 +111,7 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
      .steps = looked_up,
      .grey = kRec709,
      .resolution = 0x1p-31,
+     .rounding = summed_in_31_bits,
      .monotone = true,
      .inverts_rows = true,
      .known_defects = false,
@@ -83,6 +123,7 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
      .steps = looked_up,
      .grey = kRec709,
      .resolution = 0.0,
+     .rounding = of_runs,
      .monotone = true,
      .inverts_rows = true,
      .known_defects = false,
@@ -94,6 +135,7 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
      .steps = looked_up,
      .grey = kRec709,
      .resolution = 0.0,
+     .rounding = of_alias,
      .monotone = false,
      .known_defects = false,
      .inverts_shared_cdf = false,
@@ -104,6 +146,7 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
      .steps = looked_up,
      .grey = kRec709,
      .resolution = 0.0,
+     .rounding = of_palette,
      .monotone = false,
      .known_defects = false,
      .inverts_shared_cdf = false,
@@ -114,6 +157,7 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
      .steps = looked_up,
      .grey = kRec709,
      .resolution = 0.0,
+     .rounding = of_alias_runs,
      .monotone = false,
      .known_defects = false,
      .inverts_shared_cdf = false,
@@ -124,6 +168,7 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
      .steps = quartered,
      .grey = kRec709,
      .resolution = 0.0,
+     .rounding = of_levels,
      .monotone = true,
      .known_defects = false,
      .inverts_shared_cdf = false,
@@ -135,6 +180,7 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
      .grey = kRec709,
      .lookup = Lookup::bilinear,
      .resolution = 0x1p-31,
+     .rounding = summed_in_31_bits,
      .monotone = true,
      .inverts_rows = true,
      .known_defects = false,

@@ -16,6 +16,7 @@
 #include "lightproof/samplers/hierarchical.h"
 #include "lightproof/samplers/linear_scan.h"
 #include "lightproof/samplers/linear_scan_published.h"
+#include "lightproof/samplers/mass_rounding.h"
 #include "lightproof/samplers/packed_alias.h"
 
 namespace lightproof {
@@ -35,10 +36,11 @@ struct SamplerInfo {
   /// Step of its sums of rows and columns, and of the random numbers that it reads; 0 if it
   /// searches no such sums.
   double resolution;
-  bool monotone;            ///< in u.t along and in u.s across: it keeps stratification
+  MassRounding (*rounding)(Extent map);  ///< what it declares of the probabilities of texels
+  bool monotone;              ///< in u.t along and in u.s across: it keeps stratification
   bool inverts_rows = false;  ///< u.t alone, all its 53 bits, gives the row and the share of it
-  bool known_defects;       ///< kept as published, to show what the gate finds
-  bool inverts_shared_cdf;  ///< must return the texel of LinearScan for every point
+  bool known_defects;         ///< kept as published, to show what the gate finds
+  bool inverts_shared_cdf;    ///< must return the texel of LinearScan for every point
   /// The map must outlive the sampler. Throws InputError if it is black.
   AnySampler (*make)(const EnvironmentMap& map, Weighting weighting);
 

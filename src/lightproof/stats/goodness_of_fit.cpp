@@ -18,9 +18,7 @@ struct Pool {
   double expected = 0.0;
 };
 
-double cell_divergence(const Pool& pool) {
-  return power_divergence(pool.observed, pool.expected);
-}
+double cell_divergence(const Pool& pool) { return power_divergence(pool.observed, pool.expected); }
 
 template <class Count>
 std::vector<Pool> pool_cells(std::span<const Count> observed, std::span<const double> probability,

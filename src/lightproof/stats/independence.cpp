@@ -78,7 +78,8 @@ GoodnessOfFit independence_fit(const Grid<std::uint64_t>& counts) {
   }
   fit.dof = positive_less_one(margins.rows) * positive_less_one(margins.columns);
   judge_fit(fit);
-  fit.effect = samples > 0 ? std::sqrt(std::max(0.0, fit.statistic - fit.dof) / margins.total) : 0.0;
+  fit.effect =
+      samples > 0 ? std::sqrt(std::max(0.0, fit.statistic - fit.dof) / margins.total) : 0.0;
   return fit;
 }
 
@@ -91,8 +92,7 @@ GoodnessOfFit sum_of_fits(std::span<const GoodnessOfFit> fits, std::uint64_t sam
   }
   judge_fit(sum);
   if (samples > 0) {
-    sum.effect =
-        std::sqrt(std::max(0.0, sum.statistic - sum.dof) / static_cast<double>(samples));
+    sum.effect = std::sqrt(std::max(0.0, sum.statistic - sum.dof) / static_cast<double>(samples));
   }
   return sum;
 }

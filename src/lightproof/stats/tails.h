@@ -5,8 +5,8 @@
 
 namespace lightproof {
 
-/// log10 P(chi-square with `dof` degrees of freedom >= statistic). dof > 0; a statistic that rounding
-/// has left below 0 counts as 0.
+/// log10 P(chi-square with `dof` degrees of freedom >= statistic). dof > 0; a statistic that
+/// rounding has left below 0 counts as 0.
 double log10_chi_square_tail(double statistic, double dof);
 
 /// log10 P(chi-square < statistic): small where counts agree better than chance allows;

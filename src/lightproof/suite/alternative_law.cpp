@@ -274,6 +274,29 @@ Grid<double> without_dim_rows(const DeclaredLaw& declared) {
   });
 }
 
+/// Without the texel that is nearest to six times as likely as the median of the lit ones.
+Grid<double> without_one_texel(const DeclaredLaw& declared) {
+  const Grid<double>& masses = *declared.masses;
+  std::vector<double> lit;
+  for (const double mass : masses.values()) {
+    if (mass > 0.0) lit.push_back(mass);
+  }
+  if (lit.size() < 2) return masses;
+  const auto middle = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() / 2);
+  std::nth_element(lit.begin(), middle, lit.end());
+  const double six = std::log(6.0 * *middle);
+  const auto distance = [&](double mass) {
+    return mass > 0.0 ? std::abs(std::log(mass) - six) : INFINITY;
+  };
+  const auto values = masses.values();
+  const auto one = std::min_element(values.begin(), values.end(),
+                                    [&](double a, double b) { return distance(a) < distance(b); });
+  Grid<double> rest = masses;
+  rest.values()[static_cast<std::size_t>(one - values.begin())] = 0.0;
+  normalise(rest);
+  return rest;
+}
+
 /// Half of every texel's mass goes to the next column.
 Grid<double> half_column(const DeclaredLaw& declared) {
   return moved(declared, [](const Grid<double>& m, int x, int y) {
@@ -281,7 +304,7 @@ Grid<double> half_column(const DeclaredLaw& declared) {
   });
 }
 
-constexpr std::array<AlternativeLaw, 29> kLaws = {{
+constexpr std::array<AlternativeLaw, 30> kLaws = {{
     {"other-weighting", "a missing sin(theta) (or one too many): the other weighting",
      other_weighting},
     {"other-lookup", "the other look-up: whole texels for interpolated ones, or the reverse",
@@ -291,6 +314,7 @@ constexpr std::array<AlternativeLaw, 29> kLaws = {{
     {"sine-twice", "sin(theta) applied twice", sine_twice},
     {"column-late", "columns off by one: each is drawn for the one before it", column_late, false},
     {"column-early", "columns off by one: each is drawn for the one after it", column_early, false},
+    {"one-texel-missing", "one texel of some brightness is never drawn", without_one_texel, false},
     {"half-texel", "half a texel added in s", half_column, false},
     {"row-late", "rows off by one: each is drawn for the one below it", row_late, false},
     {"upside-down", "t flipped", upside_down, false},

@@ -183,8 +183,41 @@ std::array<CheckResult, 2> check_edges(const BoundSampler& sampler,
           check_points("edges of u", sampler, expectation, others)};
 }
 
-Inspection inspect(const BoundSampler& sampler, const Expectation& expectation) {
-  return {integrate_pdf(sampler, expectation.smooth_cells()), check_edges(sampler, expectation)};
+CheckResult check_support(const DensityComparison& density) {
+  CheckResult result{"support of the pdf", density.lost_cells == 0 && density.unlit_cells == 0,
+                     density.unreachable_mass, ""};
+  if (density.unlit_cells > 0) {
+    const ComparedCell& cell = *density.first_unlit;
+    result.detail = fmt::format(
+        "{} cells where none is declared have a pdf, the first {:.3g} in "
+        "texel ({}, {})",
+        density.unlit_cells, cell.pdf, cell.x, cell.y);
+  }
+  if (density.unreachable_cells > 0) {
+    const ComparedCell& cell = *density.first_unreachable;
+    result.detail += fmt::format(
+        "{}{} cells with {:.3g} of the light have the pdf 0, the first in texel ({}, {})",
+        result.detail.empty() ? "" : "; ", density.unreachable_cells, density.unreachable_mass,
+        cell.x, cell.y);
+  }
+  return result;
+}
+
+CheckResult check_declared_density(const DensityComparison& density) {
+  CheckResult result{"pdf is the declared density", density.cells_off == 0, density.largest_error,
+                     ""};
+  if (!density.worst) return result;
+  const ComparedCell& cell = *density.worst;
+  result.detail = fmt::format(
+      "{} cells are off, the worst in texel ({}, {}): pdf {:.6g} where {:.6g} is declared",
+      density.cells_off, cell.x, cell.y, cell.pdf, cell.declared);
+  return result;
+}
+
+Inspection inspect(const BoundSampler& sampler, const Expectation& expectation,
+                   const MassRounding& rounding) {
+  return {integrate_pdf(sampler, expectation.smooth_cells()),
+          compare_density(sampler, expectation, rounding), check_edges(sampler, expectation)};
 }
 
 CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,

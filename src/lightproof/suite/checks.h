@@ -7,6 +7,7 @@
 
 #include "lightproof/core/random.h"
 #include "lightproof/suite/bound_sampler.h"
+#include "lightproof/suite/density_check.h"
 #include "lightproof/suite/expectation.h"
 
 namespace lightproof {
@@ -45,12 +46,23 @@ CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& 
 /// points next to 1 are a check of their own: where sums end too early, they run off.
 std::array<CheckResult, 2> check_edges(const BoundSampler& sampler, const Expectation& expectation);
 
+/// pdf() is positive where the declared density is, or the sampler declares that its rounding may
+/// lose so little light; and 0 where that is 0. The deviation is the share of all light that the
+/// pdf calls unreachable.
+CheckResult check_support(const DensityComparison& density);
+
+/// pdf() is the declared density at every cell's centre, to 1e-5 and what the sampler declares of
+/// its rounding. The deviation is the largest relative one, of cells that can be reached.
+CheckResult check_declared_density(const DensityComparison& density);
+
 /// What can be said of a sampler whatever the seed.
 struct Inspection {
   OwnDensity own;
+  DensityComparison density;
   std::array<CheckResult, 2> edges;
 };
-Inspection inspect(const BoundSampler& sampler, const Expectation& expectation);
+Inspection inspect(const BoundSampler& sampler, const Expectation& expectation,
+                   const MassRounding& rounding);
 
 /// The same texel as another sampler for the same point: edge_points(), and so many random ones.
 CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,

@@ -74,8 +74,8 @@ std::vector<double> uniform_masses(Extent bins) {
   return std::vector<double>(bins.count(), 1.0 / static_cast<double>(bins.count()));
 }
 
-constexpr std::array<std::string_view, 4> kPairNames = {
-    "theta with theta", "theta with phi", "phi with theta", "phi with phi"};
+constexpr std::array<std::string_view, 4> kPairNames = {"theta with theta", "theta with phi",
+                                                        "phi with theta", "phi with phi"};
 
 /// Pairs of transformed coordinates of samples that are so far apart in the sequence: four tables,
 /// whose interactions are uncorrelated, so that statistics and degrees of freedom add up.
@@ -86,10 +86,9 @@ void add_pairs(Records& records, const Draws& draws, std::size_t lag) {
   records.attempt("reference", test, [&] {
     std::vector<GoodnessOfFit> fits;
     for (const auto& pair : counts.pairs) fits.push_back(independence_fit(pair));
-    const auto worst =
-        std::max_element(fits.begin(), fits.end(), [](const auto& a, const auto& b) {
-          return a.statistic < b.statistic;
-        });
+    const auto worst = std::max_element(fits.begin(), fits.end(), [](const auto& a, const auto& b) {
+      return a.statistic < b.statistic;
+    });
     records.add_partial_fit(test, sum_of_fits(fits, counts.total), counts.total);
     records.set_detail(fmt::format("most of it between {} of samples {} apart",
                                    kPairNames[static_cast<std::size_t>(worst - fits.begin())],
@@ -159,13 +158,27 @@ TestRecord record_of(const Configuration& configuration, std::string_view oracle
   return record;
 }
 
+void require_power(TestRecord& record, double must_detect) {
+  const bool judges_bins = record.test == kBinsTest || record.test == kSequentialTest;
+  if (!judges_bins || record.oracle != "reference" || record.outcome != Outcome::accept) return;
+  // Where all samples lie in one bin nothing could be missed, and no effect is printed.
+  if (record.test == kBinsTest ? record.dof <= 0.0 : !record.detectable_effect) return;
+  if (record.detectable_effect.value_or(INFINITY) <= must_detect) return;
+  record.outcome = Outcome::inconclusive;
+  record.detail = fmt::format(
+      "{} samples could have seen a deviation of {} at the least where {:.3g} is asked for: draw "
+      "more, or ask for less with --must-detect",
+      record.samples,
+      record.detectable_effect ? fmt::format("{:.3g}", *record.detectable_effect) : "any size",
+      must_detect);
+}
+
 Draws draw_samples_of(const Configuration& configuration, const Expectation& expectation,
                       const BoundSampler& sampler, std::string_view purpose,
                       std::uint64_t samples) {
   /// Points directed at each pole's row, as a share of the samples.
   constexpr std::uint64_t kDirected = 64;
-  Draws draws =
-      draw_samples(sampler, expectation, configuration.stream(purpose), {0, samples});
+  Draws draws = draw_samples(sampler, expectation, configuration.stream(purpose), {0, samples});
   if (!configuration.candidate->inverts_rows || expectation.bands.empty()) return draws;
   const std::size_t last = expectation.bands.size() - 1;
   for (const std::size_t band : last > 0 ? std::vector{std::size_t{0}, last} : std::vector{last}) {
@@ -174,8 +187,7 @@ Draws draw_samples_of(const Configuration& configuration, const Expectation& exp
     const double margin = std::max(0x1p-50, configuration.candidate->resolution);
     const RandomStream stream =
         configuration.stream(fmt::format("{}, directed at band {}", purpose, band));
-    add_directed_positions(draws, sampler, expectation, band, margin, stream,
-                           samples / kDirected);
+    add_directed_positions(draws, sampler, expectation, band, margin, stream, samples / kDirected);
   }
   return draws;
 }
@@ -184,7 +196,7 @@ std::vector<Measured> test_draws(const Configuration& configuration, const Expec
                                  const OwnDensity& own, const Draws& draws,
                                  const UniformEstimates& uniform) {
   Records records(configuration, draws.samples);
-  records.add_fit("reference", "bins 16x32", serpentine(draws.bins), serpentine(expectation.bins));
+  records.add_fit("reference", kBinsTest, serpentine(draws.bins), serpentine(expectation.bins));
   const std::vector<std::uint64_t> rows = row_counts(draws.texels);
   const std::vector<std::uint64_t> columns = column_counts(draws.texels);
   records.add_fit("reference", "texels", serpentine(draws.texels), serpentine(expectation.masses));
@@ -244,8 +256,7 @@ std::vector<Measured> test_against_twin(const Configuration& configuration, cons
   constexpr std::string_view kTest = "two samples with linear_scan";
   Records records(configuration, draws.samples);
   records.attempt("reference", kTest, [&] {
-    records.add_two_samples(kTest,
-                            two_sample_fit(serpentine(draws.bins), serpentine(twin->bins)),
+    records.add_two_samples(kTest, two_sample_fit(serpentine(draws.bins), serpentine(twin->bins)),
                             samples / (samples + static_cast<double>(draws.samples)));
   });
   return records.take();
@@ -259,6 +270,8 @@ std::vector<Measured> test_exactly(const Configuration& configuration,
   if (expectation.transform) records.add_check(check_resolution(draws));
   const RandomStream stream = configuration.stream("checks");
   records.add_check(check_pdf_integral(inspection.own));
+  records.add_check(check_support(inspection.density));
+  records.add_check(check_declared_density(inspection.density));
   const std::uint64_t points = std::min(draws.samples, kMostCheckPoints);
   records.add_check(check_returned_pdf(sampler, stream, points));
   for (const CheckResult& check : inspection.edges) records.add_check(check);

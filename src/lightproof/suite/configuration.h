@@ -29,6 +29,10 @@ struct Configuration {
 TestRecord record_of(const Configuration& configuration, std::string_view oracle,
                      std::string_view test, std::uint64_t samples);
 
+/// Makes an accepting test of the bins (or of all counts, if sequential) inconclusive if it could
+/// not have seen a deviation of this size.
+void require_power(TestRecord& record, double must_detect);
+
 /// What a test found, and what it would find.
 struct Measured {
   TestRecord record;
@@ -39,8 +43,7 @@ struct Measured {
 /// Draws so many samples for a purpose that names their stream; and, of a sampler that can be asked
 /// for them, positions in the rows of the poles, where few samples lie.
 Draws draw_samples_of(const Configuration& configuration, const Expectation& expectation,
-                      const BoundSampler& sampler, std::string_view purpose,
-                      std::uint64_t samples);
+                      const BoundSampler& sampler, std::string_view purpose, std::uint64_t samples);
 
 /// The tests of drawn samples; their p-values are not judged yet.
 std::vector<Measured> test_draws(const Configuration& configuration, const Expectation& expectation,

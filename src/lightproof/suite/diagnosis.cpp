@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <functional>
-#include <numeric>
+#include <initializer_list>
 
 #include "lightproof/stats/goodness_of_fit.h"
+#include "lightproof/suite/description.h"
+#include "lightproof/suite/law_fit.h"
+#include "lightproof/suite/number_defects.h"
 #include "reference/texel_masses.h"
 
 namespace lightproof {
@@ -28,9 +29,12 @@ constexpr std::array<Signature, 14> kSignatures = {{
     {"pdf-of-another-measure", "the pdf is one over another measure: the Jacobian is missing"},
     {"pdf-of-another-place", "the pdf is that of another place than the sample's"},
     {"noisy-pdf", "the pdf is a little off from place to place"},
-    {"clumped", "some places are drawn too often, others too seldom, without a pattern known here"},
-    {"unknown", "no defect known here explains it"},
+    {"dependent-samples", "each sample right, but samples depend on those before them"},
+    {"unknown", "no known defect explains the samples"},
 }};
+
+/// Beyond this relative error a returned pdf is no rounded one, but that of another place.
+constexpr double kNoise = 0.5;
 
 /// What the judged records say.
 class Verdicts {
@@ -46,6 +50,22 @@ class Verdicts {
       return r.oracle == oracle && r.outcome == Outcome::reject;
     });
   }
+  /// A test whose name begins so.
+  bool any_rejected_that(std::string_view oracle, std::string_view begins) const {
+    return std::any_of(records_.begin(), records_.end(), [&](const TestRecord& r) {
+      return r.oracle == oracle && r.test.starts_with(begins) && r.outcome == Outcome::reject;
+    });
+  }
+  /// All that is rejected are checks of these names.
+  bool only_rejected(std::initializer_list<std::string_view> checks) const {
+    return std::all_of(records_.begin(), records_.end(), [&](const TestRecord& r) {
+      return r.outcome != Outcome::reject ||
+             (r.oracle == "check" &&
+              std::find(checks.begin(), checks.end(), r.test) != checks.end());
+    });
+  }
+  /// An edge of the random numbers' range is where samples leave the map.
+  bool leaves_map() const { return rejected("check", "u next to 1"); }
   const TestRecord* find(std::string_view oracle, std::string_view test) const {
     const auto found = std::find_if(records_.begin(), records_.end(), [&](const TestRecord& r) {
       return r.oracle == oracle && r.test == test;
@@ -57,67 +77,8 @@ class Verdicts {
   std::span<const TestRecord> records_;
 };
 
-bool counts_are_wrong(const Verdicts& verdicts) {
-  for (const char* test : {"bins 16x32", "texels", "rows", "columns", "worst texel", "worst row",
-                           "worst column", "two samples with linear_scan", "sequential"}) {
-    if (verdicts.rejected("reference", test)) return true;
-  }
-  return false;
-}
-
-/// The logarithm of how many times likelier the counts are under `law` than as declared.
-double likelihood_gain(const Draws& draws, const Grid<double>& law, const Grid<double>& declared) {
-  constexpr double kImpossible = 1e-300;
-  double gain = 0.0;
-  for (std::size_t i = 0; i < law.values().size(); ++i) {
-    const auto count = static_cast<double>(draws.texels.values()[i]);
-    if (count == 0.0) continue;
-    gain += count * std::log(std::max(law.values()[i], kImpossible) /
-                             std::max(declared.values()[i], kImpossible));
-  }
-  return gain;
-}
-
-/// Divergence of the bins beyond what chance leaves.
-double bin_excess(const Draws& draws, const Grid<double>& masses, Weighting weighting) {
-  const auto bins = serpentine(reference::bin_masses(masses, weighting, kGateBins));
-  const GoodnessOfFit fit = cressie_read(serpentine(draws.bins), bins, draws.samples);
-  return fit.statistic - fit.dof;
-}
-
-/// The law under which the counts of texels are likeliest, and how much of the bins' divergence it
-/// takes away.
-struct Explanation {
-  std::string_view law = {};
-  double share = 0.0;
-};
-
-/// A gain in log-likelihood below this is chance (and nothing is named by it).
-constexpr double kTellingGain = 12.0;
-
-Explanation best_law(const Problem& problem, const Expectation& expectation, const Draws& draws) {
-  Explanation best;
-  Grid<double> best_masses;
-  double most = kTellingGain;
-  for (const Alternative& law : problem.alternatives()) {
-    Grid<double> masses = law.masses();
-    const double gain = likelihood_gain(draws, masses, expectation.masses);
-    if (!(gain > most * (1.0 + 1e-9))) continue;  // of equals, the first
-    most = gain;
-    best.law = law.name;
-    best_masses = std::move(masses);
-  }
-  if (best.law.empty()) return best;
-  const Weighting weighting = expectation.weighting;
-  const double before = bin_excess(draws, expectation.masses, weighting);
-  const double after = bin_excess(draws, best_masses, weighting);
-  // Where the bins saw nothing there is nothing to take away.
-  const double noise = 6.0 * std::sqrt(2.0 * static_cast<double>(kGateBins.count()));
-  best.share = before < noise ? 1.0 : (before - std::max(0.0, after)) / before;
-  return best;
-}
-
-/// The law whose bins are nearest to those of the sampler's own pdf; none if the declared one is.
+/// The law that the sampler's own pdf integrates to: the only one that takes away 99 % of what
+/// separates the bins of the pdf from the declared ones.
 std::string_view law_of_pdf(const Problem& problem, const Expectation& expectation,
                             const OwnDensity& own) {
   const auto distance = [&](const Grid<double>& bins) {
@@ -127,143 +88,137 @@ std::string_view law_of_pdf(const Problem& problem, const Expectation& expectati
     }
     return sum;
   };
+  const double declared = distance(expectation.bins);
+  constexpr double kIntegrated = 1e-6;  // to what quadrature and floats leave
+  if (!(declared > kIntegrated)) return {};
   std::string_view best;
-  double least = distance(expectation.bins);
+  double least = 0.01 * declared;
   for (const Alternative& law : problem.alternatives()) {
     const double d =
         distance(reference::bin_masses(law.masses(), expectation.weighting, kGateBins));
-    if (d < 0.5 * least) {
-      least = d;
-      best = law.name;
-    }
+    if (!(d < least * (1.0 - 1e-9))) continue;  // of equals, the first
+    least = d;
+    best = law.name;
   }
   return best;
 }
 
-/// Divergence per degree of freedom: 1 on average where all is right.
-double dispersion(const Grid<std::uint64_t>& counts, const Grid<double>& masses,
-                  std::uint64_t samples) {
-  const GoodnessOfFit fit = cressie_read(serpentine(counts), serpentine(masses), samples);
-  return fit.dof <= 0.0 ? 1.0 : fit.statistic / fit.dof;
-}
-
-/// Whether counts scatter by the same factor at every scale: nothing but the numbers is wrong.
-bool scatters_everywhere(const Expectation& expectation, const Draws& draws) {
-  const double bins = dispersion(draws.bins, expectation.bins, draws.samples);
-  const double texels = dispersion(draws.texels, expectation.masses, draws.samples);
-  return bins > 1.3 && texels > 1.3 && bins < 1.5 * texels && texels < 1.5 * bins;
-}
-
-bool too_even(const Expectation& expectation, const Draws& draws, const Verdicts& verdicts) {
-  return verdicts.rejected("reference", "bins 16x32") &&
-         dispersion(draws.bins, expectation.bins, draws.samples) < 0.7;
-}
-
-/// Whether one transformed coordinate follows from the other: each takes many values, but most
-/// samples of a row lie in two bins.
-bool is_one_number(const Draws& draws) {
-  std::uint64_t together = 0;
-  std::vector<std::uint64_t> columns(static_cast<std::size_t>(kPairBins.width));
-  std::uint64_t fullest_row = 0;
-  for (int y = 0; y < kPairBins.height; ++y) {
-    const auto row = draws.pairs.row(y);
-    std::vector<std::uint64_t> counts(row.begin(), row.end());
-    std::transform(counts.begin(), counts.end(), columns.begin(), columns.begin(), std::plus<>());
-    fullest_row =
-        std::max(fullest_row, std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
-    std::nth_element(counts.begin(), counts.begin() + 1, counts.end(), std::greater<>());
-    together += counts[0] + counts[1];
+/// Whether the samples follow this law of the problem.
+bool fits(const Problem& problem, const Expectation& expectation, const Draws& draws,
+          std::string_view name) {
+  for (const Alternative& law : problem.alternatives()) {
+    if (law.name != name) continue;
+    return log10_fit(draws, law.masses(), expectation) >= std::log10(kFitLevel);
   }
-  const std::uint64_t fullest =
-      std::max(fullest_row, *std::max_element(columns.begin(), columns.end()));
-  return 2 * together > draws.samples && 8 * fullest < draws.samples;
+  return false;
 }
 
-/// Whether the transformed coordinates take few values only.
-bool is_coarse(const Draws& draws) {
-  return 2 * std::max(draws.along_on_lattice, draws.across_on_lattice) > draws.samples;
+bool fits_declared(const Expectation& expectation, const Draws& draws) {
+  return log10_fit(draws, expectation.masses, expectation) >= std::log10(kFitLevel);
 }
 
-/// Whether a few texels hold most of the divergence.
+/// Whether the counts fit once the two texels that are farthest off are left out of them.
 bool is_in_one_place(const Expectation& expectation, const Draws& draws) {
-  const double n = static_cast<double>(draws.samples);
-  std::vector<double> parts;
-  double total = 0.0;
-  for (std::size_t i = 0; i < draws.texels.values().size(); ++i) {
-    const double expected = n * expectation.masses.values()[i];
-    if (expected < kPooledExpectation) continue;
-    const double d = static_cast<double>(draws.texels.values()[i]) - expected;
-    parts.push_back(d * d / expected - 1.0);
-    total += parts.back();
+  Draws rest = draws;
+  Grid<double> masses = expectation.masses;
+  for (int i = 0; i < 2; ++i) {
+    const WorstCell worst = worst_cell(rest.texels.values(), masses.values(), rest.samples);
+    if (worst.cells < 3) return false;
+    const double left = 1.0 - masses.values()[worst.cell];
+    rest.samples -= rest.texels.values()[worst.cell];
+    rest.texels.values()[worst.cell] = 0;
+    masses.values()[worst.cell] = 0.0;
+    for (double& mass : masses.values()) mass /= left;
   }
-  if (parts.size() < 4) return false;
-  std::nth_element(parts.begin(), parts.begin() + 1, parts.end(), std::greater<>());
-  return parts[0] + parts[1] > 0.5 * total;
+  const auto p = cressie_read(serpentine(rest.texels), serpentine(masses), rest.samples).log10_p;
+  return p >= std::log10(kFitLevel);
 }
 
-std::string_view name_of_wrong_counts(const Problem& problem, const Expectation& expectation,
-                                      const Evidence& evidence, const Verdicts& verdicts) {
-  if (too_even(expectation, *evidence.draws, verdicts)) return "stratified";
-  if (is_one_number(*evidence.draws)) return "same-number";
-  const Explanation explanation = best_law(problem, expectation, *evidence.draws);
-  if (!explanation.law.empty() && explanation.share > 0.8) return explanation.law;
-  if (scatters_everywhere(expectation, *evidence.draws)) return "repeated-numbers";
-  if (is_in_one_place(expectation, *evidence.draws)) return "one-place";
-  if (!explanation.law.empty() && explanation.share > 0.3) return explanation.law;
-  return "clumped";
+/// A name, and how sure it is.
+struct Name {
+  std::string_view defect;
+  double log10_odds = 0.0;
+  double log10_p = 0.0;
+};
+
+Name name_of_law(const Problem& problem, const Expectation& expectation, const Evidence& evidence) {
+  const LawFit fit = likeliest_law(problem, expectation, *evidence.draws);
+  if (fit.named()) return {fit.law, fit.log10_odds, fit.log10_p};
+  // Too few samples to tell laws apart: the pdf may say which one was meant.
+  const std::string_view own = law_of_pdf(problem, expectation, evidence.inspection->own);
+  if (!own.empty() && fits(problem, expectation, *evidence.draws, own)) {
+    return {own, std::log10(kNamingOdds), std::log10(kFitLevel)};
+  }
+  return {};
 }
 
+bool positions_are_wrong(const Verdicts& verdicts) {
+  return verdicts.rejected("reference", "positions in the first row") ||
+         verdicts.rejected("reference", "positions between the pole rows") ||
+         verdicts.rejected("reference", "positions in the last row");
+}
+
+bool samples_depend(const Verdicts& verdicts) {
+  return verdicts.any_rejected_that("reference", "independence at lag") ||
+         verdicts.any_rejected_that("reference", "sums over runs");
+}
+
+/// Of a pdf that is not the density that is drawn, which is the declared one.
 std::string_view name_of_wrong_pdf(const Problem& problem, const Expectation& expectation,
                                    const Evidence& evidence, const Verdicts& verdicts) {
-  const bool own_bins = verdicts.rejected("self", "bins 16x32 of its own pdf");
-  if (verdicts.rejected("check", "pdf integrates to 1") &&
-      !verdicts.rejected("check", "pdf of the sample")) {
-    return own_bins ? "pdf-of-another-measure" : "pdf-scaled";
+  const DensityComparison& density = evidence.inspection->density;
+  const bool returned = verdicts.rejected("check", "pdf of the sample");
+  if (verdicts.rejected("check", "pdf is the declared density") && !returned) {
+    if (density.ratio.is_constant()) return "pdf-scaled";
+    if (density.times_jacobian.is_constant() || density.over_jacobian.is_constant()) {
+      return "pdf-of-another-measure";
+    }
+    const std::string_view law = law_of_pdf(problem, expectation, evidence.inspection->own);
+    return law;
   }
-  if (own_bins) {
-    const std::string_view law = law_of_pdf(problem, expectation, *evidence.own);
-    return law.empty() ? "pdf-of-another-place" : law;
+  if (verdicts.rejected("check", "pdf is the declared density")) {
+    const std::string_view law = law_of_pdf(problem, expectation, evidence.inspection->own);
+    if (!law.empty()) return law;
   }
-  const TestRecord* returned = verdicts.find("check", "pdf of the sample");
-  if (verdicts.rejected("check", "pdf of the sample")) {
-    return returned->effect > 0.5 ? "pdf-of-another-place" : "noisy-pdf";
-  }
-  if (!verdicts.any_rejected("mean") && !verdicts.any_rejected("variance")) return "unknown";
-  // A law too near to the declared one for any count may still be the likelier one.
-  const Explanation explanation = best_law(problem, expectation, *evidence.draws);
-  return explanation.law.empty() ? "noisy-pdf" : explanation.law;
+  if (!returned) return {};
+  return verdicts.find("check", "pdf of the sample")->effect > kNoise ? "pdf-of-another-place"
+                                                                      : "noisy-pdf";
 }
 
-std::string_view name_of(const Problem& problem, const Expectation& expectation,
-                         const Evidence& evidence) {
+Name name_of(const Problem& problem, const Expectation& expectation, const Evidence& evidence) {
   const Verdicts verdicts(evidence.records);
-  if (evidence.draws->lost.count > 0 || verdicts.rejected("check", "samples stay on the map")) {
-    return "off-the-map";
+  const Draws& draws = *evidence.draws;
+  if (draws.lost.count > 0 || verdicts.rejected("check", "samples stay on the map")) {
+    return {"off-the-map"};
   }
-  if (is_coarse(*evidence.draws)) return "coarse-numbers";
-  if (counts_are_wrong(verdicts)) {
-    return name_of_wrong_counts(problem, expectation, evidence, verdicts);
+  if (const auto defect = name_of_number_defect(expectation, draws); !defect.empty()) {
+    return {defect};
   }
-  for (const char* test : {"phi (Kuiper)", "theta (Anderson-Darling)", "transformed pair"}) {
-    if (!verdicts.rejected("reference", test)) continue;
-    // A law too near to the declared one for the counts may still be the likelier one.
-    const Explanation explanation = best_law(problem, expectation, *evidence.draws);
-    return explanation.law.empty() ? "uneven-in-texel" : explanation.law;
+  const bool declared = fits_declared(expectation, draws);
+  if (declared && samples_depend(verdicts)) return {"dependent-samples"};
+  const bool only_edges = verdicts.only_rejected({"u next to 1", "edges of u"});
+  if (only_edges) return {verdicts.leaves_map() ? "off-the-map" : "wrong-at-knots"};
+  if (declared) {
+    if (positions_are_wrong(verdicts)) return {"uneven-in-texel"};
+    const std::string_view pdf = name_of_wrong_pdf(problem, expectation, evidence, verdicts);
+    if (!pdf.empty()) return {pdf};
   }
-  const bool pdf = verdicts.rejected("check", "pdf integrates to 1") ||
-                   verdicts.rejected("check", "pdf of the sample") || verdicts.any_rejected("self");
-  if (pdf) return name_of_wrong_pdf(problem, expectation, evidence, verdicts);
-  if (verdicts.rejected("check", "u next to 1")) return "off-the-map";
-  if (verdicts.any_rejected("check")) return "wrong-at-knots";
-  return name_of_wrong_pdf(problem, expectation, evidence, verdicts);
+  if (const Name law = name_of_law(problem, expectation, evidence); !law.defect.empty()) return law;
+  if (!declared && is_in_one_place(expectation, draws)) return {"one-place"};
+  if (verdicts.leaves_map()) return {"off-the-map"};
+  return {"unknown"};
 }
 
-std::string_view words_of(const Problem& problem, std::string_view name) {
+std::string words_of(const Problem& problem, const Name& name, const Expectation& expectation,
+                     const Evidence& evidence) {
   for (const Signature& signature : kSignatures) {
-    if (signature.name == name) return signature.diagnosis;
+    if (signature.name != name.defect) continue;
+    const std::string what = describe_deviation(expectation, evidence);
+    if (name.defect != "unknown" || what.empty()) return std::string(signature.diagnosis);
+    return fmt::format("{}: {}", signature.diagnosis, what);
   }
   for (const Alternative& law : problem.alternatives()) {
-    if (law.name == name) return law.diagnosis;
+    if (law.name == name.defect) return std::string(law.diagnosis);
   }
   return {};
 }
@@ -302,12 +257,12 @@ std::span<const Signature> signatures() { return kSignatures; }
 Rejection diagnose(const Problem& problem, const Expectation& expectation,
                    const Evidence& evidence) {
   const TestRecord& first = evidence.records.front();
-  const std::string_view name = name_of(problem, expectation, evidence);
+  const Name name = name_of(problem, expectation, evidence);
   return {first.sampler,
           first.weighting,
           first.map,
-          std::string(name),
-          std::string(words_of(problem, name)),
+          std::string(name.defect),
+          words_of(problem, name, expectation, evidence),
           residuals(expectation, *evidence.draws),
           cumulative_divergence(expectation, *evidence.draws)};
 }

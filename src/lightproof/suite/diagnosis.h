@@ -1,5 +1,5 @@
-// What a rejected sampler looks like: from which tests failed, and from which other law explains
-// its samples best.
+// What a rejected sampler looks like. A defect is named only if the samples do not reject it: a
+// wrong name is worse than none. Where none fits, the diagnosis says what is off, and by how much.
 #pragma once
 
 #include <span>
@@ -24,7 +24,7 @@ std::span<const Signature> signatures();
 struct Evidence {
   std::span<const TestRecord> records;
   const Draws* draws;
-  const OwnDensity* own;
+  const Inspection* inspection;
 };
 
 /// `problem` and `expectation` are those of the configuration.

@@ -123,6 +123,9 @@ Expectation expectation_of(const Lobes& law) {
       return reference::unit_point(law, at);
     };
   }
+  expectation.density = [law](SquarePoint at) {
+    return to_square({reference::density(law, direction_from_square(at))}, at).value;
+  };
   expectation.grey = Grid<double>(cells);
   double sum = 0.0;
   for (int y = 0; y < cells.height; ++y) {

@@ -59,6 +59,12 @@ bool is_on_lattice(double u) {
   return u > 0.0 && std::abs(scaled - std::round(scaled)) < 0x1p-8;
 }
 
+void count_repeats(Draws& draws, const Batch& batch) {
+  for (std::size_t i = 1; i < batch.size; ++i) {
+    draws.repeats += batch.samples[i].at == batch.samples[i - 1].at ? 1 : 0;
+  }
+}
+
 /// Leaves what is on the map.
 void count_lost(Draws& draws, Batch& batch, Extent map) {
   std::size_t kept = 0;
@@ -159,6 +165,7 @@ Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
     fill_points(stream, range.first + done, std::span(batch.points).first(batch.size));
     sampler.sample(std::span(batch.points).first(batch.size),
                    std::span(batch.samples).first(batch.size));
+    count_repeats(part.draws, batch);
     count_lost(part.draws, batch, expectation.masses.extent());
     count_texels(part, batch, expectation);
     if (expectation.transform) count_transformed(part, batch, expectation);
@@ -204,6 +211,7 @@ void Draws::merge(const Draws& other) {
   add_counts(pairs.values(), other.pairs.values());
   add_counts(positions.values(), other.positions.values());
   successive.merge(other.successive);
+  repeats += other.repeats;
   for (std::size_t i = 0; i < kMeanCaseCount; ++i) estimators[i].merge(other.estimators[i]);
   along_on_lattice += other.along_on_lattice;
   across_on_lattice += other.across_on_lattice;

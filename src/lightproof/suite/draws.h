@@ -47,6 +47,7 @@ struct Draws {
   std::vector<std::uint64_t> column;  ///< likewise
   Grid<std::uint64_t> pairs;          ///< of (across, along) over kPairBins
   SuccessiveCounts successive;
+  std::uint64_t repeats = 0;  ///< samples at exactly the place of the one before
   /// Of the shares of row and cell that reference::UnitPoint names, a row of counts for every band
   /// of the expectation.
   Grid<std::uint64_t> positions;

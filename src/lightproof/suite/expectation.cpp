@@ -3,6 +3,7 @@
 #include <memory>
 #include <numeric>
 
+#include "lightproof/image/look_up.h"
 #include "lightproof/stats/goodness_of_fit.h"
 #include "lightproof/warp/lat_long.h"
 #include "reference/bilinear_law.h"
@@ -60,13 +61,18 @@ reference::LightMoments light_moments(const Expectation& expectation, Direction 
 void set_transform(Expectation& expectation, const EnvironmentMap& map, TargetDensity target) {
   if (target.lookup == Lookup::nearest) {
     expectation.transform = reference::UnitTransform(expectation.masses, target.weighting);
-    set_bands(expectation, expectation.rows);
+    set_smooth_rows(expectation, expectation.rows);
     return;
   }
   // Shared: an expectation is copied, and this holds sums for every texel.
   const auto transform = std::make_shared<const reference::BilinearTransform>(map, target);
   expectation.transform = [transform](SquarePoint at, int, int) { return (*transform)(at); };
-  set_bands(expectation, transform->rows());
+  set_smooth_rows(expectation, transform->rows());
+  const auto grey = std::make_shared<const Grid<double>>(expectation.grey);
+  expectation.density = [grey, total = transform->total(), target](SquarePoint at) {
+    const double weight = target.weighting == Weighting::A ? 1.0 : sin_theta(at.t);
+    return look_up_bilinear(*grey, at) * weight / total;
+  };
 }
 
 }  // namespace
@@ -105,8 +111,9 @@ Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
   return expectation;
 }
 
-void set_bands(Expectation& expectation, std::span<const double> row_masses) {
-  expectation.bands = row_bands(row_masses);
+void set_smooth_rows(Expectation& expectation, std::vector<double> masses) {
+  expectation.smooth_rows = std::move(masses);
+  expectation.bands = row_bands(expectation.smooth_rows);
   for (std::size_t band = 0; band < expectation.bands.size(); ++band) {
     const RowBand& rows = expectation.bands[band];
     expectation.band_of_row.insert(expectation.band_of_row.end(),

@@ -11,8 +11,8 @@
 #include "lightproof/core/direction.h"
 #include "lightproof/core/grid.h"
 #include "lightproof/image/target_density.h"
-#include "reference/estimator_moments.h"
 #include "lightproof/suite/row_bands.h"
+#include "reference/estimator_moments.h"
 #include "reference/unit_transform.h"
 
 namespace lightproof {
@@ -39,11 +39,14 @@ struct Expectation {
   std::vector<double> columns;         ///< marginal
   /// Of a place in texel (x, y); empty where the law inside one is not known in closed form.
   std::function<reference::UnitPoint(SquarePoint at, int x, int y)> transform;
-  /// Of the rows that `transform` names; empty if it names none.
-  std::vector<RowBand> bands;
+  /// Probability of every row that `transform` names, of texels or of bilinear patches; empty if it
+  /// names none.
+  std::vector<double> smooth_rows;
+  std::vector<RowBand> bands;  ///< of these rows
   std::vector<std::uint8_t> band_of_row;
-  /// Declared density over the square, in texel (x, y).
-  std::function<double(SquarePoint at, int x, int y)> density;
+  /// Declared density over the square where it is not `masses` spread over the texels by the
+  /// weighting; see declared_density().
+  std::function<double(SquarePoint at)> density;
   std::array<reference::EstimatorMoments, kMeanCaseCount> estimators;
   std::array<reference::EstimatorMoments, kMeanCaseCount> uniform;  ///< drawn over the sphere
   /// 1/p(omega) over the texels at least a tenth as bright as the mean.
@@ -70,8 +73,8 @@ struct RoundingEffect {
   double rows = 0.0;
 };
 
-/// Sets the bands of a law with rows of these masses.
-void set_bands(Expectation& expectation, std::span<const double> row_masses);
+/// Sets the rows that the transform names, and their bands.
+void set_smooth_rows(Expectation& expectation, std::vector<double> masses);
 
 /// 0 where nothing is summed.
 RoundingEffect rounding_effect(const Expectation& expectation, std::uint64_t samples);

@@ -27,12 +27,14 @@ double level_at_once(const GateOptions& options, std::size_t tests) {
       {options.at_once, options.suspicious, 0.5 * strictest_level(options.family_alpha, tests)});
 }
 
+bool is_rejected(const TestRecord& record) { return record.outcome == Outcome::reject; }
+
 /// The records of one configuration, and the draws behind them if they may be needed for a
 /// diagnosis.
 struct Slot {
   std::vector<Measured> tests;
   std::optional<Draws> draws;
-  OwnDensity own;
+  Inspection inspection;
 };
 
 /// What the candidates of one problem share, at one number of samples.
@@ -64,11 +66,11 @@ void append(std::vector<Measured>& tests, std::vector<Measured> more) {
 Slot run_first(const Configuration& configuration, const Yardstick& yardstick, double suspicious) {
   const Expectation& expectation = yardstick.expectation;
   const BoundSampler sampler = configuration.candidate->bind();
-  const Inspection inspection = configuration.candidate->inspect(sampler, expectation);
-  Draws draws =
-      draw_samples_of(configuration, expectation, sampler, "draws", yardstick.samples);
+  const Inspection inspection =
+      configuration.candidate->inspect(sampler, expectation, configuration.candidate->rounding);
+  Draws draws = draw_samples_of(configuration, expectation, sampler, "draws", yardstick.samples);
   Slot slot{test_draws(configuration, expectation, inspection.own, draws, yardstick.uniform),
-            std::nullopt, inspection.own};
+            std::nullopt, inspection};
   append(slot.tests, test_against_twin(configuration, draws, yardstick.twin));
   append(slot.tests, test_strays(configuration, draws));
   append(slot.tests, test_exactly(configuration, expectation, sampler, inspection, draws,
@@ -100,7 +102,8 @@ void run_again(const Configuration& configuration, const Yardstick& yardstick,
   const BoundSampler sampler = configuration.candidate->bind();
   Draws draws =
       draw_samples_of(configuration, expectation, sampler, "draws again", yardstick.samples);
-  auto again = test_draws(configuration, expectation, slot.own, draws, yardstick.uniform);
+  auto again =
+      test_draws(configuration, expectation, slot.inspection.own, draws, yardstick.uniform);
   append(again, test_against_twin(configuration, draws, yardstick.twin));
   append(again, test_strays(configuration, draws));
   for (Measured& test : slot.tests) {
@@ -124,7 +127,8 @@ class Judge {
         at_once_(level_at_once(options, tests)),
         second_alpha_(0.5 * options.family_alpha),
         second_level_(strictest_level(second_alpha_, tests)),
-        family_(tests) {}
+        family_(tests),
+        must_detect_(options.must_detect) {}
 
   Again again() const { return {at_once_, suspicious_}; }
 
@@ -149,6 +153,7 @@ class Judge {
         record.detail = fmt::format("the sampler's own rounding makes an effect of {:.3g}",
                                     *record.resolution_floor);
       }
+      require_power(record, must_detect_);
     }
   }
 
@@ -172,6 +177,7 @@ class Judge {
   double second_alpha_;
   double second_level_;  ///< of Holm's strictest test
   std::size_t family_;
+  double must_detect_;
 };
 
 /// Problems, and what is known of their candidates.
@@ -264,10 +270,9 @@ class Run {
       for (const Slot& slot : slots_[i]) {
         std::vector<TestRecord> records;
         for (const Measured& test : slot.tests) records.push_back(test.record);
-        if (std::any_of(records.begin(), records.end(),
-                        [](const auto& r) { return r.outcome == Outcome::reject; })) {
+        if (std::any_of(records.begin(), records.end(), is_rejected)) {
           result.rejections.push_back(diagnose(problems_[i], problems_[i].expectation(),
-                                               {records, &*slot.draws, &slot.own}));
+                                               {records, &*slot.draws, &slot.inspection}));
         }
         std::move(records.begin(), records.end(), std::back_inserter(result.tests));
       }

@@ -23,6 +23,10 @@ struct GateOptions {
   /// The p-values (with run_sequential_gate: candidates) that share family_alpha, if they are more
   /// than this run has: the part of a run that is done again then judges as the whole did.
   std::uint64_t family = 0;
+  /// The root mean square deviation of the bins, relative to their expectations, that an accepting
+  /// run must have been able to see with kDetectablePower; else the test of the bins is
+  /// inconclusive, and says how much it could have seen.
+  double must_detect = 0.1;
 };
 
 /// Runs in two stages. After the first, a test whose p-value is below `at_once` (or half of

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "lightproof/core/progress.h"
@@ -18,6 +19,9 @@ struct PowerOptions {
 /// its stages, or sequentially: how often it rejects, which should be at least kDetectablePower.
 std::vector<PowerRecord> measure_printed_effects(const PowerOptions& options,
                                                  const Progress& progress = {});
+
+/// The tests that print an effect, as "oracle/test": measure_printed_effects has a record of each.
+std::vector<std::string> printed_effects();
 
 /// Lets a law a little off be judged with several numbers of samples, some too few: how often each
 /// test rejects, and how often it should.

@@ -15,8 +15,9 @@ Problem made_once(Problem problem) {
   if (problem.twin) problem.twin = made_once(problem.twin);
   for (Candidate& candidate : problem.candidates) {
     candidate.bind = made_once(candidate.bind);
-    candidate.inspect = [inspection = candidate.inspect(candidate.bind(), *expectation)](
-                            const BoundSampler&, const Expectation&) { return inspection; };
+    candidate.inspect =
+        [inspection = candidate.inspect(candidate.bind(), *expectation, candidate.rounding)](
+            const BoundSampler&, const Expectation&, const MassRounding&) { return inspection; };
   }
   return problem;
 }

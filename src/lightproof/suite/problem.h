@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lightproof/samplers/mass_rounding.h"
 #include "lightproof/suite/bound_sampler.h"
 #include "lightproof/suite/checks.h"
 #include "lightproof/suite/expectation.h"
@@ -22,12 +23,15 @@ struct Candidate {
   /// Step of its sums and random numbers: a float's below 1 unless it is known to be finer, 0 if it
   /// searches no sums of rows and columns.
   double resolution = 0x1p-24;
+  /// How far its probabilities of texels may be from the declared ones.
+  MassRounding rounding = {};
   /// Whether u.t alone, all its 53 bits, gives its row and the share of the row's mass below it.
   bool inverts_rows = false;
   /// Whether it claims to return the texels of the problem's twin, point for point.
   bool has_twin = false;
   /// What is found does not depend on the seed.
-  std::function<Inspection(const BoundSampler&, const Expectation&)> inspect = lightproof::inspect;
+  std::function<Inspection(const BoundSampler&, const Expectation&, const MassRounding&)> inspect =
+      lightproof::inspect;
 };
 
 /// What could be drawn by mistake.

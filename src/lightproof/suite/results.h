@@ -22,6 +22,11 @@ inline constexpr std::string_view kDirections = "directions";
 /// Probability with which the detectable effect of a test is found.
 inline constexpr double kDetectablePower = 0.99;
 
+/// The test of the bins over (phi, theta), and that of all counts in a sequential run: what they
+/// could have seen decides whether an accepting run says anything.
+inline constexpr std::string_view kBinsTest = "bins 16x32";
+inline constexpr std::string_view kSequentialTest = "sequential";
+
 /// One test of one configuration.
 struct TestRecord {
   std::string sampler;

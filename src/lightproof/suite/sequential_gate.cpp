@@ -82,12 +82,13 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
     draws.merge(more);
     log10_e = evidence.log10_e(draws);
   }
-  TestRecord record = record_of(configuration, "reference", "sequential", draws.samples);
+  TestRecord record = record_of(configuration, "reference", kSequentialTest, draws.samples);
   record.statistic = log10_e;
   record.log10_p = std::min(0.0, -log10_e);
   record.outcome = log10_e >= enough ? Outcome::reject : Outcome::accept;
   const double detectable = evidence.detectable_effect(enough, options.samples);
   if (std::isfinite(detectable)) record.detectable_effect = detectable;
+  require_power(record, options.must_detect);
   record.effect =
       cressie_read(serpentine(draws.bins), serpentine(expectation.bins), draws.samples).effect;
   if (std::isinf(log10_e)) {
@@ -96,7 +97,8 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
     record.detail = fmt::format("known after {} samples: evidence 10^{:.3g}, 10^{:.3g} is enough",
                                 draws.samples, log10_e, enough);
   }
-  const Inspection inspection = configuration.candidate->inspect(sampler, expectation);
+  const Inspection inspection =
+      configuration.candidate->inspect(sampler, expectation, configuration.candidate->rounding);
   const std::optional<BoundSampler> twin = configuration.candidate->has_twin
                                                ? std::optional(configuration.problem->twin())
                                                : std::nullopt;
@@ -111,7 +113,7 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
                   [](const TestRecord& r) { return r.outcome == Outcome::reject; });
   if (rejected) {
     finding.rejection =
-        diagnose(*configuration.problem, expectation, {finding.records, &draws, &inspection.own});
+        diagnose(*configuration.problem, expectation, {finding.records, &draws, &inspection});
   }
   return finding;
 }

@@ -24,6 +24,8 @@ Candidate candidate_of(const Subject& subject, const EnvironmentMap& map) {
           .known_defects = subject.known_defects,
           .bind = [bind = subject.bind, &map] { return bind(map); },
           .resolution = subject.resolution,
+          .rounding = subject.rounding != nullptr ? subject.rounding(map.radiance.extent())
+                                                  : MassRounding{},
           .inverts_rows = subject.inverts_rows,
           .has_twin = subject.inverts_shared_cdf};
 }
@@ -55,7 +57,8 @@ Subject subject_of(const SamplerInfo& sampler, Weighting weighting) {
                               sampler.make(map, weighting));
           },
           sampler.resolution,
-          sampler.inverts_rows};
+          sampler.inverts_rows,
+          sampler.rounding};
 }
 
 std::vector<Subject> all_subjects() {

@@ -21,6 +21,8 @@ struct Subject {
   std::function<BoundSampler(const EnvironmentMap&)> bind;
   double resolution = 0x1p-24;  ///< as a Candidate's
   bool inverts_rows = false;    ///< likewise
+  /// Of its probabilities, on a map of this size; null: it claims the declared density exactly.
+  MassRounding (*rounding)(Extent map) = nullptr;
 };
 
 /// A row of the registry under one weighting.

@@ -85,8 +85,8 @@ PairCounts SuccessiveCounts::pairs(std::size_t lag) const {
           count;
       counts.pairs[PairCounts::conditional_marginal](marginal(later), conditional(earlier)) +=
           count;
-      counts.pairs[PairCounts::conditional_conditional](conditional(later),
-                                                        conditional(earlier)) += count;
+      counts.pairs[PairCounts::conditional_conditional](conditional(later), conditional(earlier)) +=
+          count;
     }
   }
   return counts;

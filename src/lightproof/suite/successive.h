@@ -34,7 +34,12 @@ std::uint8_t cells_code(const TransformedSample& sample);
 /// The four pairs of a sample's coordinates with those of another, counted over
 /// kPairedCells x kPairedCells: row = the earlier sample's cell, column = the later one's.
 struct PairCounts {
-  enum Pair { marginal_marginal, marginal_conditional, conditional_marginal, conditional_conditional };
+  enum Pair {
+    marginal_marginal,
+    marginal_conditional,
+    conditional_marginal,
+    conditional_conditional
+  };
   std::array<Grid<std::uint64_t>, 4> pairs;
   std::uint64_t total = 0;
 };
@@ -42,8 +47,8 @@ struct PairCounts {
 /// `merge` in any order gives the same counts.
 class SuccessiveCounts {
  public:
-  /// Counts the pairs of a stretch of the sequence, in its order, as cells_code(); its first samples
-  /// are not paired with those of another stretch.
+  /// Counts the pairs of a stretch of the sequence, in its order, as cells_code(); its first
+  /// samples are not paired with those of another stretch.
   void add_pairs(std::span<const std::uint8_t> codes);
   /// Adds up runs, one after the other; what does not fill one is left out.
   void add_runs(std::span<const TransformedSample> samples);

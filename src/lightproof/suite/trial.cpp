@@ -38,8 +38,7 @@ Trial sound_trial() {
 std::vector<Measured> run_once(const Trial& trial, std::uint64_t samples, std::uint64_t seed) {
   const Configuration configuration{&trial.problem, &trial.problem.candidates[0], seed};
   const BoundSampler sampler = configuration.candidate->bind();
-  const Draws draws =
-      draw_samples_of(configuration, *trial.expectation, sampler, "draws", samples);
+  const Draws draws = draw_samples_of(configuration, *trial.expectation, sampler, "draws", samples);
   const UniformEstimates uniform =
       draw_uniformly(*trial.expectation, RandomStream("self-test/uniform", seed), samples);
   return test_draws(configuration, *trial.expectation, trial.own, draws, uniform);

@@ -1,0 +1,83 @@
+#include "lightproof/suite/law_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "lightproof/stats/goodness_of_fit.h"
+#include "reference/texel_masses.h"
+
+namespace lightproof {
+namespace {
+
+constexpr double kImpossible = 1e-300;
+
+/// The logarithm of how many times likelier the counts are under `law` than as declared.
+double log_likelihood_gain(const Draws& draws, const Grid<double>& law,
+                           const Grid<double>& declared) {
+  double gain = 0.0;
+  for (std::size_t i = 0; i < law.values().size(); ++i) {
+    const auto count = static_cast<double>(draws.texels.values()[i]);
+    if (count == 0.0) continue;
+    gain += count * std::log(std::max(law.values()[i], kImpossible) /
+                             std::max(declared.values()[i], kImpossible));
+  }
+  return gain;
+}
+
+double log10_p(std::span<const std::uint64_t> counts, std::span<const double> masses,
+               std::uint64_t samples) {
+  return cressie_read(counts, masses, samples).log10_p;
+}
+
+}  // namespace
+
+bool LawFit::named() const {
+  return !law.empty() && log10_odds >= std::log10(kNamingOdds) && log10_p >= std::log10(kFitLevel);
+}
+
+double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectation& expectation) {
+  const std::vector<std::uint64_t> rows = row_counts(draws.texels);
+  const std::vector<std::uint64_t> columns = column_counts(draws.texels);
+  const std::uint64_t samples = draws.samples - draws.lost.count;
+  std::vector<double> all = {log10_p(serpentine(draws.texels), serpentine(masses), samples),
+                             log10_p(rows, reference::row_marginal(masses), samples),
+                             log10_p(columns, reference::column_marginal(masses), samples)};
+  // The masses of an interpolated law say nothing of the bins that divide texels.
+  if (expectation.lookup == Lookup::nearest) {
+    const Grid<double> bins = reference::bin_masses(masses, expectation.weighting, kGateBins);
+    all.push_back(log10_p(serpentine(draws.bins), serpentine(bins), samples));
+  }
+  const double least = *std::min_element(all.begin(), all.end());
+  return std::min(0.0, least + std::log10(static_cast<double>(all.size())));
+}
+
+LawFit likeliest_law(const Problem& problem, const Expectation& expectation, const Draws& draws) {
+  LawFit best;
+  Grid<double> best_masses;
+  double most = 0.0;  // of the declared law
+  double second = -INFINITY;
+  for (const Alternative& law : problem.alternatives()) {
+    Grid<double> masses = law.masses();
+    const double gain = log_likelihood_gain(draws, masses, expectation.masses);
+    // Laws that are one and the same on this map count once, by the first name.
+    if (std::abs(gain - most) <= 1e-9 * std::abs(most)) continue;
+    if (gain > most) {
+      second = most;
+      best.next = best.law;
+      most = gain;
+      best.law = law.name;
+      best_masses = std::move(masses);
+    } else if (gain > second) {
+      second = gain;
+      best.next = law.name;
+    }
+  }
+  if (best.law.empty()) return best;
+  best.log10_odds = (most - second) * std::numbers::log10e;
+  best.log10_p = log10_fit(draws, best_masses, expectation);
+  return best;
+}
+
+}  // namespace lightproof

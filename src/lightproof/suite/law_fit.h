@@ -1,0 +1,36 @@
+// How well a law over the texels explains what was drawn.
+#pragma once
+
+#include <string_view>
+
+#include "lightproof/core/grid.h"
+#include "lightproof/image/target_density.h"
+#include "lightproof/suite/draws.h"
+#include "lightproof/suite/problem.h"
+
+namespace lightproof {
+
+/// A law that fits better than this at its worst is not rejected by the samples: the probability
+/// that a diagnosis withholds the right law.
+inline constexpr double kFitLevel = 1e-3;
+
+/// How many times likelier the samples must be under a law than under any other one that is known,
+/// the declared one among them, before it is named. That a wrong one of two simple laws is so much
+/// likelier has a probability below one over this (Markov), with thirty others below 30 over it.
+inline constexpr double kNamingOdds = 1e4;
+
+/// The law that the samples make likeliest.
+struct LawFit {
+  std::string_view law;     ///< empty: none is likelier than the declared one
+  double log10_odds = 0.0;  ///< against the next, the declared law among them
+  std::string_view next;    ///< empty: the declared one
+  double log10_p = 0.0;     ///< of goodness of fit, over bins, texels, rows and columns
+  bool named() const;       ///< likelier than the next by the odds, and not rejected
+};
+
+LawFit likeliest_law(const Problem& problem, const Expectation& expectation, const Draws& draws);
+
+/// The smallest p-value of goodness of fit over bins, texels, rows and columns, times their number.
+double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectation& expectation);
+
+}  // namespace lightproof
