@@ -94,8 +94,11 @@ TEST(Independence, FindsTheEffectThatItPromises) {
 }
 
 TEST(Independence, SumsOfFitsAddDegreesOfFreedom) {
-  const std::array<GoodnessOfFit, 2> fits = {GoodnessOfFit{.statistic = 10.0, .dof = 9.0},
-                                             GoodnessOfFit{.statistic = 30.0, .dof = 25.0}};
+  std::array<GoodnessOfFit, 2> fits;
+  fits[0].statistic = 10.0;
+  fits[0].dof = 9.0;
+  fits[1].statistic = 30.0;
+  fits[1].dof = 25.0;
   const GoodnessOfFit sum = sum_of_fits(fits, 100);
   EXPECT_EQ(sum.statistic, 40.0);
   EXPECT_EQ(sum.dof, 34.0);

@@ -286,7 +286,7 @@ Grid<double> without_one_texel(const DeclaredLaw& declared) {
   std::nth_element(lit.begin(), middle, lit.end());
   const double six = std::log(6.0 * *middle);
   const auto distance = [&](double mass) {
-    return mass > 0.0 ? std::abs(std::log(mass) - six) : INFINITY;
+    return mass > 0.0 ? std::abs(std::log(mass) - six) : HUGE_VAL;
   };
   const auto values = masses.values();
   const auto one = std::min_element(values.begin(), values.end(),
