@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "bench/registration.h"
+#include "lightproof/core/failure.h"
 
 namespace {
 
@@ -32,9 +33,10 @@ int main(int argc, char** argv) {
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
     if (lightproof::bench::any_disagreement()) return 1;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "lightproof_bench: %s\n", error.what());
-    return 2;
+  } catch (...) {
+    const lightproof::Failure failure = lightproof::failure_of(std::current_exception());
+    std::fprintf(stderr, "lightproof_bench: %s\n", failure.message.c_str());
+    return failure.code;
   }
   return 0;
 }

@@ -1,10 +1,12 @@
 #include "lightproof/core/parallel.h"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <mutex>
 #include <set>
 #include <stdexcept>
@@ -110,6 +112,91 @@ TEST(ParallelFor, WorksAfterAnException) {
   EXPECT_EQ(runs, 8);
 }
 
+/// Tasks of an outer loop that are under way: in all, and on a single thread.
+struct Stacked {
+  int in_all = 0;
+  int on_a_thread = 0;
+};
+
+/// The most that nested loops on `threads` threads had under way at a time.
+Stacked most_stacked(int threads) {
+  static thread_local int on_this_thread = 0;
+  std::mutex mutex;
+  Stacked now;
+  Stacked most;
+  const auto outer = [&](std::size_t i) {
+    {
+      const std::lock_guard lock(mutex);
+      most.in_all = std::max(most.in_all, ++now.in_all);
+      most.on_a_thread = std::max(most.on_a_thread, ++on_this_thread);
+    }
+    parallel_for(8, [&](std::size_t j) {
+      std::this_thread::sleep_for(std::chrono::microseconds(100 * (1 + (7 * i + 3 * j) % 8)));
+    });
+    const std::lock_guard lock(mutex);
+    --on_this_thread;
+    --now.in_all;
+  };
+  const ThreadLimit limit(threads);
+  // More threads than there may be processors: they sleep.
+  tbb::task_arena arena(threads);
+  arena.execute([&] { parallel_for(64, outer); });
+  return most;
+}
+
+// What an outer task holds, a map or its tables, would be held many times over.
+TEST(ParallelFor, BeginsNoOtherOuterTaskInsideOfOne) {
+  constexpr int kThreads = 4;
+  const Stacked stacked = most_stacked(kThreads);
+  EXPECT_EQ(stacked.on_a_thread, 1);
+  EXPECT_LE(stacked.in_all, kThreads);
+}
+
+TEST(ParallelFor, UsesAllThreadsInsideOfTheLastOuterTask) {
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor";
+  for (int round = 0; round < 20; ++round) {  // the caller runs the last task in some, not in all
+    std::size_t threads = 0;
+    std::atomic<int> done = 0;
+    parallel_for(4, [&](std::size_t i) {
+      if (i != static_cast<std::size_t>(round % 4)) {
+        ++done;
+        return;
+      }
+      const auto deadline = steady_clock::now() + milliseconds(60000);
+      while (done < 3 && steady_clock::now() < deadline) std::this_thread::yield();
+      threads = threads_at_work(milliseconds(60000)).size();
+    });
+    EXPECT_GE(threads, 2U) << "round " << round;
+  }
+}
+
+#ifdef __SANITIZE_THREAD__
+/// Two threads, one of which reads what the other has written in a loop, after a loop of its own. The
+/// first comes first by the clock, but nothing orders them.
+[[noreturn]] void race_between_loops() {
+  int shared = 0;
+  std::atomic<bool> written = false;
+  std::thread writer([&] {
+    parallel_for(1, [&](std::size_t) { shared = 1; });
+    written.store(true, std::memory_order_relaxed);
+  });
+  std::thread reader([&] {
+    while (!written.load(std::memory_order_relaxed)) std::this_thread::yield();
+    parallel_for(1, [](std::size_t) {});
+    ++shared;
+  });
+  writer.join();
+  reader.join();
+  std::exit(0);
+}
+
+TEST(ParallelForDeathTest, DoesNotHideRacesOfUnrelatedLoops) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  constexpr int kRaceFound = 66;
+  EXPECT_EXIT(race_between_loops(), testing::ExitedWithCode(kRaceFound), "data race");
+}
+#endif
+
 TEST(ThreadLimit, OfOneKeepsToTheCallersThread) {
   const ThreadLimit limit(1);
   // A second thread would show up within microseconds; it is given 0.2 s.
@@ -130,23 +217,25 @@ TEST(ThreadLimit, OfZeroMeansAllCores) {
   EXPECT_GE(threads_at_work(milliseconds(60000)).size(), 2U);
 }
 
-int exit_code_after_interrupt() {
-  std::atomic<int> runs = 0;
-  try {
-    const ThreadLimit limit(1);
-    parallel_for(1000, [&](std::size_t) {
-      if (++runs == 10) request_interrupt();
-    });
-  } catch (const Interrupted&) {
-    return runs == 10 ? 130 : 1;
-  }
-  return 0;
+TEST(ThreadCount, IsOneAtLeast) {
+  EXPECT_EQ(thread_count(3, 8), 3U);
+  EXPECT_EQ(thread_count(0, 8), 8U);
+  EXPECT_EQ(thread_count(0, 0), 1U) << "the system does not say how many processors there are";
 }
 
-TEST(InterruptDeathTest, StopsParallelWorkBetweenTasks) {
-  // In a process of its own: a request for interruption is never taken back.
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
-  EXPECT_EXIT(std::_Exit(exit_code_after_interrupt()), testing::ExitedWithCode(130), "");
+TEST(Interrupt, StopsParallelWorkBetweenTasksUntilItIsWithdrawn) {
+  const ThreadLimit limit(1);
+  std::atomic<int> runs = 0;
+  const auto work = [&](std::size_t) {
+    if (++runs == 10) request_interrupt();
+  };
+  EXPECT_THROW(parallel_for(1000, work), Interrupted);
+  EXPECT_EQ(runs, 10);
+  EXPECT_THROW(parallel_for(1000, work), Interrupted) << "still requested";
+  EXPECT_EQ(runs, 10);
+  withdraw_interrupt();
+  parallel_for(1000, work);
+  EXPECT_EQ(runs, 1010);
 }
 
 TEST(Interrupt, IsNotThereUnasked) { EXPECT_NO_THROW(throw_if_interrupted()); }

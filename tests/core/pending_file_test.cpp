@@ -224,6 +224,24 @@ TEST_F(PendingFiles, CheckWritableRefusesWhatCannotBeWritten) {
   EXPECT_THROW(check_writable(in_folder("")), InputError) << "a folder";
 }
 
+TEST_F(PendingFiles, ANameTooLongIsBadInput) {
+  const fs::path file = in_folder(std::string(300, 'x'));
+  EXPECT_THROW(check_writable(file), InputError);
+  EXPECT_THROW(write_file(file, "x"), InputError);
+}
+
+TEST_F(PendingFiles, AFolderThatHasGoneIsNamed) {
+  const fs::path target = in_folder("report");
+  PendingFolder pending(target);
+  fs::remove_all(target);
+  try {
+    pending.commit();
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(target.string()));
+  }
+}
+
 TEST_F(PendingFiles, AFolderAppearsWithAllItsFilesOrNotAtAll) {
   const fs::path target = in_folder("report");
   {

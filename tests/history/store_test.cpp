@@ -32,6 +32,13 @@ BenchmarkRun some_run(int number) {
   return run;
 }
 
+TEST(HistoryStore, RefusesANameThatCannotBeLookedUp) {
+  const TemporaryFolder folder;
+  const fs::path file = folder / std::string(300, 'x');
+  EXPECT_THROW(HistoryStore::open_to_read(file), InputError);
+  EXPECT_THROW(HistoryStore::open_to_write(file), InputError);
+}
+
 class History : public testing::Test {
  protected:
   fs::path file() const { return folder_ / "history.db"; }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "lightproof/history/trend_page.h"
@@ -81,6 +83,49 @@ TEST(Trend, OrdersCommitsByWhenTheyWereFirstMeasured) {
   EXPECT_EQ(line.points[0].commit, "b");
   EXPECT_EQ(line.points[0].runs, 2U);
   EXPECT_EQ(line.points[2].commit, "c");
+}
+
+/// Thirty benchmarks over thirty sessions, three runs each. What state the machine is in lasts for
+/// some sessions, and all benchmarks feel it. From session 18 on the last one takes `factor` as
+/// long.
+std::vector<BenchmarkRun> thirty_sessions(std::uint64_t seed, double factor) {
+  const RandomStream stream("history/sessions", 1, seed);
+  const auto normal = [&](std::uint64_t i) { return normal_quantile(stream.point(i).s + 0x1p-54); };
+  std::vector<BenchmarkRun> runs;
+  double state = normal(0);
+  for (int session = 0; session < 30; ++session) {
+    for (int run = 0; run < 3; ++run) {
+      std::vector<Measurement> times;
+      for (int k = 0; k < 30; ++k) {
+        const auto number = static_cast<std::uint64_t>(1000 + (session * 3 + run) * 30 + k);
+        const double level = k == 29 && session >= 18 ? 100.0 * factor : 100.0;
+        times.push_back({"kernel-" + std::to_string(k), Metric::nanoseconds, 0,
+                         level * std::exp(0.02 * state + 0.01 * normal(number))});
+      }
+      runs.push_back(made_up_run(commit_name(session), "s" + std::to_string(session),
+                                 3 * session + run, std::move(times)));
+    }
+    state = 0.8 * state + 0.6 * normal(static_cast<std::uint64_t>(session + 1));
+  }
+  return runs;
+}
+
+TEST(Trend, TakesALastingStateOfTheMachineForNoChange) {
+  int pages = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const auto lines = trend_lines(thirty_sessions(seed, 1.0), {0.05, 1.0});
+    pages += std::ranges::any_of(lines, [](const auto& line) { return !line.changes.empty(); });
+  }
+  // Binomial, five standard deviations above the mean of 2.
+  EXPECT_LE(pages, 2.0 + 5.0 * std::sqrt(40 * 0.05 * 0.95));
+}
+
+TEST(Trend, SeesAChangeOfOneAmongThirty) {
+  const auto lines = trend_lines(thirty_sessions(100, 1.4));
+  for (const TrendLine& line : lines) {
+    EXPECT_EQ(line.changes.size(), line.benchmark == "kernel-29" ? 1U : 0U) << line.benchmark;
+    if (!line.changes.empty()) EXPECT_EQ(line.points[line.changes[0].first].commit, "c18");
+  }
 }
 
 TEST(TrendChart, HasEveryCommitLevelAndChange) {

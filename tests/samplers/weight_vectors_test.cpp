@@ -48,6 +48,21 @@ TEST(WeightVectors, WeighByLuminanceAndArea) {
   });
 }
 
+// Texels are asked for some thousand before they are read, as far as there are any.
+TEST(WeightVectors, WeighNoMoreThanTheyAreAskedFor) {
+  constexpr std::size_t kTexels = 5000;
+  const std::vector<Rgb> texels = texels_of(kTexels);
+  for_each_kind_of_vector([&](const char* vectors) {
+    SCOPED_TRACE(vectors);
+    for (const std::size_t count : {std::size_t{0}, std::size_t{17}, std::size_t{3000}, kTexels}) {
+      std::vector<double> weights(kTexels + 1, -1.0);
+      weigh(texels, kRec709, 0.3, std::span(weights).first(count));
+      for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(weights[i], 0.3 * luminance(texels[i]));
+      EXPECT_EQ(weights[count], -1.0);
+    }
+  });
+}
+
 TEST(WeightVectors, SumsAreTheSameWhateverTheVectors) {
   const std::vector<double> all = weights_of(kMost);
   for_each_kind_of_vector([&](const char* vectors) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -40,72 +41,76 @@ std::vector<LinePoint> with_noise(std::vector<LinePoint> points, double sigma,
   return points;
 }
 
-TEST(BrokenLine, HasTheKneeThatWasPlanted) {
+std::optional<BrokenLine> line_of(const std::vector<LinePoint>& points, double level) {
+  return broken_lines({&points, 1}, level).front();
+}
+
+TEST(BrokenLine, HasItsBreakpointWhereTheLineBends) {
   constexpr double kSigma = 0.01;
   for (const double change : {0.5, -0.5}) {
-    const auto line = find_knees(
-        with_noise(bent(7, {{3.0, change}}), kSigma, RandomStream("planted", 1)), kLevel);
+    const auto line =
+        line_of(with_noise(bent(7, {{3.0, change}}), kSigma, RandomStream("bend", 1)), kLevel);
     ASSERT_TRUE(line);
-    ASSERT_EQ(line->knees.size(), 1U);
-    EXPECT_EQ(line->knees[0].point, 3U);
+    ASSERT_EQ(line->breakpoints.size(), 1U);
+    EXPECT_EQ(line->breakpoints[0].point, 3U);
     // Either slope is the least-squares one of three points and more, of standard error at most
     // sigma / sqrt(2); five of these are beyond chance.
     EXPECT_NEAR(line->slope, 0.1, 5.0 * kSigma / std::numbers::sqrt2);
-    EXPECT_NEAR(line->knees[0].slope_after, 0.1 + change, 5.0 * kSigma / std::numbers::sqrt2);
+    EXPECT_NEAR(line->breakpoints[0].slope_after, 0.1 + change, 5.0 * kSigma / std::numbers::sqrt2);
     EXPECT_LE(line->p_value, kLevel);
   }
 }
 
-TEST(BrokenLine, HasBothKneesOfWhatRisesInBetween) {
-  const auto line = find_knees(
+TEST(BrokenLine, HasBothBreakpointsOfWhatRisesInBetween) {
+  const auto line = line_of(
       with_noise(bent(11, {{3.0, 0.9}, {6.0, -0.8}}), 0.05, RandomStream("both", 1)), kLevel);
   ASSERT_TRUE(line);
-  ASSERT_EQ(line->knees.size(), 2U);
-  EXPECT_EQ(line->knees[0].point, 3U);
-  EXPECT_EQ(line->knees[1].point, 6U);
+  ASSERT_EQ(line->breakpoints.size(), 2U);
+  EXPECT_EQ(line->breakpoints[0].point, 3U);
+  EXPECT_EQ(line->breakpoints[1].point, 6U);
   // Three points and more lie on each piece: 0.05 / sqrt(2), five times.
   EXPECT_NEAR(line->slope, 0.1, 0.18);
-  EXPECT_NEAR(line->knees[0].slope_after, 1.0, 0.18);
-  EXPECT_NEAR(line->knees[1].slope_after, 0.2, 0.18);
+  EXPECT_NEAR(line->breakpoints[0].slope_after, 1.0, 0.18);
+  EXPECT_NEAR(line->breakpoints[1].slope_after, 0.2, 0.18);
 }
 
 TEST(BrokenLine, WithoutNoiseIsFittedExactly) {
-  const auto one = find_knees(bent(6, {{2.0, 1.0}}), kLevel);
+  const auto one = line_of(bent(6, {{2.0, 1.0}}), kLevel);
   ASSERT_TRUE(one);
-  ASSERT_EQ(one->knees.size(), 1U);
-  EXPECT_EQ(one->knees[0].point, 2U);
+  ASSERT_EQ(one->breakpoints.size(), 1U);
+  EXPECT_EQ(one->breakpoints[0].point, 2U);
   EXPECT_NEAR(one->slope, 0.1, 1e-12);
-  EXPECT_NEAR(one->knees[0].slope_after, 1.1, 1e-12);
-  const auto two = find_knees(bent(9, {{2.0, 1.0}, {5.0, -1.5}}), kLevel);
+  EXPECT_NEAR(one->breakpoints[0].slope_after, 1.1, 1e-12);
+  const auto two = line_of(bent(9, {{2.0, 1.0}, {5.0, -1.5}}), kLevel);
   ASSERT_TRUE(two);
-  ASSERT_EQ(two->knees.size(), 2U);
+  ASSERT_EQ(two->breakpoints.size(), 2U);
   EXPECT_NEAR(two->slope, 0.1, 1e-12);
-  EXPECT_NEAR(two->knees[0].slope_after, 1.1, 1e-12);
-  EXPECT_NEAR(two->knees[1].slope_after, -0.4, 1e-12);
+  EXPECT_NEAR(two->breakpoints[0].slope_after, 1.1, 1e-12);
+  EXPECT_NEAR(two->breakpoints[1].slope_after, -0.4, 1e-12);
 }
 
 TEST(BrokenLine, IsNoneWhereRoundingAloneBends) {
   for (int count = 5; count < 20; ++count) {
-    EXPECT_FALSE(find_knees(bent(count, {{0.0, 0.2}}), kLevel)) << "straight";
+    EXPECT_FALSE(line_of(bent(count, {{0.0, 0.2}}), kLevel)) << "straight";
   }
-  EXPECT_FALSE(find_knees(bent(9, {{0.0, -0.1}}), kLevel)) << "a constant";
+  EXPECT_FALSE(line_of(bent(9, {{0.0, -0.1}}), kLevel)) << "a constant";
 }
 
 TEST(BrokenLine, IsNoneOfFourPointsAndOfALastOneThatIsOff) {
-  EXPECT_FALSE(find_knees({}, kLevel));
-  EXPECT_FALSE(find_knees(bent(4, {{1.0, 1.0}}), kLevel));
+  EXPECT_FALSE(line_of({}, kLevel));
+  EXPECT_FALSE(line_of(bent(4, {{1.0, 1.0}}), kLevel));
   for (int count = 6; count < 12; ++count) {
-    EXPECT_FALSE(find_knees(bent(count, {{count - 2.0, 1.0}}), kLevel)) << count;
+    EXPECT_FALSE(line_of(bent(count, {{count - 2.0, 1.0}}), kLevel)) << count;
   }
 }
 
-TEST(BrokenLine, HasItsKneeAmongRepeatedPlaces) {
+TEST(BrokenLine, HasItsBreakpointAmongRepeatedPlaces) {
   std::vector<LinePoint> twice;
   for (const LinePoint& point : bent(6, {{2.0, 1.0}})) twice.insert(twice.end(), 2, point);
-  const auto line = find_knees(twice, kLevel);
+  const auto line = line_of(twice, kLevel);
   ASSERT_TRUE(line);
-  EXPECT_EQ(twice[line->knees[0].point].x, 2.0);
-  EXPECT_FALSE(find_knees(std::vector<LinePoint>(9, LinePoint{1.0, 1.0}), kLevel));
+  EXPECT_EQ(twice[line->breakpoints[0].point].x, 2.0);
+  EXPECT_FALSE(line_of(std::vector<LinePoint>(9, LinePoint{1.0, 1.0}), kLevel));
 }
 
 TEST(BrokenLine, IsCalledOfStraightOnesAsOftenAsItsLevelSays) {
@@ -115,12 +120,48 @@ TEST(BrokenLine, IsCalledOfStraightOnesAsOftenAsItsLevelSays) {
   for (const int count : {5, 11}) {
     int called = 0;
     for (std::uint64_t i = 0; i < kLines; ++i) {
-      if (find_knees(with_noise(bent(count, {}), 1.0, stream.substream(i)), kFifth)) ++called;
+      if (line_of(with_noise(bent(count, {}), 1.0, stream.substream(i)), kFifth)) ++called;
     }
     // Binomial, within five standard deviations.
     EXPECT_NEAR(called, kLines * kFifth, 5.0 * std::sqrt(kLines * kFifth * (1.0 - kFifth)))
         << count;
   }
+}
+
+/// A page of so many straight lines of eleven points that scatter.
+std::vector<std::vector<LinePoint>> straight_lines(std::size_t count, const RandomStream& stream) {
+  std::vector<std::vector<LinePoint>> lines;
+  for (std::size_t i = 0; i < count; ++i) {
+    lines.push_back(with_noise(bent(11, {}), 1.0, stream.substream(stream.number() + i)));
+  }
+  return lines;
+}
+
+// At this level each, one of eleven lines would bend on nine pages of ten.
+TEST(BrokenLines, OfAPageAreCalledAsOftenAsItsLevelSays) {
+  constexpr int kPages = 100;
+  constexpr std::size_t kLines = 11;
+  constexpr double kFifth = 0.2;
+  const RandomStream stream("straight pages", 1);
+  int pages = 0;
+  for (std::uint64_t page = 0; page < kPages; ++page) {
+    const auto found =
+        broken_lines(straight_lines(kLines, stream.substream(kLines * page)), kFifth);
+    pages += std::ranges::any_of(found, [](const auto& line) { return line.has_value(); }) ? 1 : 0;
+  }
+  // Binomial, within five standard deviations.
+  const double deviation = std::sqrt(kPages * kFifth * (1.0 - kFifth));
+  EXPECT_LE(pages, kPages * kFifth + 5.0 * deviation);
+  EXPECT_GT(pages, 0);
+}
+
+TEST(BrokenLines, AreFoundAmongStraightOnes) {
+  auto lines = straight_lines(10, RandomStream("straight among", 1));
+  lines.push_back(with_noise(bent(11, {{5.0, 0.9}}), 0.05, RandomStream("bent among", 1)));
+  const auto found = broken_lines(lines, kLevel);
+  ASSERT_EQ(found.size(), 11U);
+  ASSERT_TRUE(found.back());
+  EXPECT_EQ(found.back()->breakpoints[0].point, 5U);
 }
 
 }  // namespace

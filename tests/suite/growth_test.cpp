@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "lightproof/core/random.h"
+#include "lightproof/samplers/registry.h"
+#include "lightproof/stats/tails.h"
 
 namespace lightproof {
 namespace {
@@ -56,6 +61,33 @@ TEST(Growth, HasAKneeWhereStepsSlowDown) {
   ASSERT_EQ(fits[0].knees->knees.size(), 1U);
   EXPECT_EQ(fits[0].knees->knees[0].extent, (Extent{1024, 512}));
   EXPECT_NEAR(fits[0].knees->knees[0].exponent_after, 0.5, 1e-12);
+}
+
+/// All samplers, whose times are a power of the width but for normal scatter.
+std::vector<ThroughputRecord> power_laws(std::uint64_t page) {
+  const RandomStream stream("suite/growth", 1, page);
+  std::vector<ThroughputRecord> records;
+  std::uint64_t number = 0;
+  for (const SamplerInfo& sampler : samplers()) {
+    for (const int width : {256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096, 6144, 8192}) {
+      const double error = normal_quantile(stream.point(number++).s + 0x1p-54);
+      records.push_back(record(sampler.name, width, std::pow(width, 0.2) * std::exp(0.05 * error)));
+    }
+  }
+  return records;
+}
+
+// With one probability for each sampler, one page in ten would show some.
+TEST(Growth, HasBreakpointsByChanceOnOnePageInAHundred) {
+  constexpr int kPages = 200;
+  int pages = 0;
+  for (std::uint64_t page = 0; page < kPages; ++page) {
+    const auto fits = growth_of(power_laws(page), {});
+    ASSERT_EQ(fits.size(), samplers().size());
+    pages += std::ranges::any_of(fits, [](const GrowthFit& fit) { return fit.knees.has_value(); });
+  }
+  // More than twelve of a mean of two have a probability below 1e-6.
+  EXPECT_LE(pages, 12);
 }
 
 TEST(Growth, SaysWhichMapIsTheFirstWhoseTableDoesNotFit) {

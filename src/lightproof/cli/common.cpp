@@ -16,6 +16,7 @@
 #include <set>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/out_of_memory.h"
 #include "lightproof/image/reader.h"
 #include "lightproof/image/synthetic.h"
 
@@ -49,7 +50,11 @@ std::optional<std::uint64_t> parse_number(std::string_view text) {
 
 EnvironmentMap load_map(const std::string& input, Extent size, const ReadOptions& read) {
   if (input.empty()) throw InputError("a map's name is empty");
-  if (is_synthetic(input)) return make_synthetic_map(input, size);
+  if (is_synthetic(input)) {
+    return with_memory_for(
+        [&] { return fmt::format("{} ({}x{})", input, size.width, size.height); },
+        [&] { return make_synthetic_map(input, size); });
+  }
   try {
     return read_environment_map(input, read);
   } catch (const InputError& error) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lightproof/core/failure.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/image/environment_map.h"
 
@@ -16,8 +17,10 @@ namespace lightproof::cli {
 enum ExitCode : int {
   kPassed = 0,
   kRejected = 1,
-  kBadInput = 2,
+  kBadInput = kInputFailed,
   kInconclusive = 3,
+  kInternalError = kProgramFailed,
+  kOutOfMemory = kMemoryFailed,
   kInterrupted = 128,  ///< plus the number of the signal: 130 for Ctrl-C, 143 for SIGTERM
 };
 

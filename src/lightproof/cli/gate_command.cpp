@@ -193,7 +193,8 @@ void add_gate(CLI::App& app, int& exit_code) {
   command->add_flag("--github", options->github, "print annotations for GitHub Actions");
   command->footer(
       "Without MAP the samplers are tested on every built-in map, and the warps and materials\n"
-      "as well. Exit codes: 0 none rejected, 1 rejected, 2 usage or input, 3 inconclusive.\n"
+      "as well. Exit codes: 0 none rejected, 1 rejected, 2 usage or input, 3 inconclusive,\n"
+      "70 internal error, 71 not enough memory, 128 + N ended by signal N.\n"
       "Samplers with known defects are shown, but decide the exit code only if named by\n"
       "--sampler.");
   const CLI::Option* seed = command->get_option("--seed");

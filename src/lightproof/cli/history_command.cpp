@@ -133,7 +133,8 @@ void register_compare(CLI::App& history, int& exit_code) {
       "A benchmark has regressed if two sessions in a row find it slower: by a one-sided\n"
       "Mann-Whitney test at .001 and by more than 5 % and three times the A/A noise; or if it\n"
       "executes over 1 % more instructions. Slower in one session alone it is suspected.\n"
-      "Exit codes: 0 nothing regressed, 1 regressed, 2 usage or input.");
+      "Exit codes: 0 nothing regressed, 1 regressed, 2 usage or input,\n"
+      "70 internal error, 71 not enough memory.");
   command->callback([options, &exit_code] { exit_code = compare_commits(*options); });
 }
 

@@ -10,6 +10,7 @@
 
 #include "common.h"
 #include "lightproof/core/error.h"
+#include "lightproof/core/failure.h"
 #include "lightproof/core/parallel.h"
 
 namespace {
@@ -27,6 +28,18 @@ void on_interrupt(int signal) {
 bool is_command(const CLI::App& app, const std::string& name) {
   return !app.get_subcommands([&](const CLI::App* command) { return command->check_name(name); })
               .empty();
+}
+
+int refuse_stdout(int error) {
+  fmt::print(stderr, "lightproof: cannot write to the standard output: {}\n",
+             std::generic_category().message(error));
+  return lightproof::cli::kBadInput;
+}
+
+int fail(const std::exception_ptr& error) {
+  const lightproof::Failure failure = lightproof::failure_of(error);
+  fmt::print(stderr, "lightproof: {}\n", failure.message);
+  return failure.code;
 }
 
 int run(int argc, char** argv) {
@@ -53,15 +66,8 @@ int run(int argc, char** argv) {
   } catch (const lightproof::Interrupted&) {
     fmt::print(stderr, "lightproof: interrupted; nothing half-written was left\n");
     return kInterrupted + caught_signal;
-  } catch (const lightproof::InputError& error) {
-    fmt::print(stderr, "lightproof: {}\n", error.what());
-    return kBadInput;
   }
-  if (std::fflush(stdout) != 0) {
-    fmt::print(stderr, "lightproof: cannot write to the standard output: {}\n",
-               std::generic_category().message(errno));
-    return kBadInput;
-  }
+  if (std::fflush(stdout) != 0) return refuse_stdout(errno);
   return exit_code;
 }
 
@@ -77,8 +83,11 @@ int main(int argc, char** argv) {
   catch_signal(SIGTERM);
   try {
     return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "lightproof: internal error: %s\n", error.what());
-    return lightproof::cli::kBadInput;
+  } catch (const std::system_error& error) {
+    // What is printed says so at once if it is much, and not before the end if it is little.
+    return std::ferror(stdout) != 0 ? refuse_stdout(error.code().value())
+                                    : fail(std::current_exception());
+  } catch (...) {
+    return fail(std::current_exception());
   }
 }

@@ -107,7 +107,7 @@ void add_study(CLI::App& app, int& exit_code) {
                     "leave out the test of the gate itself (mutants, calibration, power)");
   command->footer(
       "Writes report.html, results.json, CSV, EXR and PNG files.\nExit codes: 0 done, 2 usage or "
-      "input.");
+      "input,\n70 internal error, 71 not enough memory, 128 + N ended by signal N.");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

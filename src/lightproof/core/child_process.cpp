@@ -10,11 +10,15 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <mutex>
+#include <optional>
 #include <system_error>
 #include <thread>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/failure.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/core/system_call.h"
 #include "lightproof/core/temporary_folder.h"
 
 extern char** environ;
@@ -23,42 +27,120 @@ namespace lightproof {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::chrono::milliseconds kPollInterval{20};
+using std::chrono::milliseconds;
+
+constexpr milliseconds kPollInterval{20};
+/// What a child that is asked to end may take to do so.
+constexpr milliseconds kGrace{2000};
+
+[[noreturn]] void fail(const fs::path& program, const char* what, int error) {
+  throw InputError(
+      fmt::format("{}: {}: {}", program.string(), what, std::generic_category().message(error)));
+}
+
+bool drops_status(const struct sigaction& action) {
+  return action.sa_handler == SIG_IGN || (action.sa_flags & SA_NOCLDWAIT) != 0;
+}
+
+/// Where SIGCHLD is ignored, as some launchers leave it, the system forgets how a child ended.
+/// While any of these lives it is not ignored.
+class StatusKept {
+ public:
+  StatusKept() {
+    const std::lock_guard lock(mutex);
+    if (users++ > 0) return;
+    ::sigaction(SIGCHLD, nullptr, &before);
+    if (!drops_status(before)) return;
+    struct sigaction usual = {};
+    usual.sa_handler = SIG_DFL;
+    ::sigaction(SIGCHLD, &usual, nullptr);
+  }
+  ~StatusKept() {
+    const std::lock_guard lock(mutex);
+    if (--users == 0 && drops_status(before)) ::sigaction(SIGCHLD, &before, nullptr);
+  }
+  StatusKept(const StatusKept&) = delete;
+  StatusKept& operator=(const StatusKept&) = delete;
+
+ private:
+  static inline std::mutex mutex;
+  static inline int users = 0;
+  static inline struct sigaction before = {};
+};
+
+/// Standard output to nowhere, standard error to a file.
+class Redirections {
+ public:
+  explicit Redirections(const fs::path& errors) {
+    require(posix_spawn_file_actions_init(&actions_));
+    try {
+      require(posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0));
+      require(posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, errors.c_str(),
+                                               O_WRONLY | O_CREAT | O_TRUNC, 0600));
+    } catch (...) {
+      posix_spawn_file_actions_destroy(&actions_);
+      throw;
+    }
+  }
+  ~Redirections() { posix_spawn_file_actions_destroy(&actions_); }
+  Redirections(const Redirections&) = delete;
+  Redirections& operator=(const Redirections&) = delete;
+
+  const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+ private:
+  /// They fail for lack of memory alone.
+  static void require(int error) {
+    if (error != 0) throw std::system_error(error, std::generic_category(), "posix_spawn");
+  }
+
+  posix_spawn_file_actions_t actions_{};
+};
 
 pid_t start(const fs::path& program, std::vector<std::string> arguments, const fs::path& errors) {
   arguments.insert(arguments.begin(), program.string());
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const Redirections redirections(errors);
   pid_t child = 0;
-  const int error = posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) {
-    throw InputError(fmt::format("{}: cannot be started: {}", program.string(),
-                                 std::generic_category().message(error)));
-  }
+  const int error =
+      posix_spawn(&child, program.c_str(), redirections.get(), nullptr, argv.data(), environ);
+  if (error != 0) fail(program, "cannot be started", error);
   return child;
 }
 
-/// The child's status. An interrupt of this process ends the child first.
-int wait_for(pid_t child) {
+/// Of a child that has ended.
+std::optional<int> status_of(const fs::path& program, pid_t child) {
   int status = 0;
-  while (::waitpid(child, &status, WNOHANG) == 0) {
+  const pid_t ended = uninterrupted([&] { return ::waitpid(child, &status, WNOHANG); });
+  if (ended == -1) fail(program, "it is not known how it ended (waitpid)", errno);
+  return ended == child ? std::optional(status) : std::nullopt;
+}
+
+/// Asks the child to end, and ends it if it does not.
+void end(const fs::path& program, pid_t child) {
+  // It cannot be gone before it is waited for; one that runs as somebody else is left alone.
+  if (::kill(child, SIGTERM) != 0) return;
+  const auto deadline = std::chrono::steady_clock::now() + kGrace;
+  while (!status_of(program, child)) {
+    if (std::chrono::steady_clock::now() > deadline) ::kill(child, SIGKILL);
+    std::this_thread::sleep_for(kPollInterval);
+  }
+}
+
+/// The child's status. An interrupt of this process ends the child first.
+int wait_for(const fs::path& program, pid_t child) {
+  for (;;) {
+    if (const std::optional<int> status = status_of(program, child)) return *status;
     try {
       throw_if_interrupted();
     } catch (const Interrupted&) {
-      ::kill(child, SIGTERM);
-      ::waitpid(child, &status, 0);
+      end(program, child);
       throw;
     }
     std::this_thread::sleep_for(kPollInterval);
   }
-  return status;
 }
 
 std::string last_line(const fs::path& file) {
@@ -75,15 +157,19 @@ std::string last_line(const fs::path& file) {
 void run_child(const fs::path& program, const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
   const fs::path errors = folder / "stderr";
-  const int status = wait_for(start(program, arguments, errors));
+  const StatusKept status_kept;
+  const int status = wait_for(program, start(program, arguments, errors));
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
   throw_if_interrupted();  // a Ctrl-C reaches both
   const std::string why = WIFSIGNALED(status)
                               ? fmt::format("ended by signal {}", WTERMSIG(status))
                               : fmt::format("ended with status {}", WEXITSTATUS(status));
   const std::string said = last_line(errors);
-  throw InputError(
-      fmt::format("{}: {}{}{}", program.string(), why, said.empty() ? "" : ": ", said));
+  const std::string message =
+      fmt::format("{}: {}{}{}", program.string(), why, said.empty() ? "" : ": ", said);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kMemoryFailed) throw OutOfMemory(message);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kProgramFailed) throw std::runtime_error(message);
+  throw InputError(message);
 }
 
 }  // namespace lightproof

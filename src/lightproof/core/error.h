@@ -12,6 +12,13 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The system has not enough memory for what was asked (exit code 71). The message is complete; see
+/// out_of_memory.h.
+class OutOfMemory : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// The user pressed Ctrl-C, or the system asks the program to end (exit code 128 and the signal).
 class Interrupted : public std::runtime_error {
  public:

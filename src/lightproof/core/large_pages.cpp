@@ -17,14 +17,15 @@ std::align_val_t alignment_of(std::size_t bytes) {
 /// Whole pages: what shares one with other memory would not get it.
 std::size_t rounded(std::size_t bytes) {
   if (bytes < kLargePage) return bytes;
-  if (bytes > std::numeric_limits<std::size_t>::max() - kLargePage) throw std::bad_alloc();
+  if (bytes > std::numeric_limits<std::size_t>::max() - kLargePage) throw NoMemoryForTable(bytes);
   return (bytes + kLargePage - 1) / kLargePage * kLargePage;
 }
 
 }  // namespace
 
 void* allocate_table(std::size_t bytes) {
-  void* memory = ::operator new(rounded(bytes), alignment_of(bytes));
+  void* memory = ::operator new(rounded(bytes), alignment_of(bytes), std::nothrow);
+  if (memory == nullptr) throw NoMemoryForTable(bytes);
   // A wish: where it is not granted, nothing but speed is lost.
   if (bytes >= kLargePage) static_cast<void>(madvise(memory, rounded(bytes), MADV_HUGEPAGE));
   return memory;

@@ -16,7 +16,19 @@ namespace lightproof {
 /// Bytes of a large page; smaller tables are left to the usual heap.
 inline constexpr std::size_t kLargePage = std::size_t{1} << 21U;
 
-/// At least 64-byte aligned. Throws std::bad_alloc.
+/// There are not so many bytes for one table.
+class NoMemoryForTable : public std::bad_alloc {
+ public:
+  explicit NoMemoryForTable(std::size_t bytes) : bytes_(bytes) {}
+
+  const char* what() const noexcept override { return "not enough memory for a table"; }
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  std::size_t bytes_;
+};
+
+/// At least 64-byte aligned. Throws NoMemoryForTable.
 void* allocate_table(std::size_t bytes);
 void free_table(void* memory, std::size_t bytes) noexcept;
 

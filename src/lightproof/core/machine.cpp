@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <thread>
+#include <string>
+
+#include "lightproof/core/parallel.h"
 
 namespace lightproof {
 
@@ -12,10 +14,11 @@ std::string machine_name() {
   std::string model = "unknown processor";
   for (std::string line; std::getline(info, line);) {
     if (!line.starts_with("model name")) continue;
-    model = line.substr(line.find(':') + 2);
+    const std::size_t name = line.find_first_not_of(" \t", line.find(':') + 1);
+    if (name != std::string::npos) model = line.substr(name);
     break;
   }
-  return fmt::format("{}, {} cores", model, std::thread::hardware_concurrency());
+  return fmt::format("{}, {} cores", model, thread_count(0));
 }
 
 }  // namespace lightproof

@@ -6,12 +6,18 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <thread>
 
 namespace lightproof {
 
 /// Runs body(0) … body(count-1), each once, in any order. Between tasks it throws Interrupted if
 /// request_interrupt() was called. The first exception of a task is passed on; loops inside other
 /// tasks are then abandoned with Interrupted, which goes no further.
+///
+/// Loops may be nested. A thread that waits inside of a task for an inner loop takes part in that
+/// loop alone, and begins no other task of the outer one: what outer tasks hold in memory is held
+/// once for each thread at the most. Threads without a task of their own help wherever there is
+/// work.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 /// Items of one task where each is a cell of a table: some 100 microseconds of work.
@@ -31,7 +37,11 @@ void parallel_chunks(std::size_t items, std::size_t size, const Body& body) {
   });
 }
 
-/// Limits parallel_for to `threads` threads while it lives; 0 means all cores.
+/// How many threads `threads` asks for: 0 means as many as there are processors, and one where the
+/// system does not say how many there are (0).
+std::size_t thread_count(int threads, unsigned processors = std::thread::hardware_concurrency());
+
+/// Limits parallel_for to thread_count(threads) threads while it lives.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
@@ -44,8 +54,12 @@ class ThreadLimit {
   std::unique_ptr<State> state_;
 };
 
-/// Asks running work to stop; safe inside a signal handler.
+/// Asks running work to stop, and what is started later not to begin; safe inside a signal handler.
 void request_interrupt();
+
+/// Takes the request back, once the work that it stopped has ended: what is started from now on
+/// runs.
+void withdraw_interrupt();
 
 /// Throws Interrupted if request_interrupt() was called.
 void throw_if_interrupted();

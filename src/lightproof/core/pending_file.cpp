@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/system_call.h"
 
 namespace lightproof {
 namespace fs = std::filesystem;
@@ -23,12 +24,13 @@ namespace {
 
 /// Some file systems report a full disk only here.
 void flush_to_disk(const fs::path& path) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  const int file = uninterrupted([&] { return ::open(path.c_str(), O_WRONLY | O_CLOEXEC); });
   if (file < 0) fail(path, errno);
-  const int result = ::fsync(file);
+  const int flushed = uninterrupted([&] { return ::fsync(file); });
   const int error = errno;
-  ::close(file);
-  if (result != 0 && error != EINVAL && error != EROFS) fail(path, error);
+  const int closed = ::close(file);
+  if (flushed != 0 && error != EINVAL && error != EROFS) fail(path, error);
+  if (closed != 0 && errno != EINTR) fail(path, errno);
 }
 
 /// Where links lead to; the path itself if it is none or leads nowhere.
@@ -48,6 +50,7 @@ bool is_stream(const fs::path& path) {
 
 /// Writes to `path`; errors name `target`.
 void write_bytes(const fs::path& path, const fs::path& target, std::string_view content) {
+  errno = 0;
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
   out.write(content.data(), static_cast<std::streamsize>(content.size()));
   out.close();
@@ -59,8 +62,10 @@ void write_bytes(const fs::path& path, const fs::path& target, std::string_view 
 PendingFile::PendingFile(fs::path target) : target_(std::move(target)) {
   temporary_ = target_.parent_path() / fmt::format(".{}.{}.part{}", target_.stem().string(),
                                                    ::getpid(), target_.extension().string());
+  errno = 0;
   std::ofstream probe(temporary_, std::ios::binary);
-  if (!probe) fail(target_, errno);
+  probe.close();
+  if (!probe) fail(target_, errno != 0 ? errno : EIO);
 }
 
 PendingFile::~PendingFile() {
@@ -95,9 +100,13 @@ PendingFolder::~PendingFolder() {
 
 void PendingFolder::commit() {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(temporary_)) files.push_back(entry.path());
+  std::error_code error;
+  for (fs::directory_iterator entry(temporary_, error), end; !error && entry != end;
+       entry.increment(error)) {
+    files.push_back(entry->path());
+  }
+  if (error) fail(target_, error.value());
   for (const fs::path& file : files) {
-    std::error_code error;
     fs::rename(file, target_ / file.filename(), error);
     if (error) fail(target_ / file.filename(), error.value());
   }
@@ -113,7 +122,8 @@ void write_file(const fs::path& path, std::string_view content) {
 
 void check_writable(const fs::path& path) {
   const fs::path target = resolved(path);
-  if (fs::is_directory(target)) fail(target, EISDIR);
+  std::error_code error;  // of what cannot be looked at, writing it will say why
+  if (fs::is_directory(target, error)) fail(target, EISDIR);
   if (!is_stream(target)) const PendingFile probe(target);
 }
 

@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <new>
 #include <utility>
 
 namespace lightproof::sqlite {
@@ -14,6 +15,12 @@ int flags_of(Mode mode) {
   return mode == Mode::create ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE;
 }
 
+/// Lack of memory is nothing that the database could be blamed for.
+[[noreturn]] void fail(int code, const std::string& why) {
+  if (code == SQLITE_NOMEM) throw std::bad_alloc();
+  throw Error(code, why);
+}
+
 }  // namespace
 
 Error::Error(int code, const std::string& message)
@@ -24,7 +31,7 @@ Database::Database(const std::filesystem::path& file, Mode mode) {
   if (code != SQLITE_OK) {
     const std::string why = handle_ == nullptr ? "out of memory" : sqlite3_errmsg(handle_);
     sqlite3_close(handle_);
-    throw Error(code, why);
+    fail(code, why);
   }
   sqlite3_busy_timeout(handle_, kPatienceMilliseconds);
 }
@@ -35,7 +42,7 @@ Database::Database(Database&& other) noexcept : handle_(std::exchange(other.hand
 
 void Database::execute(const char* statements) {
   const int code = sqlite3_exec(handle_, statements, nullptr, nullptr, nullptr);
-  if (code != SQLITE_OK) throw Error(code, sqlite3_errmsg(handle_));
+  if (code != SQLITE_OK) fail(code, sqlite3_errmsg(handle_));
 }
 
 std::int64_t Database::last_row() const { return sqlite3_last_insert_rowid(handle_); }
@@ -47,7 +54,7 @@ Statement::Statement(Database& database, const char* text) : database_(database.
 Statement::~Statement() { sqlite3_finalize(handle_); }
 
 void Statement::require(int code) const {
-  if (code != SQLITE_OK) throw Error(code, sqlite3_errmsg(database_));
+  if (code != SQLITE_OK) fail(code, sqlite3_errmsg(database_));
 }
 
 Statement& Statement::bind(int parameter, std::string_view text) {
@@ -71,7 +78,7 @@ bool Statement::step() {
   if (code == SQLITE_ROW) return true;
   const std::string why = code == SQLITE_DONE ? "" : sqlite3_errmsg(database_);
   sqlite3_reset(handle_);
-  if (code != SQLITE_DONE) throw Error(code, why);
+  if (code != SQLITE_DONE) fail(code, why);
   return false;
 }
 
@@ -83,6 +90,7 @@ void Statement::run() {
 std::string Statement::text(int column) const {
   const unsigned char* bytes = sqlite3_column_text(handle_, column);
   const auto size = static_cast<std::size_t>(sqlite3_column_bytes(handle_, column));
+  if (bytes == nullptr && sqlite3_errcode(database_) == SQLITE_NOMEM) throw std::bad_alloc();
   return bytes == nullptr ? "" : std::string(reinterpret_cast<const char*>(bytes), size);
 }
 

@@ -87,6 +87,14 @@ void require_history(const fs::path& file) {
   }
 }
 
+/// Throws InputError if that cannot be known.
+bool is_there(const fs::path& file) {
+  std::error_code error;
+  const bool there = fs::exists(file, error);
+  if (error) refuse(file, error.message());
+  return there;
+}
+
 void make_history(const fs::path& file) {
   sqlite::Database database(file, sqlite::Mode::create);
   sqlite::Transaction transaction(database);
@@ -165,12 +173,12 @@ HistoryStore::~HistoryStore() = default;
 HistoryStore::HistoryStore(HistoryStore&& other) noexcept = default;
 
 HistoryStore HistoryStore::open_to_read(const fs::path& file) {
-  if (!fs::exists(file)) refuse(file, "there is no such file; `lightproof history add` makes one");
+  if (!is_there(file)) refuse(file, "there is no such file; `lightproof history add` makes one");
   return {file, false};
 }
 
 HistoryStore HistoryStore::open_to_write(const fs::path& file) {
-  if (!fs::exists(file)) create_history(file);
+  if (!is_there(file)) create_history(file);
   return {file, true};
 }
 

@@ -65,6 +65,7 @@ std::vector<TrendLine> trend_lines(std::span<const BenchmarkRun> runs, const Cha
   Lines by_key;
   for (const BenchmarkRun& run : runs) add(by_key, run);
   std::vector<TrendLine> lines;
+  std::vector<std::vector<double>> times;  // empty for instructions
   for (const auto& [key, commits] : by_key) {
     const auto& [machine, compiler, flags, metric, benchmark] = key;
     TrendLine line{machine, compiler, flags, benchmark, metric, {}, {}};
@@ -73,8 +74,16 @@ std::vector<TrendLine> trend_lines(std::span<const BenchmarkRun> runs, const Cha
       line.points.push_back(point_of(commit));
       values.push_back(line.points.back().value);
     }
-    line.changes = metric == Metric::instructions ? steps_of(values) : change_points(values, rule);
+    if (metric == Metric::instructions) {
+      line.changes = steps_of(values);
+      values.clear();
+    }
     lines.push_back(std::move(line));
+    times.push_back(std::move(values));
+  }
+  std::vector<std::vector<ChangePoint>> changes = change_points(times, rule);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].metric == Metric::nanoseconds) lines[i].changes = std::move(changes[i]);
   }
   return lines;
 }

@@ -27,8 +27,9 @@ struct TrendLine {
   std::vector<ChangePoint> changes;
 };
 
-/// Changes of times are found by change_points(), with a commit as one value: what runs of one
-/// session share, the state of the machine, would pass for a change if runs were the values.
+/// Changes of times are found by change_points(), of all lines together, with a commit as one
+/// value: what runs of one session share, the state of the machine, would pass for a change if runs
+/// were the values. That the machine's state lasts from session to session is reckoned with.
 /// Instruction counts change where a commit differs from the one before by more than the limit of
 /// the regression rule. Runs come in the order of their start.
 std::vector<TrendLine> trend_lines(std::span<const BenchmarkRun> runs, const ChangeRule& rule = {});

@@ -52,8 +52,10 @@ constexpr std::string_view kGrowthNote =
     "time against width plus height, by least squares on logarithms. A table outgrows a cache at "
     "the smallest measured map on which it is larger. Knees are measured: a line with one or two "
     "bends that fits the time of a step so much better than a straight one that straight ones with "
-    "random errors seem to bend as clearly in at most 1 % of all cases. At least two sizes lie on "
-    "either side of a knee; few sizes, or much scatter, show none.";
+    "random errors would hardly seem to bend as clearly: where all samplers are straight, any of "
+    "them "
+    "has a knee with a probability of at most 1 % (Holm's procedure over all samplers). At least "
+    "two sizes lie on either side of a knee; few sizes, or much scatter, show none.";
 
 std::string growth_table(const std::vector<GrowthFit>& growth, const CacheSizes& caches) {
   if (growth.empty()) return "";

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <span>
 
+#include "lightproof/core/lifetime.h"
 #include "lightproof/samplers/alias_table.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -57,7 +58,10 @@ std::size_t entries_front(const AliasRun& run, double unit, float alias_mass,
         words, hn::BitCast(FloatBits(), hn::DemoteTo(hn::RebindToFloat<FloatBits>(), shares)));
     const auto column = hn::IfThenElse(small, hn::Or(mass, alias), index);
     const auto masses = hn::Or(own, hn::IfThenElse(small, mass_of_alias, hn::ShiftLeft<32>(own)));
-    hn::StoreInterleaved2(column, masses, words, reinterpret_cast<std::uint64_t*>(entries + done));
+    const std::size_t bytes = lanes * sizeof(AliasTable::Entry);
+    hn::StoreInterleaved2(column, masses, words,
+                          start_lifetime_as_array<std::uint64_t>(entries + done, bytes));
+    start_lifetime_as_array<AliasTable::Entry>(entries + done, bytes);
     index = hn::Add(index, next);
   }
   return done;

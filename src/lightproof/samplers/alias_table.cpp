@@ -1,11 +1,15 @@
 #include "lightproof/samplers/alias_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <iterator>
 #include <numeric>
+
+#include "lightproof/core/error.h"
 
 namespace lightproof {
 namespace {
@@ -200,7 +204,20 @@ AliasSweep::Filling AliasSweep::start_of(std::size_t stretch) const {
   }
 }
 
-AliasTable::AliasTable(const CellWeights& weights) : entries_(weights.count()) {
+namespace {
+
+std::size_t checked(std::size_t cells) {
+  constexpr std::size_t kMostCells = std::size_t{1} << 32U;
+  if (cells <= kMostCells) return cells;
+  throw InputError(fmt::format(
+      "alias tables have 32-bit numbers: of {} texels they can number {}; scale the map "
+      "down or take another sampler",
+      cells, kMostCells));
+}
+
+}  // namespace
+
+AliasTable::AliasTable(const CellWeights& weights) : entries_(checked(weights.count())) {
   const TableVector<std::uint64_t> masses = whole_masses(weights, kBits);
   const double unit = kUnit / static_cast<double>(weights.count());
   const auto probability = [&](std::size_t cell) { return to_probability(masses[cell], unit); };

@@ -14,7 +14,9 @@ double between(double low, double high, double share) { return low + (high - low
 
 /// The patch that a coordinate lies in: those of index 0 and `count` are halves.
 int patch_of(double coordinate, int count) {
-  return std::clamp(static_cast<int>(std::floor(coordinate * count + 0.5)), 0, count);
+  // As cell_of(), for coordinates that are no places of a map.
+  const double patch = std::max(0.0, std::floor(coordinate * count + 0.5));
+  return static_cast<int>(std::min(patch, static_cast<double>(count)));
 }
 
 double inside(double share) { return std::clamp(share, kCellMargin, 1.0 - kCellMargin); }

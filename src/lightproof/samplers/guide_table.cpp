@@ -1,8 +1,12 @@
 #include "lightproof/samplers/guide_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
+#include <limits>
 
+#include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 
 namespace lightproof {
@@ -11,12 +15,24 @@ namespace {
 constexpr unsigned kCdfBits = 31;
 constexpr std::size_t kPartsPerRow = 4;
 
+/// Cells of a distribution that a guide has numbers for.
+constexpr std::size_t kMostCells = std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1;
+
 unsigned guide_bits(std::size_t cells) { return static_cast<unsigned>(std::bit_width(cells - 1)); }
+
+std::size_t checked(std::size_t cells) {
+  if (cells <= kMostCells) return cells;
+  throw InputError(
+      fmt::format("guide tables have 16-bit numbers: of {} texels or runs of texels in a row or "
+                  "column they can "
+                  "number {}; scale the map down or take another sampler",
+                  cells, kMostCells));
+}
 
 }  // namespace
 
 Guides::Guides(std::size_t count, std::size_t cells, std::size_t parts_per_cell)
-    : shift_(kCdfBits - guide_bits(cells * parts_per_cell)),
+    : shift_(kCdfBits - guide_bits(checked(cells) * parts_per_cell)),
       parts_((std::size_t{1} << guide_bits(cells * parts_per_cell)) + 1),
       first_(count * parts_) {}
 

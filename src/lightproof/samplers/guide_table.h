@@ -19,7 +19,7 @@ namespace lightproof {
 class Guides {
  public:
   /// `parts_per_cell` is a power of two: the more there are, the more often the first cell is the
-  /// one that is sought, or the next.
+  /// one that is sought, or the next. Throws InputError if there are more than 65536 cells.
   Guides(std::size_t count, std::size_t cells, std::size_t parts_per_cell);
   void set(std::size_t guide, CdfKnots knots);
   /// Of the distribution that was set with these knots.

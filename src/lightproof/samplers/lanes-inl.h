@@ -23,6 +23,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "lightproof/core/lifetime.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/texel_places.h"
 #include "lightproof/warp/sin_cos-inl.h"
@@ -180,8 +181,10 @@ class LanePlaces {
     static_assert(sizeof(TexelSample) == 32 && offsetof(TexelSample, x) == 16 &&
                   offsetof(TexelSample, y) == 20 && offsetof(TexelSample, pdf) == 24);
     const Int texel = to_whole(hn::Add(hn::Mul(cell.y, number(0x1p32)), cell.x));
+    const std::size_t bytes = hn::Lanes(Numbers()) * sizeof(TexelSample);
     hn::StoreInterleaved4(s, t, hn::BitCast(Numbers(), texel), pdf, Numbers(),
-                          reinterpret_cast<double*>(to));
+                          start_lifetime_as_array<double>(to, bytes));
+    start_lifetime_as_array<TexelSample>(to, bytes);
   }
 
   /// The same samples as directions: neither arc sine nor sine of an arc sine is needed.

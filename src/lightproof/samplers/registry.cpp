@@ -8,13 +8,23 @@
 #include <string>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/out_of_memory.h"
 
 namespace lightproof {
 namespace {
 
+/// "sun-sky (512x256)".
+std::string text_of(const EnvironmentMap& map) {
+  return fmt::format("{} ({}x{})", map.name, map.radiance.extent().width,
+                     map.radiance.extent().height);
+}
+
 template <class Sampler, const LuminanceWeights& kGrey, Lookup kLookup = Lookup::nearest>
 AnySampler make(const EnvironmentMap& map, Weighting weighting) {
-  return Sampler(map, TargetDensity{weighting, kGrey, kLookup});
+  return with_memory_for([&] { return "the table of a sampler of " + text_of(map); },
+                         [&]() -> AnySampler {
+                           return Sampler(map, TargetDensity{weighting, kGrey, kLookup});
+                         });
 }
 
 double scanned(Extent map) { return map.width + map.height; }

@@ -29,9 +29,14 @@ concept EnvSampler = requires(const T sampler, SquarePoint point) {
   { sampler.table_bytes() } -> std::same_as<std::size_t>;
 };
 
-/// The row of t and the column of s; a coordinate of exactly 1 belongs to the last cell.
+/// The row of t and the column of s; a coordinate of exactly 1 belongs to the last cell. What lies
+/// outside of [0,1] belongs to the nearer end, infinities too, and what is not a number to cell 0:
+/// whoever must tell these apart looks at the coordinate.
 inline int cell_of(double coordinate, int count) {
-  return std::clamp(static_cast<int>(coordinate * count), 0, count - 1);
+  // Both in this order: a comparison with what is not a number is false, and std::max then returns
+  // its first argument. Converted to an integer before, it would be undefined.
+  const double cell = std::max(0.0, coordinate * count);
+  return static_cast<int>(std::min(cell, static_cast<double>(count - 1)));
 }
 
 }  // namespace lightproof

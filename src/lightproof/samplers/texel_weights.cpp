@@ -25,8 +25,10 @@ void weigh_part(const EnvironmentMap& map, TargetDensity target, Texel first,
                 std::span<double> weights) {
   const double area =
       target.weighting == Weighting::B ? texel_solid_angle(map.radiance.extent(), first.y) : 1.0;
-  weigh(map.radiance.row(first.y).subspan(static_cast<std::size_t>(first.x), weights.size()),
-        target.grey, area, weights);
+  const auto offset =
+      static_cast<std::size_t>(first.y) * static_cast<std::size_t>(map.radiance.extent().width) +
+      static_cast<std::size_t>(first.x);
+  weigh(map.radiance.values().subspan(offset), target.grey, area, weights);
 }
 
 bool any_light(std::span<const double> weights) {

@@ -20,7 +20,7 @@ namespace {
 #if HWY_TARGET == HWY_SCALAR
 
 std::size_t weigh_front(std::span<const Rgb> /*texels*/, LuminanceWeights /*grey*/, double /*area*/,
-                        double* /*weights*/) {
+                        std::span<double> /*weights*/) {
   return 0;
 }
 std::size_t sum_front(std::span<const double> /*weights*/, WeightSums::Lanes& /*lanes*/) {
@@ -65,7 +65,7 @@ struct Weigher {
 /// page only.
 constexpr std::size_t kAhead = 2048;
 
-/// The lines of two vectors of texels. They may lie beyond the map.
+/// Asks for the lines of two vectors of texels.
 HWY_INLINE void fetch(const Rgb* texels) {
   constexpr std::size_t kLine = 64;
   const char* bytes = reinterpret_cast<const char*>(texels);
@@ -75,7 +75,7 @@ HWY_INLINE void fetch(const Rgb* texels) {
 }
 
 std::size_t weigh_front(std::span<const Rgb> texels, LuminanceWeights grey, double area,
-                        double* weights) {
+                        std::span<double> weights) {
   const Numbers d;
   const hn::ScalableTag<float> floats;
   const hn::Half<decltype(floats)> half;
@@ -83,17 +83,17 @@ std::size_t weigh_front(std::span<const Rgb> texels, LuminanceWeights grey, doub
   const Weigher weigh = {hn::Set(d, grey.red), hn::Set(d, grey.green), hn::Set(d, grey.blue),
                          hn::Set(d, area)};
   std::size_t done = 0;
-  for (; done + 2 * lanes <= texels.size(); done += 2 * lanes) {
-    fetch(texels.data() + done + kAhead);
+  for (; done + 2 * lanes <= weights.size(); done += 2 * lanes) {
+    if (done + kAhead + 2 * hn::MaxLanes(d) <= texels.size()) fetch(&texels[done + kAhead]);
     hn::Vec<decltype(floats)> r;
     hn::Vec<decltype(floats)> g;
     hn::Vec<decltype(floats)> b;
     static_assert(sizeof(Rgb) == 3 * sizeof(float));
     hn::LoadInterleaved3(floats, &texels[done].r, r, g, b);
     hn::StoreU(weigh(hn::LowerHalf(half, r), hn::LowerHalf(half, g), hn::LowerHalf(half, b)), d,
-               weights + done);
+               &weights[done]);
     hn::StoreU(weigh(hn::UpperHalf(half, r), hn::UpperHalf(half, g), hn::UpperHalf(half, b)), d,
-               weights + done + lanes);
+               &weights[done + lanes]);
   }
   return done;
 }
@@ -193,8 +193,8 @@ T combined(const std::array<T, WeightSums::kLanes>& lanes, const Combine& combin
 
 void weigh(std::span<const Rgb> texels, LuminanceWeights grey, double area,
            std::span<double> weights) {
-  std::size_t i = HWY_DYNAMIC_DISPATCH(weigh_front)(texels, grey, area, weights.data());
-  for (; i < texels.size(); ++i) weights[i] = area * luminance(texels[i], grey);
+  std::size_t i = HWY_DYNAMIC_DISPATCH(weigh_front)(texels, grey, area, weights);
+  for (; i < weights.size(); ++i) weights[i] = area * luminance(texels[i], grey);
 }
 
 WeightSums::WeightSums() : lanes_{} {

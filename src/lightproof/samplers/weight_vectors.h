@@ -11,7 +11,8 @@
 
 namespace lightproof {
 
-/// weights[i] = area * luminance(texels[i], grey); both spans are of one size.
+/// weights[i] = area * luminance(texels[i], grey). There may be more texels than weights: those
+/// that come later in memory and are asked for ahead.
 void weigh(std::span<const Rgb> texels, LuminanceWeights grey, double area,
            std::span<double> weights);
 

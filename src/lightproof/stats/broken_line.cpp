@@ -4,9 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <list>
 #include <numbers>
+#include <utility>
 
+#include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
+#include "lightproof/stats/family.h"
 #include "lightproof/stats/tails.h"
 
 namespace lightproof {
@@ -14,9 +18,12 @@ namespace {
 
 using Vector = std::vector<double>;
 
-/// Points that must lie on either side of a knee.
+/// Points that must lie on either side of a breakpoint.
 constexpr std::size_t kBeyond = 2;
-constexpr std::uint64_t kStraightLines = 9999;
+/// Straight lines that a line is ranked among, at the least.
+constexpr std::size_t kLeastStraight = 9999;
+/// Those that may bend as clearly as one that is told from them at Holm's strictest level.
+constexpr double kRanksAtLevel = 4.0;
 
 double product(const Vector& a, const Vector& b) {
   double sum = 0.0;
@@ -70,7 +77,7 @@ bool is_rounding(const Vector& residuals, const Vector& values) {
 /// A broken line, by how it deviates from a straight one.
 struct Candidate {
   std::vector<std::size_t> points;  ///< in the bends
-  std::vector<Straightened> bends;  ///< of each knee alone
+  std::vector<Straightened> bends;  ///< of each breakpoint alone
   std::vector<Vector> directions;   ///< the residuals of the bends made orthonormal
 };
 
@@ -84,14 +91,14 @@ std::vector<std::size_t> places_of(const Vector& x) {
   return places;
 }
 
-Candidate with_one_knee(const Vector& x, std::size_t point) {
+Candidate with_one_breakpoint(const Vector& x, std::size_t point) {
   Vector beyond;
   for (const double place : x) beyond.push_back(std::max(place - x[point], 0.0));
   const Straightened bend = straightened(from_mean(x), beyond);
   return {{point}, {bend}, {of_length_one(bend.residuals)}};
 }
 
-Candidate with_two_knees(const Candidate& first, const Candidate& second) {
+Candidate with_two_breakpoints(const Candidate& first, const Candidate& second) {
   const Vector& along = first.directions.front();
   const Straightened& bend = second.bends.front();
   const Vector across = difference(bend.residuals, product(along, bend.residuals), along);
@@ -100,24 +107,24 @@ Candidate with_two_knees(const Candidate& first, const Candidate& second) {
           {along, of_length_one(across)}};
 }
 
-/// Those with one knee, then those with two.
+/// Those with one breakpoint, then those with two.
 std::vector<Candidate> candidates_of(const Vector& x) {
   std::vector<Candidate> candidates;
-  for (const std::size_t place : places_of(x)) candidates.push_back(with_one_knee(x, place));
+  for (const std::size_t place : places_of(x)) candidates.push_back(with_one_breakpoint(x, place));
   const std::size_t ones = candidates.size();
   for (std::size_t i = 0; i < ones; ++i) {
     for (std::size_t k = i + 1; k < ones; ++k) {
-      candidates.push_back(with_two_knees(candidates[i], candidates[k]));
+      candidates.push_back(with_two_breakpoints(candidates[i], candidates[k]));
     }
   }
   return candidates;
 }
 
-/// P-value of the F-test of one or two knees that leave this share of the squares of `count`
+/// P-value of the F-test of one or two breakpoints that leave this share of the squares of `count`
 /// residuals of a straight line.
-double p_value_of(std::size_t knees, double left, std::size_t count) {
-  const auto dof = static_cast<double>(count - 2 - knees);
-  if (knees == 2) return std::pow(left, 0.5 * dof);
+double p_value_of(std::size_t breakpoints, double left, std::size_t count) {
+  const auto dof = static_cast<double>(count - 2 - breakpoints);
+  if (breakpoints == 2) return std::pow(left, 0.5 * dof);
   return 2.0 * student_upper(std::sqrt((1.0 - left) / left * dof), dof);
 }
 
@@ -130,7 +137,7 @@ Clearest clearest_of(const std::vector<Candidate>& candidates, const Vector& res
   const double all = squared(residuals);
   const double rounding =
       static_cast<double>(residuals.size()) * std::numeric_limits<double>::epsilon();
-  std::array<double, 2> least = {1.0, 1.0};  // share that one knee leaves, and two
+  std::array<double, 2> least = {1.0, 1.0};  // share that one breakpoint leaves, and two
   std::array<const Candidate*, 2> best = {};
   for (const Candidate& candidate : candidates) {
     double left = 1.0;
@@ -164,17 +171,6 @@ Vector random_residuals(const Vector& centred_x, const RandomStream& stream) {
   return straightened(centred_x, errors).residuals;
 }
 
-/// The rank of the smallest p-value of all candidates among those of straight lines.
-double rank_of(double p_value, const std::vector<Candidate>& candidates, const Vector& centred_x) {
-  const RandomStream stream("straight lines", 1);
-  std::uint64_t as_clear = 1;
-  for (std::uint64_t i = 0; i < kStraightLines; ++i) {
-    const Vector residuals = random_residuals(centred_x, stream.substream(i));
-    if (clearest_of(candidates, residuals).p_value <= p_value) ++as_clear;
-  }
-  return static_cast<double>(as_clear) / static_cast<double>(kStraightLines + 1);
-}
-
 /// The slopes of the least-squares fit.
 BrokenLine fitted(const Candidate& candidate, const Straightened& line) {
   Vector changes(candidate.points.size());
@@ -192,31 +188,100 @@ BrokenLine fitted(const Candidate& candidate, const Straightened& line) {
   }
   double slope = broken.slope;
   for (std::size_t i = 0; i < changes.size(); ++i) {
-    broken.knees.push_back({candidate.points[i], slope += changes[i]});
+    broken.breakpoints.push_back({candidate.points[i], slope += changes[i]});
   }
   return broken;
 }
 
+/// The test of lines whose points have these x.
+class Bends {
+ public:
+  Bends(Vector x, std::size_t straight_lines)
+      : x_(std::move(x)), candidates_(candidates_of(x_)), straight_(straight_lines) {
+    const RandomStream stream("straight lines", 1);
+    const Vector centred = from_mean(x_);
+    parallel_chunks(straight_.size(), kChunk, [&](std::size_t, std::size_t i, std::size_t end) {
+      for (; i < end; ++i) {
+        straight_[i] =
+            clearest_of(candidates_, random_residuals(centred, stream.substream(i))).p_value;
+      }
+    });
+    std::ranges::sort(straight_);
+  }
+
+  const Vector& x() const { return x_; }
+
+  /// The clearest one through these points; none if rounding alone bends.
+  std::optional<BrokenLine> clearest(const Vector& y) const {
+    const Straightened line = straightened(from_mean(x_), y);
+    if (is_rounding(line.residuals, y)) return std::nullopt;
+    const auto [candidate, p_value] = clearest_of(candidates_, line.residuals);
+    if (candidate == nullptr) return std::nullopt;
+    BrokenLine broken = fitted(*candidate, line);
+    broken.p_value = rank_of(p_value);
+    return broken;
+  }
+
+ private:
+  static constexpr std::size_t kChunk = 256;
+
+  /// Of the smallest p-value of all candidates among those of straight lines.
+  double rank_of(double p_value) const {
+    const auto as_clear = std::ranges::upper_bound(straight_, p_value) - straight_.begin();
+    return static_cast<double>(as_clear + 1) / static_cast<double>(straight_.size() + 1);
+  }
+
+  Vector x_;
+  std::vector<Candidate> candidates_;
+  Vector straight_;  ///< smallest p-values of straight lines, ascending
+};
+
+Vector column_of(const std::vector<LinePoint>& points, double LinePoint::*coordinate) {
+  Vector values;
+  for (const LinePoint& point : points) values.push_back(point.*coordinate);
+  return values;
+}
+
+/// Tests of lines, each made once for all that have the same x.
+class AllBends {
+ public:
+  explicit AllBends(std::size_t straight_lines) : straight_lines_(straight_lines) {}
+
+  const Bends& of(const Vector& x) {
+    const auto found = std::ranges::find(tests_, x, &Bends::x);
+    return found != tests_.end() ? *found : tests_.emplace_back(x, straight_lines_);
+  }
+
+ private:
+  std::size_t straight_lines_;
+  std::list<Bends> tests_;
+};
+
 }  // namespace
 
-std::optional<BrokenLine> find_knees(std::span<const LinePoint> points, double level) {
-  Vector x;
-  Vector y;
-  for (const LinePoint& point : points) {
-    x.push_back(point.x);
-    y.push_back(point.y);
+std::vector<std::optional<BrokenLine>> broken_lines(std::span<const std::vector<LinePoint>> lines,
+                                                    double alpha) {
+  const auto may_bend = [](const std::vector<LinePoint>& points) {
+    return !places_of(column_of(points, &LinePoint::x)).empty();
+  };
+  const auto tested = static_cast<std::size_t>(std::ranges::count_if(lines, may_bend));
+  const double ranks = kRanksAtLevel / strictest_level(alpha, tested);
+  AllBends tests(std::max(kLeastStraight, static_cast<std::size_t>(ranks)));
+  std::vector<std::optional<BrokenLine>> clearest(lines.size());
+  std::vector<std::size_t> members;
+  std::vector<double> log10_p;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!may_bend(lines[i])) continue;
+    clearest[i] =
+        tests.of(column_of(lines[i], &LinePoint::x)).clearest(column_of(lines[i], &LinePoint::y));
+    members.push_back(i);
+    log10_p.push_back(clearest[i] ? std::log10(clearest[i]->p_value) : 0.0);
   }
-  const std::vector<Candidate> candidates = candidates_of(x);
-  if (candidates.empty()) return std::nullopt;
-  const Vector centred_x = from_mean(x);
-  const Straightened line = straightened(centred_x, y);
-  if (is_rounding(line.residuals, y)) return std::nullopt;
-  const auto [candidate, p_value] = clearest_of(candidates, line.residuals);
-  if (candidate == nullptr) return std::nullopt;
-  BrokenLine broken = fitted(*candidate, line);
-  broken.p_value = rank_of(p_value, candidates, centred_x);
-  if (broken.p_value > level) return std::nullopt;
-  return broken;
+  const std::vector<bool> rejected = holm_rejections(log10_p, alpha);
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    if (!rejected[k]) clearest[members[k]].reset();
+  }
+  return clearest;
 }
 
 }  // namespace lightproof

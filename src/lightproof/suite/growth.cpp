@@ -10,7 +10,8 @@
 namespace lightproof {
 namespace {
 
-constexpr double kKneeLevel = 0.01;
+/// Probability that any of the samplers bends if all are straight.
+constexpr double kFamilyAlpha = 0.01;
 /// Points that leave something to tell a line's scatter by.
 constexpr std::size_t kLeastPoints = 3;
 
@@ -61,18 +62,27 @@ std::optional<Extent> first_beyond(const std::vector<ThroughputRecord>& records,
   return found->extent;
 }
 
-std::optional<StepKnees> knees_of(const std::vector<StepTime>& steps) {
+std::vector<LinePoint> logarithms_of(const std::vector<StepTime>& steps) {
   std::vector<LinePoint> points;
   for (const StepTime& step : steps) {
     points.push_back({std::log(sides(step.extent)), std::log(step.ns)});
   }
-  const std::optional<BrokenLine> line = find_knees(points, kKneeLevel);
-  if (!line) return std::nullopt;
-  StepKnees knees = {line->slope, {}, line->p_value};
-  for (const Knee& knee : line->knees) {
-    knees.knees.push_back({steps[knee.point].extent, knee.slope_after});
+  return points;
+}
+
+/// The breakpoints of all samplers, judged together.
+void add_breakpoints(std::vector<GrowthFit>& fits) {
+  std::vector<std::vector<LinePoint>> lines;
+  for (const GrowthFit& fit : fits) lines.push_back(logarithms_of(fit.steps));
+  const std::vector<std::optional<BrokenLine>> broken = broken_lines(lines, kFamilyAlpha);
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (!broken[i]) continue;
+    fits[i].knees = StepKnees{broken[i]->slope, {}, broken[i]->p_value};
+    for (const Breakpoint& breakpoint : broken[i]->breakpoints) {
+      fits[i].knees->knees.push_back(
+          {fits[i].steps[breakpoint.point].extent, breakpoint.slope_after});
+    }
   }
-  return knees;
 }
 
 }  // namespace
@@ -95,10 +105,10 @@ std::vector<GrowthFit> growth_of(std::span<const ThroughputRecord> records,
     }
     fit.leaves_l2 = first_beyond(own, caches.l2);
     fit.leaves_l3 = first_beyond(own, caches.l3);
-    fit.knees = knees_of(fit.steps);
     fit.build_exponent = exponent_of(own, &ThroughputRecord::build_ms, texels);
     fits.push_back(std::move(fit));
   }
+  add_breakpoints(fits);
   return fits;
 }
 

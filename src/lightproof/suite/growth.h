@@ -8,9 +8,9 @@
 
 namespace lightproof {
 
-/// Of each sampler that was measured on three maps or more, in the order of the registry. A
-/// sampler whose time of a step follows one power law with normal scatter gets knees in 1 % of all
-/// cases (see stats/broken_line.h).
+/// Of each sampler that was measured on three maps or more, in the order of the registry. If the
+/// time of a step follows one power law with normal scatter for all of them, any sampler gets
+/// breakpoints with a probability of at most 1 % (see stats/broken_line.h).
 std::vector<GrowthFit> growth_of(std::span<const ThroughputRecord> records,
                                  const CacheSizes& caches);
 

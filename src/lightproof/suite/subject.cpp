@@ -1,19 +1,32 @@
 #include "lightproof/suite/subject.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "lightproof/core/out_of_memory.h"
 #include "lightproof/suite/alternative_law.h"
 #include "reference/texel_masses.h"
 
 namespace lightproof {
 namespace {
 
+/// With lack of memory laid to this part of a gate over the map.
+template <class Work>
+auto on(const EnvironmentMap& map, std::string_view part, const Work& work) {
+  const auto purpose = [&] {
+    return fmt::format("{} {} ({}x{})", part, map.name, map.radiance.extent().width,
+                       map.radiance.extent().height);
+  };
+  return with_memory_for(purpose, work);
+}
+
 std::vector<Alternative> alternatives_on(const EnvironmentMap& map, TargetDensity target) {
   const auto declared = std::make_shared<const Grid<double>>(reference::texel_masses(map, target));
   std::vector<Alternative> alternatives;
   for (const AlternativeLaw& law : alternative_laws()) {
-    alternatives.push_back({law.name, law.diagnosis, [declared, &map, target, &law] {
-                              return law.masses({declared.get(), &map, target});
+    alternatives.push_back({law.name, law.diagnosis, [declared, &map, target, masses = law.masses] {
+                              return masses({declared.get(), &map, target});
                             }});
   }
   return alternatives;
@@ -22,7 +35,8 @@ std::vector<Alternative> alternatives_on(const EnvironmentMap& map, TargetDensit
 Candidate candidate_of(const Subject& subject, const EnvironmentMap& map) {
   return {.name = subject.name,
           .known_defects = subject.known_defects,
-          .bind = [bind = subject.bind, &map] { return bind(map); },
+          .bind = [bind = subject.bind, name = subject.name,
+                   &map] { return on(map, name + " on", [&] { return bind(map); }); },
           .resolution = subject.resolution,
           .rounding = subject.rounding != nullptr ? subject.rounding(map.radiance.extent())
                                                   : MassRounding{},
@@ -31,7 +45,9 @@ Candidate candidate_of(const Subject& subject, const EnvironmentMap& map) {
 }
 
 std::function<BoundSampler()> linear_scan_of(const EnvironmentMap& map, TargetDensity target) {
-  return [&map, target] { return bound(LinearScan(map, target)); };
+  return [&map, target] {
+    return on(map, "linear_scan on", [&] { return bound(LinearScan(map, target)); });
+  };
 }
 
 /// The target densities of the subjects, each once.
@@ -52,9 +68,9 @@ Subject subject_of(const SamplerInfo& sampler, Weighting weighting) {
           sampler.target(weighting),
           sampler.known_defects,
           sampler.inverts_shared_cdf,
-          [&sampler, weighting](const EnvironmentMap& map) {
+          [make = sampler.make, weighting](const EnvironmentMap& map) {
             return std::visit([](auto made) { return bound(std::move(made)); },
-                              sampler.make(map, weighting));
+                              make(map, weighting));
           },
           sampler.resolution,
           sampler.inverts_rows,
@@ -76,12 +92,17 @@ std::vector<Problem> problems_of(std::span<const EnvironmentMap> maps,
   std::vector<Problem> problems;
   for (const EnvironmentMap& map : maps) {
     for (const TargetDensity target : targets_of(subjects)) {
-      Problem problem{map.name,
-                      to_string(target.weighting),
-                      map.source,
-                      [&map, target] { return expectation_of(map, target); },
-                      [&map, target] { return alternatives_on(map, target); },
-                      {}};
+      Problem problem{
+          map.name,
+          to_string(target.weighting),
+          map.source,
+          [&map, target] {
+            return on(map, "the exact law of", [&] { return expectation_of(map, target); });
+          },
+          [&map, target] {
+            return on(map, "other laws of", [&] { return alternatives_on(map, target); });
+          },
+          {}};
       for (const Subject& subject : subjects) {
         if (!(subject.target == target)) continue;
         problem.candidates.push_back(candidate_of(subject, map));

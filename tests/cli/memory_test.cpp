@@ -1,0 +1,73 @@
+// Lack of memory: exit code 71, and for which map.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kReservesAddresses = true;  // terabytes, for the sanitizer's own
+#else
+constexpr bool kReservesAddresses = false;
+#endif
+
+namespace lightproof::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr int kOutOfMemory = 71;
+
+/// The program in so many megabytes of addresses.
+Finished within(int megabytes, const Words& arguments, const std::filesystem::path& folder) {
+  const std::string script = fmt::format("ulimit -v {}; exec \"$@\"", 1024 * megabytes);
+  Command command{.words = {"sh", "-c", script, "sh", program()}, .folder = folder};
+  command.words.insert(command.words.end(), arguments.begin(), arguments.end());
+  return run(command);
+}
+
+class Memory : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (kReservesAddresses) GTEST_SKIP() << "a sanitizer cannot be limited";
+  }
+  TemporaryFolder folder_;
+};
+
+// 16384 x 8192 texels of 12 bytes are 1.6 GB.
+TEST_F(Memory, ThatAMapDoesNotFitIntoIsNamed) {
+  const Finished gate = within(
+      1400, {"gate", "sun-sky", "--size", "16384x8192", "--json", "gate.json"}, folder_ / "");
+  EXPECT_EQ(gate.exit_code, kOutOfMemory) << gate.err;
+  EXPECT_THAT(gate.out, IsEmpty());
+  EXPECT_THAT(gate.err, AllOf(HasSubstr("not enough memory"), HasSubstr("sun-sky (16384x8192)"),
+                              HasSubstr("1.61 GB"), Not(HasSubstr("internal error"))));
+  EXPECT_THAT(names_in(folder_ / ""), IsEmpty());
+}
+
+// 8192 x 4096 texels of 12 bytes are 0.4 GB, beside 0.5 GB of libraries; of what the gate needs to
+// know of their law, 0.27 GB for a number a texel, there are several.
+TEST_F(Memory, ThatTheLawOfAMapDoesNotFitIntoIsNamed) {
+  const Finished gate = within(
+      1200, {"gate", "constant", "--size", "8192x4096", "-n", "1024", "-t", "1"}, folder_ / "");
+  EXPECT_EQ(gate.exit_code, kOutOfMemory) << gate.err;
+  EXPECT_THAT(gate.err, HasSubstr("law of constant (8192x4096)"));
+}
+
+TEST_F(Memory, ThatABenchmarkDoesNotFitIntoIsLacking) {
+  const std::filesystem::path bench =
+      std::filesystem::path(program()).parent_path() / "lightproof_bench";
+  if (!std::filesystem::exists(bench)) GTEST_SKIP() << "the benchmarks were not built";
+  Command command{.words = {"sh", "-c", "ulimit -v 700000; exec \"$@\"", "sh", bench.string(),
+                            "--benchmark_filter=^sample/alias/sun-sky/8192x4096/batch$"},
+                  .folder = folder_ / ""};
+  const Finished finished = run(command);
+  EXPECT_EQ(finished.exit_code, kOutOfMemory) << finished.err;
+  EXPECT_THAT(finished.err, HasSubstr("not enough memory"));
+}
+
+}  // namespace
+}  // namespace lightproof::test
