@@ -299,6 +299,24 @@ TEST(CosineLobes, HoldTheShareOfAnyConeAroundAnyAxis) {
   }
 }
 
+// By quadrature, of which the closed form upside down is the sum: the share beyond an angle from
+// -z is that beyond the same angle from +z. All rows are lit, but for the upper half.
+TEST(CosineLobes, PointingDownAreThosePointingUpTurnedOver) {
+  for (const double exponent : {1.0, 12.5}) {
+    const CosineLobe lobes[] = {{{0.0, 0.0, -1.0}, exponent, 1.0}};
+    const Extent cells = {8, 128};
+    const Grid<double> masses = cell_masses(lobes, cells);
+    for (int y = 0; y < cells.height; ++y) {
+      const auto beyond = [&](int edge) {
+        return std::pow(std::max(0.0, std::cos(kPi * edge / cells.height)), exponent + 1.0);
+      };
+      const double expected = (beyond(y) - beyond(y + 1)) / cells.width;
+      // Gauss-Legendre of a power of 12 in cells of 1/41 of it: 1e-9.
+      for (const double mass : masses.row(y)) EXPECT_NEAR(mass, expected, 1e-8) << y;
+    }
+  }
+}
+
 TEST(CosineLobes, TransformMixturesByTheirShares) {
   const CosineLobe lobes[] = {{{0.0, 0.0, 1.0}, 1.0, 0.25}, {{0.0, 0.0, 1.0}, 10.0, 0.75}};
   const UnitPoint at = unit_point(lobes, {0.3, 2.0 / 3.0});  // cos(theta) = 1/2

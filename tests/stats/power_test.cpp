@@ -140,7 +140,8 @@ struct PairedCells {
   PairedCells(std::size_t cells, double w) {
     double total = 0.0;
     for (std::size_t i = 0; i < cells; ++i) {
-      expected.push_back(2.0 - static_cast<double>(i / 2) / static_cast<double>(cells));
+      const std::size_t pair = i / 2;
+      expected.push_back(2.0 - static_cast<double>(pair) / static_cast<double>(cells));
       total += expected.back();
     }
     for (double& p : expected) p /= total;
