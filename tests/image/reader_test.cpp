@@ -207,6 +207,19 @@ std::string test_name(const testing::TestParamInfo<Preset>& parameter) {
   return name;
 }
 
+// By its formula a convention moves an odd number of columns by half a texel if the centre of one
+// falls on an edge between two pixels.
+TEST_P(ReaderPreset, TellsOfColumnsMovedByHalfATexelWhereItsFormulaMovesThem) {
+  if (info(GetParam()).aspect == 1.0) GTEST_SKIP() << "octahedral maps are resampled";
+  for (const Extent extent : {Extent{7, 3}, Extent{8, 4}, Extent{1, 1}, Extent{9, 4}}) {
+    const Direction first = direction_from_square({0.5 / extent.width, 0.5});
+    const double column = test::published_mapping(GetParam(), first).u * extent.width;
+    const bool moved = std::abs(test::fraction(column) - 0.5) > 0.25;
+    const auto notes = read(test::numbered_picture(extent)).notes;
+    EXPECT_EQ(testing::Value(notes, Contains(HasSubstr("half a texel"))), moved) << extent.width;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Presets, ReaderPreset,
                          testing::Values(Preset::z_up, Preset::z_up_half_turn, Preset::exr_area,
                                          Preset::pbrt_v3, Preset::pbrt_v4, Preset::mitsuba),

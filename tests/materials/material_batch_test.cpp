@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "lightproof/core/random.h"
 #include "tests/core/kinds_of_vectors.h"
+#include "tests/core/whole_vectors.h"
 #include "tests/materials/shading.h"
 
 namespace lightproof {
@@ -87,6 +89,69 @@ TEST_P(MaterialBatch, ReflectedCosinesAreThoseOfOneDirectionAtATime) {
         },
         material);
   });
+}
+
+TEST_P(MaterialBatch, IsDoneByVectors) {
+  const auto& [name, material, at] = GetParam();
+  const std::vector<double> s(kSize, 0.3);
+  const std::vector<double> t(kSize, 0.6);
+  for_each_kind_of_vector([&, &at = at, &material = material](const char* vectors) {
+    SCOPED_TRACE(vectors);
+    Samples samples;
+    expect_whole_vectors(vectors, sample_material(material, at, s, t, samples.spans()), kSize);
+    std::vector<double> reflected(kSize);
+    const DirectionArrays light = {samples.x, samples.y, samples.z};
+    expect_whole_vectors(vectors, reflected_cosines(material, at, light, reflected), kSize);
+  });
+}
+
+/// How many of the first directions and values differ from the scalar code's in some bit.
+struct Differences {
+  std::size_t draws = 0;
+  std::size_t values = 0;
+};
+
+template <class Surface>
+Differences differences(const Surface& surface, const ShadingPoint& at, std::size_t done,
+                        std::span<const double> s, std::span<const double> t,
+                        const Samples& samples, std::span<const double> reflected) {
+  Differences found;
+  for (std::size_t i = 0; i < done; ++i) {
+    const Direction direction = samples.direction(i);
+    found.draws += surface.sample(at, {s[i], t[i]}).direction == direction ? 0U : 1U;
+    found.values += surface.evaluate(at, direction).reflected_cosine == reflected[i] ? 0U : 1U;
+  }
+  return found;
+}
+
+// What the vectors wrote is what comes out: of some hundred sines, sums and powers in an oblique
+// frame some differ from those of the scalar code in their last bit.
+TEST(MaterialBits, AreThoseOfTheVectors) {
+  const ShadingPoint at = shading_point(glm::normalize(Direction{1, 2, 3}), 0.7);
+  const RandomStream stream("material batch", 3);
+  std::vector<double> s;
+  std::vector<double> t;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    s.push_back(stream.point(i).s);
+    t.push_back(stream.point(i).t);
+  }
+  for (const Material& material :
+       {Material(Lambert{0.8}), Material(ModifiedPhong{0.3, 0.6, 9.5})}) {
+    for_each_kind_of_vector([&](const char* vectors) {
+      SCOPED_TRACE(vectors);
+      Samples samples;
+      const std::size_t done = sample_material(material, at, s, t, samples.spans());
+      std::vector<double> reflected(kSize);
+      reflected_cosines(material, at, {samples.x, samples.y, samples.z}, reflected);
+      const Differences found = std::visit(
+          [&](const auto& surface) {
+            return differences(surface, at, done, s, t, samples, reflected);
+          },
+          material);
+      EXPECT_EQ(found.draws > 0, done > 0);
+      EXPECT_EQ(found.values > 0, done > 0);
+    });
+  }
 }
 
 /// Besides, powers that are not squared again and again.

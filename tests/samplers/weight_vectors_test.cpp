@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "lightproof/core/random.h"
+#include "lightproof/samplers/alias_table.h"
 #include "tests/core/kinds_of_vectors.h"
+#include "tests/core/whole_vectors.h"
 
 namespace lightproof {
 namespace {
@@ -124,6 +126,50 @@ TEST(WeightVectors, BalancesCountWhatIsBelowAndWhatIsAbove) {
       const Balance balance = balance_of(std::span(numbers).first(count), full);
       EXPECT_EQ(balance.lack, lack);
       EXPECT_EQ(balance.excess, excess);
+    }
+  });
+}
+
+TEST(WeightVectors, DoWholeVectors) {
+  const std::vector<Rgb> texels = texels_of(kMost);
+  const std::vector<double> all = weights_of(kMost);
+  const std::vector<std::uint64_t> masses(kMost, 7);
+  for_each_kind_of_vector([&](const char* vectors) {
+    SCOPED_TRACE(vectors);
+    for (std::size_t count = 0; count <= kMost; ++count) {
+      std::vector<double> weights(count);
+      expect_whole_vectors(vectors, weigh(std::span(texels).first(count), kRec709, 1.0, weights),
+                           count, 2 * kWidestVector);
+      expect_whole_vectors(vectors, WeightSums().add(std::span(all).first(count)), count);
+      std::vector<std::int64_t> fixed(count);
+      expect_whole_vectors(vectors, to_fixed_point(std::span(all).first(count), {1.0, 0, 0}, fixed),
+                           count);
+      Balance balance{0, 0};
+      expect_whole_vectors(vectors, balance.add(std::span(masses).first(count), 10), count);
+    }
+  });
+}
+
+// A run of columns that one alias fills, and one without any: the entries are those of its columns.
+TEST(WeightVectors, WriteWholeVectorsOfAliasEntries) {
+  constexpr std::uint64_t kFull = std::uint64_t{1} << AliasTable::kBits;
+  constexpr double kUnit = 0x1p-40;
+  std::vector<std::uint64_t> masses;
+  for (std::size_t i = 0; i < kMost; ++i) masses.push_back(i % 3 == 0 ? kFull : kFull / (i + 2));
+  for_each_kind_of_vector([&](const char* vectors) {
+    SCOPED_TRACE(vectors);
+    for (std::size_t count = 0; count <= kMost; ++count) {
+      const AliasRun run = {5, std::span(masses).first(count), 1000};
+      std::vector<AliasTable::Entry> entries(count);
+      expect_whole_vectors(vectors, write_entries(run, kUnit, 0.5F, entries), count);
+      for (std::size_t i = 0; i < count; ++i) {
+        const bool small = masses[i] < kFull;
+        const auto own = static_cast<float>(kUnit * static_cast<double>(masses[i]));
+        EXPECT_EQ(entries[i].threshold, small ? masses[i] : 0U);
+        EXPECT_EQ(entries[i].alias, small ? 1000U : 5U + i);
+        EXPECT_EQ(entries[i].mass, own);
+        EXPECT_EQ(entries[i].alias_mass, small ? 0.5F : own);
+      }
     }
   });
 }

@@ -26,6 +26,18 @@ TEST(CosinePower, TakesFractionalExponents) {
   }
 }
 
+// No warp gives a direction on the horizon or below it.
+TEST(HemispherePdf, IsZeroOnTheHorizonAndBelow) {
+  for (const double z : {0.0, -1e-300, -0.5, -1.0}) {
+    const Direction d = {std::sqrt(1.0 - z * z), 0.0, z};
+    EXPECT_EQ(uniform_hemisphere_pdf(d).value, 0.0);
+    EXPECT_EQ(cosine_hemisphere_pdf(d).value, 0.0);
+    EXPECT_EQ(phong_lobe_pdf(z, 0.0).value, 0.0);
+    EXPECT_EQ(phong_lobe_pdf(z, 3.0).value, 0.0);
+  }
+  EXPECT_EQ(uniform_hemisphere_pdf({1.0, 0.0, 1e-300}).value, 1.0 / (2.0 * kPi));
+}
+
 TEST(HemisphereWarps, GiveUnitVectorsAboveTheHorizonAndThePole) {
   for (const double s : {0.0, 0.3, 0.999}) {
     for (const double t : {0.0, 0.25, 0.999999}) {

@@ -7,6 +7,7 @@
 
 #include "lightproof/warp/lat_long.h"
 #include "tests/core/kinds_of_vectors.h"
+#include "tests/core/whole_vectors.h"
 
 namespace lightproof {
 namespace {
@@ -40,6 +41,33 @@ TEST(UniformDirections, LieAtTheirPlacesOnTheMap) {
       }
     });
   }
+}
+
+// And are what the vectors wrote: of a thousand sines and cosines some differ from those of the
+// scalar code in their last bit.
+TEST(UniformDirections, AreDrawnByVectors) {
+  constexpr std::size_t kSize = 1003;
+  std::vector<double> s;
+  std::vector<double> u;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    s.push_back(std::fmod(0.6180339887498949 * static_cast<double>(i), 1.0));
+    u.push_back((static_cast<double>(i) + 0.5) / kSize);
+  }
+  for_each_kind_of_vector([&](const char* vectors) {
+    SCOPED_TRACE(vectors);
+    std::vector<double> x(kSize);
+    std::vector<double> y(kSize);
+    std::vector<double> z(kSize);
+    std::vector<double> t(kSize);
+    const std::size_t done = uniform_directions(s, u, {x, y, z, t});
+    expect_whole_vectors(vectors, done, kSize);
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < done; ++i) {
+      const double sine = 2.0 * std::sqrt(u[i] * (1.0 - u[i]));
+      different += x[i] == -sine * std::cos(2.0 * kPi * s[i]) ? 0U : 1U;
+    }
+    EXPECT_EQ(different > 0, done > 0);
+  });
 }
 
 TEST(ApproximatePlaces, AreThoseOfOneDirectionAtATime) {

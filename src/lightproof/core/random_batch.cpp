@@ -123,25 +123,31 @@ HWY_EXPORT(fill);
 
 }  // namespace
 
-void fill_points(const RandomStream& stream, std::uint64_t first, std::span<double> s,
-                 std::span<double> t) {
-  std::size_t done = HWY_DYNAMIC_DISPATCH(fill)(stream.key(), stream.number(), first, s, t);
-  for (; done < s.size(); ++done) {
-    const SquarePoint point = stream.point(first + done);
-    s[done] = point.s;
-    t[done] = point.t;
+std::size_t fill_points(const RandomStream& stream, std::uint64_t first, std::span<double> s,
+                        std::span<double> t) {
+  const std::size_t by_vectors =
+      HWY_DYNAMIC_DISPATCH(fill)(stream.key(), stream.number(), first, s, t);
+  for (std::size_t i = by_vectors; i < s.size(); ++i) {
+    const SquarePoint point = stream.point(first + i);
+    s[i] = point.s;
+    t[i] = point.t;
   }
+  return by_vectors;
 }
 
-void fill_points(const RandomStream& stream, std::uint64_t first, std::span<SquarePoint> points) {
+std::size_t fill_points(const RandomStream& stream, std::uint64_t first,
+                        std::span<SquarePoint> points) {
   constexpr std::size_t kBlock = 256;
   std::array<double, kBlock> s;
   std::array<double, kBlock> t;
+  std::size_t by_vectors = 0;
   for (std::size_t done = 0; done < points.size(); done += kBlock) {
     const std::size_t count = std::min(kBlock, points.size() - done);
-    fill_points(stream, first + done, std::span(s).first(count), std::span(t).first(count));
+    by_vectors +=
+        fill_points(stream, first + done, std::span(s).first(count), std::span(t).first(count));
     for (std::size_t i = 0; i < count; ++i) points[done + i] = {s[i], t[i]};
   }
+  return by_vectors;
 }
 
 }  // namespace lightproof

@@ -216,25 +216,28 @@ HWY_EXPORT(sample_front);
 
 }  // namespace
 
-void reflected_cosines(const Material& material, const ShadingPoint& at,
-                       const DirectionArrays& light, std::span<double> reflected_cosine) {
-  std::size_t i = HWY_DYNAMIC_DISPATCH(evaluate_front)(material, at, light, reflected_cosine);
+std::size_t reflected_cosines(const Material& material, const ShadingPoint& at,
+                              const DirectionArrays& light, std::span<double> reflected_cosine) {
+  const std::size_t by_vectors =
+      HWY_DYNAMIC_DISPATCH(evaluate_front)(material, at, light, reflected_cosine);
   std::visit(
       [&](const auto& surface) {
-        for (; i < reflected_cosine.size(); ++i) {
+        for (std::size_t i = by_vectors; i < reflected_cosine.size(); ++i) {
           const Direction direction = {light.x[i], light.y[i], light.z[i]};
           reflected_cosine[i] = surface.evaluate(at, direction).reflected_cosine;
         }
       },
       material);
+  return by_vectors;
 }
 
-void sample_material(const Material& material, const ShadingPoint& at, std::span<const double> s,
-                     std::span<const double> t, const MaterialSamples& samples) {
-  std::size_t i = HWY_DYNAMIC_DISPATCH(sample_front)(material, at, s, t, samples);
+std::size_t sample_material(const Material& material, const ShadingPoint& at,
+                            std::span<const double> s, std::span<const double> t,
+                            const MaterialSamples& samples) {
+  const std::size_t by_vectors = HWY_DYNAMIC_DISPATCH(sample_front)(material, at, s, t, samples);
   std::visit(
       [&](const auto& surface) {
-        for (; i < s.size(); ++i) {
+        for (std::size_t i = by_vectors; i < s.size(); ++i) {
           const auto [direction, scattering] = surface.sample(at, {s[i], t[i]});
           samples.x[i] = direction.x;
           samples.y[i] = direction.y;
@@ -244,6 +247,7 @@ void sample_material(const Material& material, const ShadingPoint& at, std::span
         }
       },
       material);
+  return by_vectors;
 }
 
 }  // namespace lightproof

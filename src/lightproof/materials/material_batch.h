@@ -2,15 +2,17 @@
 // roundings.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "lightproof/materials/material.h"
 
 namespace lightproof {
 
-/// reflected_cosine[i] = f_r (n·l)+ of the i-th direction, per steradian; of the same size.
-void reflected_cosines(const Material& material, const ShadingPoint& at,
-                       const DirectionArrays& light, std::span<double> reflected_cosine);
+/// reflected_cosine[i] = f_r (n·l)+ of the i-th direction, per steradian; of the same size. Returns
+/// how many directions vectors did, from the front: 0 on a processor without vectors.
+std::size_t reflected_cosines(const Material& material, const ShadingPoint& at,
+                              const DirectionArrays& light, std::span<double> reflected_cosine);
 
 /// Where sample_material writes: directions and what the material does with light from there. All
 /// of one size.
@@ -22,8 +24,10 @@ struct MaterialSamples {
   std::span<double> reflected_cosine;  ///< f_r (n·l)+, per steradian
 };
 
-/// Draws from the material's own lobes at the points (s[i], t[i]); all of one size.
-void sample_material(const Material& material, const ShadingPoint& at, std::span<const double> s,
-                     std::span<const double> t, const MaterialSamples& samples);
+/// Draws from the material's own lobes at the points (s[i], t[i]); all of one size. Returns how
+/// many samples vectors drew, from the front: 0 on a processor without vectors.
+std::size_t sample_material(const Material& material, const ShadingPoint& at,
+                            std::span<const double> s, std::span<const double> t,
+                            const MaterialSamples& samples);
 
 }  // namespace lightproof

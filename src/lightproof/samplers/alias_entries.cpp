@@ -81,17 +81,19 @@ HWY_EXPORT(entries_front);
 
 }  // namespace
 
-void write_entries(const AliasRun& run, double unit, float alias_mass,
-                   std::span<AliasTable::Entry> entries) {
+std::size_t write_entries(const AliasRun& run, double unit, float alias_mass,
+                          std::span<AliasTable::Entry> entries) {
   assert(entries.size() == run.masses.size());
-  std::size_t i = HWY_DYNAMIC_DISPATCH(entries_front)(run, unit, alias_mass, entries.data());
-  for (; i < entries.size(); ++i) {
+  const std::size_t by_vectors =
+      HWY_DYNAMIC_DISPATCH(entries_front)(run, unit, alias_mass, entries.data());
+  for (std::size_t i = by_vectors; i < entries.size(); ++i) {
     const AliasColumn column = run.column(i, std::uint64_t{1} << AliasTable::kBits);
     const float own = to_probability(run.masses[i], unit);
     entries[i] = {static_cast<std::uint32_t>(column.threshold),
                   static_cast<std::uint32_t>(column.alias), own,
                   column.alias == run.alias ? alias_mass : own};
   }
+  return by_vectors;
 }
 
 }  // namespace lightproof

@@ -208,8 +208,9 @@ class AliasTable {
 };
 
 /// The entries of a run, vectorised; unit is the probability of one unit of mass. As many entries
-/// as the run has masses.
-void write_entries(const AliasRun& run, double unit, float alias_mass,
-                   std::span<AliasTable::Entry> entries);
+/// as the run has masses. Returns how many entries vectors wrote, from the front: 0 on a processor
+/// without vectors.
+std::size_t write_entries(const AliasRun& run, double unit, float alias_mass,
+                          std::span<AliasTable::Entry> entries);
 
 }  // namespace lightproof

@@ -67,13 +67,15 @@ inline void put(const TexelSample& sample, std::size_t i, const DirectionBatch& 
   directions.row[i] = sample.y;
 }
 
-/// Draws the i-th sample of the output at the i-th of these points.
+/// Draws the i-th sample of the output at the i-th of these points. Returns how many samples
+/// vectors drew, from the front: 0 of a sampler without a vectorised form.
 template <EnvSampler Sampler, class Output>
-void draw_batch(const Sampler& sampler, const BatchPoints& points, const Output& output) {
-  std::size_t done = 0;
+std::size_t draw_batch(const Sampler& sampler, const BatchPoints& points, const Output& output) {
+  std::size_t by_vectors = 0;
   if constexpr (requires { sampler.view(); }) {
-    done = sample_vectors(sampler.view(), points, output);
+    by_vectors = sample_vectors(sampler.view(), points, output);
   }
+  std::size_t done = by_vectors;
   alignas(64) std::array<double, kBatchBlock> s;
   alignas(64) std::array<double, kBatchBlock> t;
   while (done < output.size()) {
@@ -82,28 +84,30 @@ void draw_batch(const Sampler& sampler, const BatchPoints& points, const Output&
     for (std::size_t i = 0; i < count; ++i) put(sampler.sample({s[i], t[i]}), done + i, output);
     done += count;
   }
+  return by_vectors;
 }
 
-/// Draws samples[i] at points[i]; both spans are of one size.
+/// Draws samples[i] at points[i]; both spans are of one size. Returns how many samples vectors
+/// drew.
 template <EnvSampler Sampler>
-void sample(const Sampler& sampler, std::span<const SquarePoint> points,
-            std::span<TexelSample> samples) {
-  draw_batch(sampler, BatchPoints(points), samples);
+std::size_t sample(const Sampler& sampler, std::span<const SquarePoint> points,
+                   std::span<TexelSample> samples) {
+  return draw_batch(sampler, BatchPoints(points), samples);
 }
 
 /// Draws samples[i] at the point first + i of the stream.
 template <EnvSampler Sampler>
-void sample(const Sampler& sampler, const RandomStream& stream, std::uint64_t first,
-            std::span<TexelSample> samples) {
-  draw_batch(sampler, BatchPoints(stream, first), samples);
+std::size_t sample(const Sampler& sampler, const RandomStream& stream, std::uint64_t first,
+                   std::span<TexelSample> samples) {
+  return draw_batch(sampler, BatchPoints(stream, first), samples);
 }
 
 /// The same as directions: those of the samples' places and their densities per steradian, to some
 /// roundings.
 template <EnvSampler Sampler>
-void sample_directions(const Sampler& sampler, const RandomStream& stream, std::uint64_t first,
-                       const DirectionBatch& directions) {
-  draw_batch(sampler, BatchPoints(stream, first), directions);
+std::size_t sample_directions(const Sampler& sampler, const RandomStream& stream,
+                              std::uint64_t first, const DirectionBatch& directions) {
+  return draw_batch(sampler, BatchPoints(stream, first), directions);
 }
 
 }  // namespace lightproof

@@ -162,8 +162,8 @@ std::size_t balance_front(std::span<const std::uint64_t> numbers, std::uint64_t 
     lack = hn::Add(lack, hn::Sub(one, least));
     excess = hn::Add(excess, hn::Sub(number, least));
   }
-  balance.lack = static_cast<std::uint64_t>(hn::GetLane(hn::SumOfLanes(whole, lack)));
-  balance.excess = static_cast<std::uint64_t>(hn::GetLane(hn::SumOfLanes(whole, excess)));
+  balance.lack += static_cast<std::uint64_t>(hn::GetLane(hn::SumOfLanes(whole, lack)));
+  balance.excess += static_cast<std::uint64_t>(hn::GetLane(hn::SumOfLanes(whole, excess)));
   return done;
 }
 
@@ -191,25 +191,29 @@ T combined(const std::array<T, WeightSums::kLanes>& lanes, const Combine& combin
 
 }  // namespace
 
-void weigh(std::span<const Rgb> texels, LuminanceWeights grey, double area,
-           std::span<double> weights) {
-  std::size_t i = HWY_DYNAMIC_DISPATCH(weigh_front)(texels, grey, area, weights);
-  for (; i < weights.size(); ++i) weights[i] = area * luminance(texels[i], grey);
+std::size_t weigh(std::span<const Rgb> texels, LuminanceWeights grey, double area,
+                  std::span<double> weights) {
+  const std::size_t by_vectors = HWY_DYNAMIC_DISPATCH(weigh_front)(texels, grey, area, weights);
+  for (std::size_t i = by_vectors; i < weights.size(); ++i) {
+    weights[i] = area * luminance(texels[i], grey);
+  }
+  return by_vectors;
 }
 
 WeightSums::WeightSums() : lanes_{} {
   lanes_.least_positive.fill(std::numeric_limits<double>::infinity());
 }
 
-void WeightSums::add(std::span<const double> weights) {
-  std::size_t i = HWY_DYNAMIC_DISPATCH(sum_front)(weights, lanes_);
-  for (; i < weights.size(); ++i) {
+std::size_t WeightSums::add(std::span<const double> weights) {
+  const std::size_t by_vectors = HWY_DYNAMIC_DISPATCH(sum_front)(weights, lanes_);
+  for (std::size_t i = by_vectors; i < weights.size(); ++i) {
     const std::size_t lane = i % kLanes;
     lanes_.sum[lane] += weights[i];
     if (!(weights[i] > 0.0)) continue;
     lanes_.least_positive[lane] = std::min(lanes_.least_positive[lane], weights[i]);
     ++lanes_.positive[lane];
   }
+  return by_vectors;
 }
 
 double WeightSums::sum() const { return combined(lanes_.sum, std::plus<>()); }
@@ -222,23 +226,30 @@ double WeightSums::least_positive() const {
   return combined(lanes_.least_positive, [](double a, double b) { return std::min(a, b); });
 }
 
-void to_fixed_point(std::span<const double> weights, const FixedPoint& form,
-                    std::span<std::int64_t> fixed) {
-  std::size_t i = HWY_DYNAMIC_DISPATCH(to_fixed_point_front)(weights, form, fixed.data());
-  for (; i < weights.size(); ++i) {
+std::size_t to_fixed_point(std::span<const double> weights, const FixedPoint& form,
+                           std::span<std::int64_t> fixed) {
+  const std::size_t by_vectors =
+      HWY_DYNAMIC_DISPATCH(to_fixed_point_front)(weights, form, fixed.data());
+  for (std::size_t i = by_vectors; i < weights.size(); ++i) {
     const auto rounded = static_cast<std::int64_t>(std::floor(form.scale * weights[i] + 0.5));
     fixed[i] = weights[i] > 0.0 ? std::max(rounded, form.least) + form.more : 0;
   }
+  return by_vectors;
+}
+
+std::size_t Balance::add(std::span<const std::uint64_t> numbers, std::uint64_t full) {
+  const std::size_t by_vectors = HWY_DYNAMIC_DISPATCH(balance_front)(numbers, full, *this);
+  for (std::size_t i = by_vectors; i < numbers.size(); ++i) {
+    const std::uint64_t least = std::min(numbers[i], full);
+    lack += full - least;
+    excess += numbers[i] - least;
+  }
+  return by_vectors;
 }
 
 Balance balance_of(std::span<const std::uint64_t> numbers, std::uint64_t full) {
   Balance balance{0, 0};
-  std::size_t i = HWY_DYNAMIC_DISPATCH(balance_front)(numbers, full, balance);
-  for (; i < numbers.size(); ++i) {
-    const std::uint64_t least = std::min(numbers[i], full);
-    balance.lack += full - least;
-    balance.excess += numbers[i] - least;
-  }
+  balance.add(numbers, full);
   return balance;
 }
 

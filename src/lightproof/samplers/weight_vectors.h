@@ -1,5 +1,6 @@
 // Loops over weights that every table is built with, vectorised (Highway): the same bits for every
-// kind of vector.
+// kind of vector. Each tells how many numbers vectors did, from the front: 0 on a processor without
+// vectors.
 #pragma once
 
 #include <array>
@@ -12,9 +13,10 @@
 namespace lightproof {
 
 /// weights[i] = area * luminance(texels[i], grey). There may be more texels than weights: those
-/// that come later in memory and are asked for ahead.
-void weigh(std::span<const Rgb> texels, LuminanceWeights grey, double area,
-           std::span<double> weights);
+/// that come later in memory and are asked for ahead. Returns how many of the weights vectors
+/// computed.
+std::size_t weigh(std::span<const Rgb> texels, LuminanceWeights grey, double area,
+                  std::span<double> weights);
 
 /// Sums of weights >= 0, which run side by side in a fixed order: weight i is added to the sum
 /// i % kLanes.
@@ -24,7 +26,7 @@ class WeightSums {
   explicit WeightSums(std::span<const double> weights) : WeightSums() { add(weights); }
 
   /// All additions but the last are of a multiple of kLanes.
-  void add(std::span<const double> weights);
+  std::size_t add(std::span<const double> weights);
 
   double sum() const;
   std::size_t positive() const;
@@ -52,16 +54,19 @@ struct FixedPoint {
 /// fixed[i] = scale * weights[i], rounded to the nearest whole number, of two the higher, below
 /// 2^62; at least `least`, and `more` beside it, if the weight is positive. Both spans are of one
 /// size.
-void to_fixed_point(std::span<const double> weights, const FixedPoint& form,
-                    std::span<std::int64_t> fixed);
+std::size_t to_fixed_point(std::span<const double> weights, const FixedPoint& form,
+                           std::span<std::int64_t> fixed);
 
 /// What whole numbers lack of another, in sum, and what they have above it.
 struct Balance {
   std::uint64_t lack;
   std::uint64_t excess;
+
+  /// Of further numbers, all below 2^62; both sums stay below 2^64.
+  std::size_t add(std::span<const std::uint64_t> numbers, std::uint64_t full);
 };
 
-/// All below 2^62; both sums below 2^64.
+/// As Balance::add.
 Balance balance_of(std::span<const std::uint64_t> numbers, std::uint64_t full);
 
 }  // namespace lightproof

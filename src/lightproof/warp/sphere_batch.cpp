@@ -77,10 +77,10 @@ HWY_EXPORT(find_places);
 
 }  // namespace
 
-void uniform_directions(std::span<const double> s, std::span<const double> u,
-                        const DirectionSpans& directions) {
-  std::size_t i = HWY_DYNAMIC_DISPATCH(convert)(s, u, directions);
-  for (; i < s.size(); ++i) {
+std::size_t uniform_directions(std::span<const double> s, std::span<const double> u,
+                               const DirectionSpans& directions) {
+  const std::size_t by_vectors = HWY_DYNAMIC_DISPATCH(convert)(s, u, directions);
+  for (std::size_t i = by_vectors; i < s.size(); ++i) {
     const double sine = 2.0 * std::sqrt(u[i] * (1.0 - u[i]));
     const double z = 2.0 * u[i] - 1.0;
     directions.x[i] = -sine * std::cos(2.0 * kPi * s[i]);
@@ -88,6 +88,7 @@ void uniform_directions(std::span<const double> s, std::span<const double> u,
     directions.z[i] = z;
     directions.t[i] = std::acos(-z) / kPi;
   }
+  return by_vectors;
 }
 
 void approximate_places(std::span<const double> x, std::span<const double> y,

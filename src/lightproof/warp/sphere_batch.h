@@ -17,9 +17,10 @@ struct DirectionSpans {
 
 /// The directions of density 1/4pi at uniform numbers: s[i] chooses the azimuth, and is the place
 /// on the map, u[i] chooses z = 2 u[i] - 1 (Archimedes: equal heights, equal areas). As
-/// direction_from_square({s[i], t[i]}), to some roundings. All spans are of one size.
-void uniform_directions(std::span<const double> s, std::span<const double> u,
-                        const DirectionSpans& directions);
+/// direction_from_square({s[i], t[i]}), to some roundings. All spans are of one size. Returns how
+/// many directions vectors drew, from the front: 0 on a processor without vectors.
+std::size_t uniform_directions(std::span<const double> s, std::span<const double> u,
+                               const DirectionSpans& directions);
 
 /// Where approximate_places writes; both of one size.
 struct PlaceSpans {

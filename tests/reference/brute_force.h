@@ -1,0 +1,117 @@
+// Maps and integrals once more, as slowly and plainly as can be, sharing no code with what they
+// check: values by tents around all centres, integrals by the midpoint rule.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "lightproof/core/grid.h"
+
+namespace lightproof::test {
+
+inline const double kPi = std::acos(-1.0);
+
+/// The value at (s, t) of the texel there.
+inline double nearest_value(const Grid<double>& grey, double s, double t) {
+  const auto [width, height] = grey.extent();
+  return grey(std::min(static_cast<int>(s * width), width - 1),
+              std::min(static_cast<int>(t * height), height - 1));
+}
+
+/// Every centre's value, weighted by tents as wide as two texels: around the seam in s, held fast
+/// beyond the last centres in t.
+inline double interpolated_value(const Grid<double>& grey, double s, double t) {
+  const auto [width, height] = grey.extent();
+  const auto tent = [](double distance) { return std::max(0.0, 1.0 - std::abs(distance)); };
+  const double row = std::clamp(t * height, 0.5, height - 0.5);
+  double sum = 0.0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = -width; x < 2 * width; ++x) {
+      sum += tent(row - 0.5 - y) * tent(s * width - 0.5 - x) * grey((x + width) % width, y);
+    }
+  }
+  return sum;
+}
+
+using Value = double (*)(const Grid<double>& grey, double s, double t);
+
+/// Calls visit(s, t, area) at the middle of each of so many cells of the square.
+template <class Visit>
+void visit_middles(Extent cells, const Visit& visit) {
+  const double area = 1.0 / cells.width / cells.height;
+  for (int j = 0; j < cells.height; ++j) {
+    for (int i = 0; i < cells.width; ++i) {
+      visit((i + 0.5) / cells.width, (j + 0.5) / cells.height, area);
+    }
+  }
+}
+
+/// Masses of the cells of a lattice, of density value (times sin(pi t) if over directions); they
+/// sum to 1.
+inline Grid<double> lattice_masses(const Grid<double>& grey, Value value, bool over_directions,
+                                   Extent cells) {
+  Grid<double> masses(cells);
+  double total = 0.0;
+  std::size_t i = 0;
+  visit_middles(cells, [&](double s, double t, double /*area*/) {
+    masses.values()[i] = value(grey, s, t) * (over_directions ? std::sin(kPi * t) : 1.0);
+    total += masses.values()[i++];
+  });
+  for (double& mass : masses.values()) mass /= total;
+  return masses;
+}
+
+/// Of all four strategies E[X^m], X = L k / p, and the largest X.
+struct StrategyMoments {
+  struct Of {
+    std::array<double, 4> raw = {};
+    double largest = 0.0;
+  };
+  Of uniform;
+  Of material;
+  Of environment_a;
+  Of environment_b;
+};
+
+/// The integrand's other factor at a unit vector, and the density that a material draws it with.
+struct Factor {
+  double k;
+  double pdf;
+};
+
+inline StrategyMoments strategy_moments(const Grid<double>& grey, Value value,
+                                        const std::function<Factor(double, double, double)>& at,
+                                        Extent cells) {
+  double mean = 0.0;   // of L over the square
+  double whole = 0.0;  // of L over the sphere
+  visit_middles(cells, [&](double s, double t, double area) {
+    mean += value(grey, s, t) * area;
+    whole += value(grey, s, t) * 2.0 * kPi * kPi * std::sin(kPi * t) * area;
+  });
+  StrategyMoments moments;
+  visit_middles(cells, [&](double s, double t, double area) {
+    const double theta = kPi - kPi * t;
+    const double phi = kPi - 2.0 * kPi * s;
+    const auto [k, pdf] =
+        at(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+    const double light = value(grey, s, t);
+    const double jacobian = 2.0 * kPi * kPi * std::sin(theta);
+    const auto add = [&](StrategyMoments::Of& of, double density) {
+      if (!(density > 0.0)) return;
+      const double x = light * k / density;
+      for (std::size_t m = 0; m < 4; ++m) {
+        of.raw[m] += std::pow(x, static_cast<double>(m + 1)) * density * jacobian * area;
+      }
+      of.largest = std::max(of.largest, x);
+    };
+    add(moments.uniform, 1.0 / (4.0 * kPi));
+    add(moments.material, pdf);
+    add(moments.environment_a, light / mean / jacobian);
+    add(moments.environment_b, light / whole);
+  });
+  return moments;
+}
+
+}  // namespace lightproof::test

@@ -1,0 +1,331 @@
+// The formulas of reference/ against sums over very many places, in which nothing is clever.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "brute_force.h"
+#include "maps.h"
+#include "reference/bilinear_law.h"
+#include "reference/bilinear_moments.h"
+#include "reference/cosine_lobes.h"
+#include "reference/estimator_moments.h"
+#include "reference/texel_masses.h"
+#include "reference/unit_transform.h"
+
+namespace lightproof::reference {
+namespace {
+
+using test::kPi;
+
+constexpr Extent kExtent = {5, 4};
+
+/// Uneven, with a black texel and steep edges.
+EnvironmentMap uneven_map() {
+  return grey_map(kExtent, {1.0F, 4.0F, 0.5F,  2.0F, 3.0F,  //
+                            0.0F, 1.0F, 6.0F,  2.0F, 1.0F,  //
+                            2.0F, 0.3F, 1.0F,  5.0F, 3.0F,  //
+                            1.0F, 1.0F, 0.75F, 4.0F, 0.5F});
+}
+
+/// 2^-24 of a weight is what a 32-bit texel may be off.
+Grid<double> uneven_grey() { return luminance(uneven_map()); }
+
+/// Smooth on the upper hemisphere, and 0 on the lower one, with an edge on an edge of all cells.
+KernelValue half_kernel(Direction d) {
+  if (d.z < 0.0) return {0.0, 0.0};
+  return {1.2 + 0.5 * d.x + 0.3 * d.y * d.z, (1.0 + 0.6 * d.y) / (2.0 * kPi)};
+}
+
+test::Factor half_factor(double x, double y, double z) {
+  if (z < 0.0) return {0.0, 0.0};
+  return {1.2 + 0.5 * x + 0.3 * y * z, (1.0 + 0.6 * y) / (2.0 * kPi)};
+}
+
+Kernel smooth_kernel() {
+  return {half_kernel, [](Direction, double) { return false; }};
+}
+
+/// The midpoint rule is of second order: of twice as fine a lattice a third of the change is its
+/// error, and the change itself three times that. No change is larger than 1e-3 of the value.
+void expect_moments(const EstimatorMoments& exact, const test::StrategyMoments::Of& coarse,
+                    const test::StrategyMoments::Of& fine) {
+  for (std::size_t m = 0; m < 4; ++m) {
+    const double change = std::abs(fine.raw[m] - coarse.raw[m]);
+    ASSERT_LT(change, 1e-3 * fine.raw[m]);
+    EXPECT_NEAR(exact.raw[m], fine.raw[m], change + 1e-8 * fine.raw[m]) << "moment " << m + 1;
+  }
+  // At nodes that are a hundredth of the sphere's size apart, of factors that change by half.
+  EXPECT_NEAR(exact.largest, fine.largest, 0.02 * fine.largest);
+}
+
+void expect_strategies(const LightMoments& exact, test::Value value) {
+  const Grid<double> grey = uneven_grey();
+  // Whole numbers of cells for every half of a texel.
+  const auto coarse = test::strategy_moments(grey, value, half_factor, {320, 256});
+  const auto fine = test::strategy_moments(grey, value, half_factor, {640, 512});
+  {
+    SCOPED_TRACE("uniform");
+    expect_moments(exact.uniform, coarse.uniform, fine.uniform);
+  }
+  {
+    SCOPED_TRACE("material");
+    expect_moments(exact.material, coarse.material, fine.material);
+  }
+  {
+    SCOPED_TRACE("environment A");
+    expect_moments(exact.environment_a, coarse.environment_a, fine.environment_a);
+  }
+  {
+    SCOPED_TRACE("environment B");
+    expect_moments(exact.environment_b, coarse.environment_b, fine.environment_b);
+  }
+}
+
+TEST(LightMoments, AreThoseOfABruteSum) {
+  const Grid<double> grids[] = {uneven_grey()};
+  expect_strategies(light_moments(smooth_kernel(), grids).front(), test::nearest_value);
+}
+
+TEST(BilinearMoments, AreThoseOfABruteSum) {
+  expect_strategies(bilinear_light_moments(smooth_kernel(), uneven_grey()),
+                    test::interpolated_value);
+}
+
+/// E[1/p], E[1/p^2] and the largest 1/p where the texel's own value is 1 and more.
+test::StrategyMoments::Of inverse_pdf(bool over_directions, Extent cells) {
+  const Grid<double> grey = uneven_grey();
+  double total = 0.0;
+  test::visit_middles(cells, [&](double s, double t, double area) {
+    const double jacobian = 2.0 * kPi * kPi * std::sin(kPi * t);
+    total += test::interpolated_value(grey, s, t) * (over_directions ? jacobian : 1.0) * area;
+  });
+  test::StrategyMoments::Of moments;
+  test::visit_middles(cells, [&](double s, double t, double area) {
+    if (test::nearest_value(grey, s, t) < 0.9) return;
+    const double jacobian = 2.0 * kPi * kPi * std::sin(kPi * t);
+    const double light = test::interpolated_value(grey, s, t);
+    const double pdf = light / total / (over_directions ? 1.0 : jacobian);
+    moments.raw[0] += jacobian * area;
+    moments.raw[1] += jacobian * area / pdf;
+    moments.largest = std::max(moments.largest, 1.0 / pdf);
+  });
+  return moments;
+}
+
+TEST(BilinearInversePdf, IsThatOfABruteSum) {
+  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+    const bool over_directions = weighting == Weighting::B;
+    const auto coarse = inverse_pdf(over_directions, {320, 256});
+    const auto fine = inverse_pdf(over_directions, {640, 512});
+    const EstimatorMoments exact = bilinear_inverse_pdf(
+        uneven_grey(), weighting, [](double radiance) { return radiance >= 0.9; });
+    for (std::size_t m = 0; m < 2; ++m) {
+      const double change = std::abs(fine.raw[m] - coarse.raw[m]);
+      ASSERT_LT(change, 1e-3 * fine.raw[m]);
+      EXPECT_NEAR(exact.raw[m], fine.raw[m], change + 1e-7 * fine.raw[m]);
+    }
+    // A bound: of the darkest corner and the widest place of a texel, which need not be one.
+    EXPECT_GE(exact.largest, fine.largest);
+    EXPECT_LE(exact.largest, (over_directions ? 1.05 : 1.5) * fine.largest);
+  }
+}
+
+/// Of a lattice with whole cells for every half of a texel and every bin.
+Grid<double> sums_of_bins(const Grid<double>& masses, Extent bins) {
+  Grid<double> sums(bins);
+  const int across = masses.extent().width / bins.width;
+  const int along = masses.extent().height / bins.height;
+  for (int y = 0; y < masses.extent().height; ++y) {
+    for (int x = 0; x < masses.extent().width; ++x) sums(x / across, y / along) += masses(x, y);
+  }
+  return sums;
+}
+
+/// Linear functions lose nothing in the midpoint rule. Under B the sine does, in cells of height
+/// h = 1/384: (pi h)^2 / 24 of itself, and h^2/12 of the product of its slope, pi, and that of the
+/// map, 6 in a quarter: 4e-5 of a mean above 1.
+constexpr double kLattice = 1e-5;
+constexpr double kLatticeOfMean = 4e-5;
+
+TEST(BinMasses, AreThoseOfABruteSumHoweverBinsLie) {
+  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+    for (const Lookup look_up : {Lookup::nearest, Lookup::bilinear}) {
+      const auto value =
+          look_up == Lookup::nearest ? test::nearest_value : test::interpolated_value;
+      for (const Extent bins : {Extent{7, 6}, {3, 3}, {10, 16}}) {
+        const Extent cells = {10 * bins.width, 384};
+        const double mean = 1.0 / static_cast<double>(bins.count());
+        const Grid<double> sums = sums_of_bins(
+            test::lattice_masses(uneven_grey(), value, weighting == Weighting::B, cells), bins);
+        const Grid<double> exact = bin_masses(uneven_map(), {weighting, kRec709, look_up}, bins);
+        for (std::size_t i = 0; i < bins.count(); ++i) {
+          EXPECT_NEAR(exact.values()[i], sums.values()[i],
+                      kLattice * sums.values()[i] + kLatticeOfMean * mean)
+              << i;
+        }
+      }
+    }
+  }
+}
+
+/// The mass below t, and the mass to the left of s.
+struct Below {
+  explicit Below(const Grid<double>& masses)
+      : along(static_cast<std::size_t>(masses.extent().height) + 1),
+        column(static_cast<std::size_t>(masses.extent().width) + 1) {
+    for (int y = 0; y < masses.extent().height; ++y) {
+      for (int x = 0; x < masses.extent().width; ++x) {
+        along[static_cast<std::size_t>(y) + 1] += masses(x, y);
+        column[static_cast<std::size_t>(x) + 1] += masses(x, y);
+      }
+    }
+    for (std::size_t i = 1; i < along.size(); ++i) along[i] += along[i - 1];
+    for (std::size_t i = 1; i < column.size(); ++i) column[i] += column[i - 1];
+  }
+
+  std::vector<double> along;
+  std::vector<double> column;
+};
+
+/// The share of what lies left of s on the line at t, of a function without kinks between tenths.
+double share_to_the_left(const Grid<double>& grey, test::Value value, double s, double t) {
+  constexpr int kParts = 640;
+  double left = 0.0;
+  double whole = 0.0;
+  for (int i = 0; i < kParts; ++i) {
+    const double at = (i + 0.5) / kParts;
+    whole += value(grey, at, t);
+    if (at < s) left += value(grey, at, t);
+  }
+  return left / whole;
+}
+
+constexpr Extent kPlaces = {20, 24};  ///< no edges of texels alone
+constexpr Extent kLatticeOfPlaces = {320, 384};
+
+/// transform({s, t}) at all places but the ends.
+template <class Transform>
+void expect_transform(test::Value value, Weighting weighting, const Transform& transform) {
+  const Grid<double> grey = uneven_grey();
+  const Below below(test::lattice_masses(grey, value, weighting == Weighting::B, kLatticeOfPlaces));
+  for (int j = 1; j < kPlaces.height; ++j) {
+    for (int i = 1; i < kPlaces.width; ++i) {
+      // Inside of a texel: its edges belong to either side.
+      const SquarePoint at = {static_cast<double>(i) / kPlaces.width,
+                              static_cast<double>(j) / kPlaces.height};
+      const UnitPoint point = transform(at);
+      const auto row = static_cast<std::size_t>(16 * j);
+      const auto column = static_cast<std::size_t>(16 * i);
+      EXPECT_NEAR(point.along, below.along[row], kLattice) << at.t;
+      EXPECT_NEAR(point.column, below.column[column], kLattice) << at.s;
+      if (j * kExtent.height % kPlaces.height == 0) continue;  // two rows meet
+      EXPECT_NEAR(point.across, share_to_the_left(grey, value, at.s, at.t), 1e-12)
+          << at.s << ", " << at.t;
+    }
+  }
+}
+
+TEST(UnitTransform, IsThatOfABruteSum) {
+  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+    const UnitTransform transform(texel_masses(uneven_map(), {weighting}), weighting);
+    expect_transform(test::nearest_value, weighting, [&](SquarePoint at) {
+      return transform(at, static_cast<int>(at.s * kExtent.width),
+                       static_cast<int>(at.t * kExtent.height));
+    });
+  }
+}
+
+TEST(BilinearTransform, IsThatOfABruteSum) {
+  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+    const BilinearTransform transform(uneven_map(), {weighting, kRec709, Lookup::bilinear});
+    expect_transform(test::interpolated_value, weighting, transform);
+  }
+}
+
+// Every tent against the middles of 2^14 parts, (1/2^14)^2 / 24 of the curvature of x^2 times a
+// slope of 5, and all of them together, which are 1 everywhere.
+TEST(TentParts, AreIntegralsOfTents) {
+  constexpr double kLow = 0.13;
+  constexpr double kHigh = 0.77;
+  constexpr int kParts = 1 << 14;
+  for (const int texels : {1, 2, 5}) {
+    for (const bool wraps : {false, true}) {
+      SCOPED_TRACE(testing::Message() << texels << (wraps ? " in a circle" : " in a line"));
+      std::vector<double> found(static_cast<std::size_t>(texels));
+      for (const TentPart& part :
+           tent_parts(kLow, kHigh, texels, wraps, [](double x) { return x * x; })) {
+        found[static_cast<std::size_t>(part.texel)] += part.integral;
+      }
+      double sum = 0.0;
+      for (int texel = 0; texel < texels; ++texel) {
+        Grid<double> only(wraps ? Extent{texels, 1} : Extent{1, texels});
+        only.values()[static_cast<std::size_t>(texel)] = 1.0;
+        double expected = 0.0;
+        for (int i = 0; i < kParts; ++i) {
+          const double x = kLow + (i + 0.5) / kParts * (kHigh - kLow);
+          expected += x * x * (kHigh - kLow) / kParts *
+                      test::interpolated_value(only, wraps ? x : 0.5, wraps ? 0.5 : x);
+        }
+        EXPECT_NEAR(found[static_cast<std::size_t>(texel)], expected, 1e-8) << texel;
+        sum += found[static_cast<std::size_t>(texel)];
+      }
+      EXPECT_NEAR(sum, (std::pow(kHigh, 3) - std::pow(kLow, 3)) / 3.0, 1e-14);
+    }
+  }
+}
+
+// Of a lobe the mass in a cone around it is 1 - cos^(n+1), wherever it points.
+TEST(CosineLobes, HoldTheShareOfAnyConeAroundAnyAxis) {
+  const double least = 0.8;
+  for (const Direction axis : {Direction{0.6, 0.0, 0.8}, Direction{0.0, -1.0, 0.0}}) {
+    for (const double exponent : {0.0, 1.0, 12.5}) {
+      const CosineLobe lobes[] = {{axis, exponent, 1.0}};
+      double inside = 0.0;
+      test::visit_middles({1024, 512}, [&](double s, double t, double area) {
+        const double theta = kPi - kPi * t;
+        const double phi = kPi - 2.0 * kPi * s;
+        const Direction d = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                             std::cos(theta)};
+        if (glm::dot(d, axis) < least) return;
+        inside += density(lobes, d) * 2.0 * kPi * kPi * std::sin(theta) * area;
+      });
+      // Cells on the edge of the cone are in or out: of the ring of 2 pi 0.6, at most half a cell's
+      // diagonal pi / 512 wide on either side, few are wrong in one direction. A tenth of it.
+      const double edge = 2.0 * kPi * 0.6 * kPi / 512.0 * (exponent + 1.0) / (2.0 * kPi) *
+                          std::pow(least, exponent);
+      EXPECT_NEAR(inside, 1.0 - std::pow(least, exponent + 1.0), 0.1 * edge);
+    }
+  }
+}
+
+// By quadrature, of which the closed form upside down is the sum: the share beyond an angle from
+// -z is that beyond the same angle from +z. All rows are lit, but for the upper half.
+TEST(CosineLobes, PointingDownAreThosePointingUpTurnedOver) {
+  for (const double exponent : {1.0, 12.5}) {
+    const CosineLobe lobes[] = {{{0.0, 0.0, -1.0}, exponent, 1.0}};
+    const Extent cells = {8, 128};
+    const Grid<double> masses = cell_masses(lobes, cells);
+    for (int y = 0; y < cells.height; ++y) {
+      const auto beyond = [&](int edge) {
+        return std::pow(std::max(0.0, std::cos(kPi * edge / cells.height)), exponent + 1.0);
+      };
+      const double expected = (beyond(y) - beyond(y + 1)) / cells.width;
+      // Gauss-Legendre of a power of 12 in cells of 1/41 of it: 1e-9.
+      for (const double mass : masses.row(y)) EXPECT_NEAR(mass, expected, 1e-8) << y;
+    }
+  }
+}
+
+TEST(CosineLobes, TransformMixturesByTheirShares) {
+  const CosineLobe lobes[] = {{{0.0, 0.0, 1.0}, 1.0, 0.25}, {{0.0, 0.0, 1.0}, 10.0, 0.75}};
+  const UnitPoint at = unit_point(lobes, {0.3, 2.0 / 3.0});  // cos(theta) = 1/2
+  EXPECT_NEAR(at.along, 0.25 * 0.25 + 0.75 * 0x1p-11, 1e-14);
+  EXPECT_EQ(at.across, 0.3);
+  EXPECT_EQ(at.column, 0.3);
+  EXPECT_EQ(unit_point(lobes, {0.3, 0.4}).along, 0.0) << "below the horizon";
+  EXPECT_EQ(unit_point(lobes, {0.3, 1.0}).along, 1.0);
+}
+
+}  // namespace
+}  // namespace lightproof::reference
