@@ -33,7 +33,9 @@ BoundSampler bind(const Mutant& mutant, TargetDensity target, const EnvironmentM
 Subject subject_of(const Mutant& mutant, Weighting weighting) {
   const TargetDensity target = {weighting, kRec709};
   return {std::string(mutant.name), target, false, false,
-          [&mutant, target](const EnvironmentMap& map) { return bind(mutant, target, map); }};
+          [&mutant, target](const EnvironmentMap& map) {
+            return bind(mutant, on_map(target, map), map);
+          }};
 }
 
 }  // namespace lightproof

@@ -14,7 +14,7 @@ namespace {
 
 template <class Sampler, const LuminanceWeights& kGrey, Lookup kLookup = Lookup::nearest>
 AnySampler make(const EnvironmentMap& map, Weighting weighting) {
-  return Sampler(map, TargetDensity{weighting, kGrey, kLookup});
+  return Sampler(map, on_map({weighting, kGrey, kLookup}, map));
 }
 
 double scanned(Extent map) { return map.width + map.height; }
