@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,7 @@ using test::TemporaryFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 TEST(Figures, AreThoseOfClosedForms) {
   const MapFigures constant = figures_of(make_synthetic_map("constant", {64, 32}));
@@ -107,6 +109,19 @@ TEST(Description, TellsChannelsLayersAndParts) {
   test::write_two_part_exr(folder / "two.exr", picture, picture);
   const json two = json::parse(json_of(describe(inspect_environment_map(folder / "two.exr"))));
   EXPECT_THAT(std::vector<std::string>(two.at("parts")), ElementsAre("first", "second"));
+}
+
+TEST(Description, KeepsToLinesWhateverAFileIsCalled) {
+  MapDescription odd = describe(make_synthetic_map("constant", {8, 4}));
+  const auto lines = [](const MapDescription& map) {
+    const std::string text = text_of(map);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  const auto usual = lines(odd);
+  odd.file = "a\nb\x1b[2J";
+  odd.origin.picture.channels.emplace_back("\r\n\x1b[H");
+  EXPECT_EQ(lines(odd), usual + 1) << "a line for the channel that is left out";
+  EXPECT_THAT(text_of(odd), Not(HasSubstr("\x1b")));
 }
 
 TEST(Description, OfABuiltInMapHasItsSize) {

@@ -43,6 +43,7 @@ Imf::Header header_of(Extent extent, const ExrOptions& options) {
   if (options.xyz) {
     Imf::addChromaticities(header, {{1.0F, 0.0F}, {0.0F, 1.0F}, {0.0F, 0.0F}, {0.333F, 0.333F}});
   }
+  header.pixelAspectRatio() = options.pixel_aspect;
   if (options.chromaticities) {
     const auto& v = *options.chromaticities;
     Imf::addChromaticities(header, {{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}});

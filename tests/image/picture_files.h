@@ -31,6 +31,7 @@ struct ExrOptions {
   bool xyz = false;
   /// Red, green, blue and white, x and y of each.
   std::optional<std::array<float, 8>> chromaticities = std::nullopt;
+  float pixel_aspect = 1.0F;
 };
 
 /// 32-bit float scanlines; row 0 of the picture at the top. Channels beyond three hold 0.

@@ -277,6 +277,8 @@ struct Order {
   const char* resolution;
   /// Place in the picture of the pixel that is stored first, second, and first in scanline 1.
   Place first, second, next_scanline;
+
+  friend void PrintTo(const Order& order, std::ostream* out) { *out << order.resolution; }
 };
 
 class RadianceOrder : public testing::TestWithParam<Order> {};

@@ -400,10 +400,36 @@ TEST(Reader, NamesPrimariesOtherThanRec709) {
     return read_environment_map(folder / "a.exr").notes;
   };
   EXPECT_THAT(notes({.64F, .33F, .3F, .6F, .15F, .06F, .3127F, .329F}), IsEmpty());
+  EXPECT_THAT(notes({.6484F, .3309F, .3212F, .5979F, .1559F, .066F, .3457F, .3585F}), IsEmpty());
   EXPECT_THAT(notes(kAcesCg),
               Contains(AllOf(HasSubstr("ACEScg"), HasSubstr("0.2722, 0.6741, 0.0537"),
                              HasSubstr("--luminance file"))));
   EXPECT_THAT(notes(kAp0), Contains(AllOf(HasSubstr("AP0"), HasSubstr("not all positive"))));
+}
+
+TEST(Reader, TellsOfPixelsThatAreNotSquare) {
+  const TemporaryFolder folder;
+  const Grid<Rgb> picture = test::numbered_picture({8, 4});
+  test::write_exr_file(folder / "a.exr", picture, {.pixel_aspect = 1.5F});
+  const EnvironmentMap map = read_environment_map(folder / "a.exr");
+  EXPECT_TRUE(is_flipped(map, picture));
+  EXPECT_THAT(map.notes, Contains(HasSubstr("pixelAspectRatio=1.5 ")));
+}
+
+// A profile of which only the size and the marker are looked at.
+TEST(Reader, TellsOfColourProfilesThatMayNotBeSrgb) {
+  const TemporaryFolder folder;
+  const std::vector<unsigned> values(16 * 8 * 3, 99);
+  test::write_integer_picture(folder / "a.jpg", {16, 8}, 3, values, 8);
+  EXPECT_THAT(read_environment_map(folder / "a.jpg").notes, Not(Contains(HasSubstr("profile"))));
+  std::string bytes = test::bytes_of(folder / "a.jpg");
+  const std::string profile(200, 'p');
+  std::string marker("\xff\xe2\0\0ICC_PROFILE\0\1\1", 18);
+  marker[3] = static_cast<char>(marker.size() - 2 + profile.size());
+  bytes.insert(2, marker + profile);
+  test::write_bytes(folder / "a.jpg", bytes);
+  EXPECT_THAT(read_environment_map(folder / "a.jpg").notes,
+              Contains(AllOf(HasSubstr("profile"), HasSubstr("ignored"))));
 }
 
 TEST(Reader, WeighsLuminanceAsAskedFor) {

@@ -17,6 +17,7 @@ struct NamedSpace {
 
 constexpr NamedSpace kSpaces[] = {
     {kRec709Name, {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}}},
+    {kRec709IccName, {{0.6484, 0.3309}, {0.3212, 0.5979}, {0.1559, 0.0660}, {0.3457, 0.3585}}},
     {kRadianceName, {{0.640, 0.330}, {0.290, 0.600}, {0.150, 0.060}, {0.3333, 0.3333}}},
     {"Rec. 2020", {{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, {0.3127, 0.3290}}},
     {"ACEScg", {{0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}, {0.32168, 0.33767}}},
@@ -74,9 +75,9 @@ LuminanceWeights luminance_weights(const Chromaticities& space) {
 
 std::string describe(const Chromaticities& space) {
   const std::string_view name = name_of(space);
-  if (!name.empty()) return fmt::format("{} primaries", name);
-  return fmt::format("primaries R {}, G {}, B {}, white {}", describe(space.red),
-                     describe(space.green), describe(space.blue), describe(space.white));
+  if (!name.empty()) return std::string(name);
+  return fmt::format("R {}, G {}, B {}, white {}", describe(space.red), describe(space.green),
+                     describe(space.blue), describe(space.white));
 }
 
 std::string describe(LuminanceWeights weights) {

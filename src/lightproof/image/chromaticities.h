@@ -19,6 +19,9 @@ struct Chromaticities {
 
 /// Of Rec. 709 and sRGB: what RGB means where a file says nothing.
 inline constexpr std::string_view kRec709Name = "Rec. 709";
+/// The same space as ICC profiles describe it, adapted to their white: programs that go by profiles
+/// (GIMP) write it to OpenEXR files of plain Rec. 709 values.
+inline constexpr std::string_view kRec709IccName = "Rec. 709 adapted to D50";
 /// What RGB means in Radiance where a file says nothing.
 inline constexpr std::string_view kRadianceName = "Radiance";
 
@@ -34,7 +37,7 @@ bool is_colour_space(const Chromaticities& chromaticities);
 /// visible colours. Undefined unless is_colour_space().
 LuminanceWeights luminance_weights(const Chromaticities& chromaticities);
 
-/// "ACEScg primaries" or "primaries R (0.68, 0.32), …, white (…)".
+/// The name, or "R (0.68, 0.32), G (…), B (…), white (…)".
 std::string describe(const Chromaticities& chromaticities);
 
 /// "0.2126, 0.7152, 0.0722".

@@ -24,9 +24,7 @@ Json fault_json(const MapFault& fault) {
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 std::string primaries_of(const PictureHeader& picture) {
-  if (!picture.chromaticities) return "";
-  const std::string_view name = name_of(*picture.chromaticities);
-  return name.empty() ? describe(*picture.chromaticities) : std::string(name);
+  return picture.chromaticities ? describe(*picture.chromaticities) : "";
 }
 
 Json object_of(const MapDescription& map) {
@@ -69,15 +67,24 @@ std::string parts_text(const PictureHeader& picture) {
                      listed(picture.parts));
 }
 
+/// One line each. Names in files may hold anything: what would move a terminal's cursor is shown as
+/// a question mark.
 class Lines {
  public:
   void add(std::string_view label, std::string_view value) {
-    if (!value.empty()) text_ += fmt::format("  {:<12}{}\n", label, value);
+    if (!value.empty()) text_ += fmt::format("  {:<12}{}\n", label, printable(value));
   }
-  void add_title(std::string_view title) { text_ += fmt::format("{}\n", title); }
+  void add_title(std::string_view title) { text_ += printable(title) + "\n"; }
   std::string text() const { return text_; }
 
  private:
+  static std::string printable(std::string_view text) {
+    std::string shown(text);
+    std::ranges::replace_if(
+        shown, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+    return shown;
+  }
+
   std::string text_;
 };
 

@@ -72,6 +72,13 @@ std::string part_note(const PictureHeader& header, const ChannelSelection& selec
                          : " (" + header.parts[static_cast<std::size_t>(header.part)] + ")");
 }
 
+/// Colour profiles are taken for that of sRGB, of which most are.
+bool has_other_profile(const OIIO::ImageSpec& spec) {
+  if (spec.find_attribute("ICCProfile") == nullptr) return false;
+  const std::string name = spec.get_string_attribute("ICCProfile:profile_description");
+  return name.find("sRGB") == std::string::npos;
+}
+
 std::vector<std::string> notes_of(const PictureHeader& header, const ChannelSelection& selection,
                                   const OIIO::ImageSpec& spec) {
   std::vector<std::string> notes;
@@ -87,6 +94,18 @@ std::vector<std::string> notes_of(const PictureHeader& header, const ChannelSele
                                 decode_exponent(spec)));
   } else if (spec.get_float_attribute("oiio:Gamma", 1.0F) != 1.0F) {
     notes.emplace_back("The gamma in the header was not undone: the values are taken as linear.");
+  }
+  if (has_other_profile(spec)) {
+    notes.push_back(fmt::format(
+        "The colour profile in the header ({}) was ignored.",
+        first_line(spec.get_string_attribute("ICCProfile:profile_description", "without a name"))));
+  }
+  const float aspect = spec.get_float_attribute("PixelAspectRatio", 1.0F);
+  if (spec.format.is_floating_point() && aspect != 1.0F) {
+    notes.push_back(
+        fmt::format("pixelAspectRatio={:.6g} in the header was ignored: the shape of "
+                    "pixels follows from the mapping of the whole sphere.",
+                    aspect));
   }
   if (!header.orientation.empty()) {
     notes.push_back(

@@ -48,9 +48,8 @@ template <class Number>
 std::optional<Number> number_in(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   Number number{};
-  const char* const end = word.data() + word.size();
-  const auto [stopped, error] = std::from_chars(word.data(), end, number);
-  if (error != std::errc() || stopped != end) return std::nullopt;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
   return number;
 }
 

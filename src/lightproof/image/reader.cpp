@@ -161,11 +161,13 @@ LuminanceWeights weights_of_file(const fs::path& file, const PictureHeader& pict
   const LuminanceWeights weights = luminance_weights(*picture.chromaticities);
   const std::string primaries = describe(*picture.chromaticities);
   if (!are_positive(weights)) {
-    refuse(file, fmt::format("{} in the header imply the luminance weights {}: --luminance file "
-                             "needs positive ones; choose --luminance rec709, or convert the file",
-                             primaries, describe(weights)));
+    refuse(file,
+           fmt::format(
+               "the primaries in the header ({}) imply the luminance weights {}: --luminance file "
+               "needs positive ones; choose --luminance rec709, or convert the file",
+               primaries, describe(weights)));
   }
-  notes.push_back(fmt::format("Luminance by the weights {} of the {} in the header.",
+  notes.push_back(fmt::format("Luminance by the weights {} of the primaries in the header ({}).",
                               describe(weights), primaries));
   return weights;
 }
@@ -173,7 +175,8 @@ LuminanceWeights weights_of_file(const fs::path& file, const PictureHeader& pict
 /// Whether RGB is what it is taken for where nothing is said.
 bool is_default_space(const PictureHeader& picture) {
   const std::string_view name = name_of(*picture.chromaticities);
-  return name == kRec709Name || (name == kRadianceName && picture.format == kRadianceFormat);
+  return name == kRec709Name || name == kRec709IccName ||
+         (name == kRadianceName && picture.format == kRadianceFormat);
 }
 
 void choose_weights(const fs::path& file, EnvironmentMap& map, LuminanceChoice choice) {
