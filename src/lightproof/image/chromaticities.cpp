@@ -17,7 +17,10 @@ struct NamedSpace {
 
 constexpr NamedSpace kSpaces[] = {
     {kRec709Name, {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}}},
-    {kRec709IccName, {{0.6484, 0.3309}, {0.3212, 0.5979}, {0.1559, 0.0660}, {0.3457, 0.3585}}},
+    // As ICC profiles describe it, in their own white: programs that go by profiles write this to
+    // OpenEXR files of plain Rec. 709 values.
+    {"Rec. 709 adapted to D50",
+     {{0.6484, 0.3309}, {0.3212, 0.5979}, {0.1559, 0.0660}, {0.3457, 0.3585}}},
     {kRadianceName, {{0.640, 0.330}, {0.290, 0.600}, {0.150, 0.060}, {0.3333, 0.3333}}},
     {"Rec. 2020", {{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, {0.3127, 0.3290}}},
     {"ACEScg", {{0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}, {0.32168, 0.33767}}},

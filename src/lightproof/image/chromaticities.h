@@ -17,11 +17,8 @@ struct Chromaticities {
   std::array<double, 2> white;
 };
 
-/// Of Rec. 709 and sRGB: what RGB means where a file says nothing.
+/// Of Rec. 709 and sRGB, what RGB means where a file says nothing; "… adapted to D50" is the same.
 inline constexpr std::string_view kRec709Name = "Rec. 709";
-/// The same space as ICC profiles describe it, adapted to their white: programs that go by profiles
-/// (GIMP) write it to OpenEXR files of plain Rec. 709 values.
-inline constexpr std::string_view kRec709IccName = "Rec. 709 adapted to D50";
 /// What RGB means in Radiance where a file says nothing.
 inline constexpr std::string_view kRadianceName = "Radiance";
 

@@ -175,7 +175,7 @@ LuminanceWeights weights_of_file(const fs::path& file, const PictureHeader& pict
 /// Whether RGB is what it is taken for where nothing is said.
 bool is_default_space(const PictureHeader& picture) {
   const std::string_view name = name_of(*picture.chromaticities);
-  return name == kRec709Name || name == kRec709IccName ||
+  return name.starts_with(kRec709Name) ||
          (name == kRadianceName && picture.format == kRadianceFormat);
 }
 
@@ -188,12 +188,12 @@ void choose_weights(const fs::path& file, EnvironmentMap& map, LuminanceChoice c
   map.weights = weights_of(choice);
   if (!picture.chromaticities || is_default_space(picture)) return;
   const LuminanceWeights theirs = luminance_weights(*picture.chromaticities);
-  map.notes.push_back(
-      fmt::format("The header says {}: the values were not converted, and luminance is by the "
-                  "weights {}; those "
-                  "primaries imply {}{}.",
-                  describe(*picture.chromaticities), describe(map.weights), describe(theirs),
-                  are_positive(theirs) ? " (--luminance file)" : ", not all positive"));
+  map.notes.push_back(fmt::format(
+      "The header names primaries ({}): the values were not converted, and luminance is by the "
+      "weights {}; those "
+      "primaries imply {}{}.",
+      describe(*picture.chromaticities), describe(map.weights), describe(theirs),
+      are_positive(theirs) ? " (--luminance file)" : ", not all positive"));
 }
 
 enum class Purpose { sampling, inspection };
