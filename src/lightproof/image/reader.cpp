@@ -190,8 +190,7 @@ void choose_weights(const fs::path& file, EnvironmentMap& map, LuminanceChoice c
   const LuminanceWeights theirs = luminance_weights(*picture.chromaticities);
   map.notes.push_back(fmt::format(
       "The header names primaries ({}): the values were not converted, and luminance is by the "
-      "weights {}; those "
-      "primaries imply {}{}.",
+      "weights {}; those primaries imply {}{}.",
       describe(*picture.chromaticities), describe(map.weights), describe(theirs),
       are_positive(theirs) ? " (--luminance file)" : ", not all positive"));
 }
