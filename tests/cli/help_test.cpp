@@ -32,8 +32,9 @@ TEST_P(Help, NamesEveryOptionOnStdout) {
   for (const std::string& text : GetParam().mentioned) EXPECT_THAT(help.out, HasSubstr(text));
 }
 
-const Words kCommon = {"MAP",    "--preset",     "--size",  "--repair",   "--any-aspect",
-                       "--seed", "-t,--threads", "--color", "-q,--quiet", "-n,--samples"};
+const Words kCommon = {"MAP",        "--preset",     "--size",  "--repair",   "--any-aspect",
+                       "--seed",     "-t,--threads", "--color", "-q,--quiet", "-n,--samples",
+                       "--channels", "--layer",      "--part",  "--luminance"};
 
 Words with_common(Words words) {
   words.insert(words.end(), kCommon.begin(), kCommon.end());
@@ -43,12 +44,16 @@ Words with_common(Words words) {
 INSTANTIATE_TEST_SUITE_P(
     Commands, Help,
     testing::Values(
-        HelpCase{"", {"study", "gate", "history", "list", "--version", "Usage: lightproof"}},
+        HelpCase{"",
+                 {"study", "gate", "info", "history", "list", "--version", "Usage: lightproof"}},
         HelpCase{"gate", with_common({"--sampler", "--weighting", "--level", "--json", "--junit",
                                       "--markdown", "--github", "--sequential", "--rejections",
                                       "Exit codes", "inconclusive"})},
         HelpCase{"study", with_common({"-o,--output", "--throughput", "--no-throughput",
                                        "--largest", "--no-self-test", "Exit codes"})},
+        HelpCase{"info",
+                 {"MAP", "--preset", "--repair", "--any-aspect", "--channels", "--layer", "--part",
+                  "--luminance", "--json", "Exit codes"}},
         HelpCase{"history", {"add", "compare", "trend"}},
         HelpCase{
             "list",

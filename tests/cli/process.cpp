@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <pty.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -190,8 +191,10 @@ bool Process::wait_for_err(std::string_view text, std::chrono::seconds limit) {
 
 std::optional<int> Process::exit_code() {
   int status = 0;
-  if (::waitpid(id_, &status, WNOHANG) != id_) return std::nullopt;
+  rusage usage{};
+  if (::wait4(id_, &status, WNOHANG, &usage) != id_) return std::nullopt;
   reaped_ = true;
+  peak_kilobytes_ = usage.ru_maxrss;
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -204,7 +207,7 @@ Finished Process::wait(std::chrono::seconds limit) {
     }
     if (const std::optional<int> code = exit_code()) {
       const std::chrono::duration<double> spent = Clock::now() - start_;
-      return {*code, out_, err_, spent.count()};
+      return {*code, out_, err_, spent.count(), peak_kilobytes_};
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }

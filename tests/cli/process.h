@@ -30,6 +30,7 @@ struct Finished {
   std::string out;
   std::string err;
   double seconds = 0.0;
+  long peak_kilobytes = 0;  ///< the most memory that it held at once
 };
 
 /// A running program in a process group of its own, which is killed when this goes out of scope.
@@ -61,6 +62,7 @@ class Process {
   int out_fd_ = -1;
   int err_fd_ = -1;
   bool reaped_ = false;
+  long peak_kilobytes_ = 0;
   Clock::time_point start_ = Clock::now();
   std::string out_;
   std::string err_;

@@ -13,6 +13,8 @@
 #include <ImfStandardAttributes.h>
 #include <OpenImageIO/imageio.h>
 
+#include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -40,6 +42,11 @@ Imf::Header header_of(Extent extent, const ExrOptions& options) {
   }
   if (options.xyz) {
     Imf::addChromaticities(header, {{1.0F, 0.0F}, {0.0F, 1.0F}, {0.0F, 0.0F}, {0.333F, 0.333F}});
+  }
+  header.pixelAspectRatio() = options.pixel_aspect;
+  if (options.chromaticities) {
+    const auto& v = *options.chromaticities;
+    Imf::addChromaticities(header, {{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}});
   }
   for (const std::string& name : options.channels) {
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
@@ -158,6 +165,39 @@ void write_integer_picture(const fs::path& file, Extent extent, int channels,
       !out->close()) {
     throw std::runtime_error("test picture not written: " + file.string());
   }
+}
+
+void write_png_with_gamma(const fs::path& file, Extent extent, const std::vector<unsigned>& values,
+                          double gamma) {
+  write_integer_picture(file, extent, 3, values, 8);
+  std::string png = bytes_of(file);
+  const auto big_endian = [](std::uint32_t number) {
+    std::string bytes;
+    for (const int shift : {24, 16, 8, 0}) bytes.push_back(static_cast<char>(number >> shift));
+    return bytes;
+  };
+  // Chunks that say the same thing in other words are taken out.
+  for (std::size_t at = 8; at + 12 <= png.size();) {
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      length = 256 * length + static_cast<unsigned char>(png[at + i]);
+    const std::string type = png.substr(at + 4, 4);
+    if (type == "sRGB" || type == "gAMA" || type == "iCCP") {
+      png.erase(at, 12 + length);
+    } else {
+      at += 12 + length;
+    }
+  }
+  const std::string chunk =
+      "gAMA" + big_endian(static_cast<std::uint32_t>(std::lround(gamma * 1e5)));
+  std::uint32_t crc = 0xffffffffU;  // CRC-32 of PNG, annex D
+  for (const char c : chunk) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1U) ^ ((crc & 1U) != 0 ? 0xedb88320U : 0U);
+  }
+  constexpr std::size_t kAfterHeader = 8 + 25;
+  png.insert(kAfterHeader, big_endian(4) + chunk + big_endian(~crc));
+  write_bytes(file, png);
 }
 
 std::string bytes_of(const fs::path& file) {

@@ -2,6 +2,7 @@
 // mistake in the reader cannot cancel the same mistake in the writer.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -28,6 +29,9 @@ struct ExrOptions {
   /// The display window is larger than the data window by this many columns.
   int missing_columns = 0;
   bool xyz = false;
+  /// Red, green, blue and white, x and y of each.
+  std::optional<std::array<float, 8>> chromaticities = std::nullopt;
+  float pixel_aspect = 1.0F;
 };
 
 /// 32-bit float scanlines; row 0 of the picture at the top. Channels beyond three hold 0.
@@ -51,6 +55,10 @@ void write_hdr_file(const std::filesystem::path& file, const std::string& resolu
 /// An integer picture through OpenImageIO: the format by extension, values of 8 or 16 bits.
 void write_integer_picture(const std::filesystem::path& file, Extent extent, int channels,
                            const std::vector<unsigned>& values, int bits, int orientation = 1);
+
+/// An 8-bit PNG with a gAMA chunk: samples are in proportion to light^`gamma`.
+void write_png_with_gamma(const std::filesystem::path& file, Extent extent,
+                          const std::vector<unsigned>& values, double gamma);
 
 std::string bytes_of(const std::filesystem::path& file);
 void write_bytes(const std::filesystem::path& file, std::string_view bytes);

@@ -51,6 +51,36 @@ TEST(ReaderRefuses, MissingChannelsAndListsThose) {
   EXPECT_THAT(refusal(folder / "grey.png"), HasSubstr("R, G and B needed"));
 }
 
+TEST(ReaderRefuses, SelectionsThatAreNotThereAndSaysWhatIs) {
+  const TemporaryFolder folder;
+  const Grid<Rgb> picture = test::numbered_picture({8, 4});
+  test::write_exr_file(folder / "a.exr", picture, {.channels = {"sky.R", "sky.G", "sky.B"}});
+  EXPECT_THAT(refusal(folder / "a.exr"), HasSubstr("--layer sky"));
+  EXPECT_THAT(refusal(folder / "a.exr", {.selection = {.layer = "sea"}}),
+              AllOf(HasSubstr("sea.R, sea.G and sea.B needed"), HasSubstr("sky.R, sky.G")));
+  EXPECT_THAT(refusal(folder / "a.exr", {.selection = {.channels = {"Y"}}}),
+              HasSubstr("channel Y needed"));
+  EXPECT_THAT(refusal(folder / "a.exr", {.selection = {.part = 1}}), HasSubstr("one part, 0"));
+  test::write_two_part_exr(folder / "two.exr", picture, picture);
+  EXPECT_THAT(refusal(folder / "two.exr", {.selection = {.part = 2}}), HasSubstr("0 to 1"));
+  test::write_integer_picture(folder / "grey.png", {2, 1}, 1, {1, 2}, 8);
+  EXPECT_THAT(refusal(folder / "grey.png"), HasSubstr("--channels Y reads it as grey"));
+  test::write_hdr_file(folder / "a.hdr", "-Y 2 +X 4", std::vector<test::Rgbe>(8, {200, 1, 1, 128}));
+  EXPECT_THAT(refusal(folder / "a.hdr", {.selection = {.part = 1}}), HasSubstr("no part 1"));
+  EXPECT_THAT(refusal(folder / "a.hdr", {.selection = {.channels = {"A"}}}),
+              HasSubstr("found R, G, B"));
+}
+
+TEST(ReaderRefuses, LuminanceByWeightsThatAreNotPositive) {
+  const TemporaryFolder folder;
+  test::write_exr_file(
+      folder / "a.exr", test::numbered_picture({8, 4}),
+      {.chromaticities = {{.7347F, .2653F, 0.0F, 1.0F, .0001F, -.077F, .32168F, .33767F}}});
+  EXPECT_EQ(refusal(folder / "a.exr"), "");
+  EXPECT_THAT(refusal(folder / "a.exr", {.luminance = LuminanceChoice::file}),
+              AllOf(HasSubstr("AP0"), HasSubstr("-0.0721"), HasSubstr("--luminance")));
+}
+
 TEST(ReaderRefuses, KindsOfExrThatAreNoFlatRgb) {
   const TemporaryFolder folder;
   const Grid<Rgb> picture = test::numbered_picture({8, 4});
@@ -76,12 +106,11 @@ TEST(ReaderRefuses, CubeMapsWhateverThePreset) {
               HasSubstr("cube map"));
 }
 
-TEST(ReaderRefuses, ColumnsStoredAsRows) {
+TEST(ReaderRefuses, QuarterTurnsOfExif) {
   const TemporaryFolder folder;
-  for (const char* resolution : {"+X 2 -Y 4", "-X 2 +Y 4", "+X 2 +Y 4", "-X 2 -Y 4"}) {
-    test::write_hdr_file(folder / "a.hdr", resolution, std::vector<test::Rgbe>(8, {1, 1, 1, 128}));
-    EXPECT_THAT(refusal(folder / "a.hdr"), HasSubstr("orientation")) << resolution;
-  }
+  test::write_integer_picture(folder / "a.jpg", {16, 8}, 3, std::vector<unsigned>(16 * 8 * 3, 99),
+                              8, 6);
+  EXPECT_THAT(refusal(folder / "a.jpg"), HasSubstr("orientation 6"));
 }
 
 TEST(ReaderRefuses, BadTexelsByCountPositionAndFlag) {
@@ -103,7 +132,7 @@ TEST(ReaderRefuses, BadTexelsByCountPositionAndFlag) {
     EXPECT_THAT(refusal(folder / "bad.exr"),
                 AllOf(HasSubstr("bad.exr"), HasSubstr("2 texels with " + std::string(kind)),
                       HasSubstr("column 6, row 1"), HasSubstr("--repair")));
-    EXPECT_EQ(refusal(folder / "bad.exr", {.repair = true}), "");
+    EXPECT_EQ(refusal(folder / "bad.exr", {.repair = Repair::zero}), "");
   }
 }
 
@@ -142,7 +171,7 @@ TEST(ReaderRefuses, BlackMaps) {
   test::write_exr_file(folder / "denormal.exr", Grid<Rgb>({8, 4}, Rgb(1e-39F)));
   EXPECT_THAT(refusal(folder / "denormal.exr"), HasSubstr("every texel is black"));
   test::write_exr_file(folder / "negative.exr", Grid<Rgb>({8, 4}, Rgb(-1.0F)));
-  EXPECT_THAT(refusal(folder / "negative.exr", {.repair = true}),
+  EXPECT_THAT(refusal(folder / "negative.exr", {.repair = Repair::zero}),
               HasSubstr("every texel is black"));
 }
 

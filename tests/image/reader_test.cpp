@@ -1,6 +1,7 @@
 // Files that are read: formats, conventions, repair.
 #include "lightproof/image/reader.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,9 +17,13 @@ namespace lightproof {
 namespace {
 
 using test::TemporaryFolder;
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 bool is_flipped(const EnvironmentMap& map, const Grid<Rgb>& picture) {
   const Extent extent = picture.extent();
@@ -139,6 +144,21 @@ TEST(Reader, DecodesIntegerPngs) {
     EXPECT_EQ(map.radiance(0, 0), Rgb(0.0F, decoded(top / 2), 1.0F));
     EXPECT_EQ(map.radiance(1, 0), Rgb(decoded(1), decoded(2), decoded(3)));
     EXPECT_THAT(map.notes, Contains(HasSubstr(std::to_string(bits) + "-bit")));
+  }
+}
+
+// A gamma of 1 / 2.2 is what is taken for granted, too.
+TEST(Reader, DecodesPngsByTheirOwnGamma) {
+  const TemporaryFolder folder;
+  for (const double gamma : {1.0, 1.0 / 1.8, 1.0 / 2.2}) {
+    test::write_png_with_gamma(folder / "a.png", {2, 1}, {0, 100, 255, 1, 2, 3}, gamma);
+    const EnvironmentMap map = read_environment_map(folder / "a.png");
+    const auto decoded = [&](unsigned v) {
+      return static_cast<float>(std::pow(v / 255.0, 1.0 / gamma));
+    };
+    EXPECT_FLOAT_EQ(map.radiance(0, 0).g, decoded(100)) << gamma;
+    EXPECT_FLOAT_EQ(map.radiance(1, 0).r, decoded(1)) << gamma;
+    EXPECT_THAT(map.notes, Contains(HasSubstr(fmt::format("^{}.", std::round(10 / gamma) / 10))));
   }
 }
 
@@ -277,7 +297,7 @@ TEST(Reader, RepairsOnRequestAndSaysSo) {
   picture(7, 0).b = std::numeric_limits<float>::infinity();
   picture(2, 2).r = -std::numeric_limits<float>::infinity();
   test::write_exr_file(folder / "a.exr", picture);
-  const EnvironmentMap map = read_environment_map(folder / "a.exr", {.repair = true});
+  const EnvironmentMap map = read_environment_map(folder / "a.exr", {.repair = Repair::zero});
   picture(5, 2).g = picture(6, 3).b = picture(1, 1).r = picture(7, 0).b = picture(2, 2).r = 0.0F;
   EXPECT_TRUE(is_flipped(map, picture));
   EXPECT_THAT(map.notes,
@@ -285,6 +305,159 @@ TEST(Reader, RepairsOnRequestAndSaysSo) {
   EXPECT_THAT(map.notes, Contains(HasSubstr("1 texel with NaN (at column 1, row 1)")));
   EXPECT_THAT(map.notes, Contains(HasSubstr("2 texels with infinite values (the first at column 7, "
                                             "row 0)")));
+}
+
+TEST(Reader, SaysWhatClampingWouldDoWhereInfinityBecomesZero) {
+  const TemporaryFolder folder;
+  Grid<Rgb> picture = test::numbered_picture({8, 4});
+  picture(7, 0).b = kInfinity;
+  test::write_exr_file(folder / "a.exr", picture);
+  EXPECT_THAT(read_environment_map(folder / "a.exr", {.repair = Repair::zero}).notes,
+              Contains(AllOf(HasSubstr("Set to 0"), HasSubstr("--repair=clamp"))));
+  picture(7, 0).b = -1.0F;
+  test::write_exr_file(folder / "a.exr", picture);
+  EXPECT_THAT(read_environment_map(folder / "a.exr", {.repair = Repair::zero}).notes,
+              Contains(AllOf(HasSubstr("Set to 0"), Not(HasSubstr("clamp")))));
+}
+
+TEST(Reader, ClampsInfinityToTheLargestFiniteValue) {
+  const TemporaryFolder folder;
+  Grid<Rgb> picture = test::numbered_picture({8, 4});
+  picture(2, 1) = Rgb(kInfinity);
+  picture(3, 1).g = kInfinity;
+  picture(4, 1).b = -kInfinity;
+  picture(5, 1).r = std::numeric_limits<float>::quiet_NaN();
+  picture(6, 1).r = -2.0F;
+  picture(7, 3).r = 1000.0F;
+  test::write_exr_file(folder / "a.exr", picture);
+  const EnvironmentMap map = read_environment_map(folder / "a.exr", {.repair = Repair::clamp});
+  picture(2, 1) = Rgb(1000.0F);
+  picture(3, 1).g = 1000.0F;
+  picture(4, 1).b = picture(5, 1).r = picture(6, 1).r = 0.0F;
+  EXPECT_TRUE(is_flipped(map, picture));
+  // The light in what was put in, by solid angle: three channels, and a green one beside them.
+  Grid<Rgb> put_in({8, 4});
+  put_in(2, 1) = Rgb(1000.0F);
+  put_in(3, 1).g = 1000.0F;
+  const auto light = [](const Grid<Rgb>& of) {
+    double sum = 0.0;
+    for (int y = 0; y < 4; ++y) {
+      for (int x = 0; x < 8; ++x) sum += texel_solid_angle({8, 4}, y) * luminance(of(x, y));
+    }
+    return sum;
+  };
+  EXPECT_THAT(
+      map.notes,
+      Contains(AllOf(HasSubstr("+Inf became 1000"),
+                     HasSubstr(fmt::format("{:.3g} % of the map's light",
+                                           100 * light(put_in) / light(picture))),
+                     HasSubstr("3 texels with infinite values"), HasSubstr("1 texel with NaN"))));
+}
+
+TEST(Reader, ReadsTheChannelsThatAreNamed) {
+  const TemporaryFolder folder;
+  const Grid<Rgb> picture = test::numbered_picture({8, 4});
+  test::write_exr_file(
+      folder / "a.exr", picture,
+      {.channels = {"diffuse.R", "diffuse.G", "diffuse.B", "R", "G", "B", "view.sky.B"}});
+  const auto read = [&](const ChannelSelection& selection) {
+    return read_environment_map(folder / "a.exr", {.selection = selection});
+  };
+  EXPECT_TRUE(is_flipped(read({.layer = "diffuse"}), picture));
+  EXPECT_TRUE(is_flipped(read({.channels = {"diffuse.R", "diffuse.G", "diffuse.B"}}), picture));
+  EXPECT_THAT(read({.layer = "diffuse"}).notes,
+              Contains(HasSubstr("Channels left out: R, G, B, view.sky.B")));
+  Grid<Rgb> swapped = picture;
+  for (Rgb& rgb : swapped.values()) rgb = {rgb.b, rgb.g, rgb.r};
+  EXPECT_TRUE(is_flipped(read({.channels = {"B", "G", "R"}, .layer = "diffuse"}), swapped));
+  Grid<Rgb> grey = picture;
+  for (Rgb& rgb : grey.values()) rgb = Rgb(rgb.g);
+  const EnvironmentMap single = read({.channels = {"diffuse.G"}});
+  EXPECT_TRUE(is_flipped(single, grey));
+  EXPECT_THAT(single.notes, Contains(HasSubstr("diffuse.G was read as grey")));
+}
+
+TEST(Reader, ReadsSingleChannelsAsGreyOnRequest) {
+  const TemporaryFolder folder;
+  const ReadOptions grey = {.selection = {.channels = {"Y"}}};
+  test::write_integer_picture(folder / "a.png", {2, 1}, 1, {0, 255}, 8);
+  EXPECT_EQ(read_environment_map(folder / "a.png", grey).radiance(1, 0), Rgb(1.0F));
+  test::write_exr_file(folder / "a.exr", test::numbered_picture({8, 4}), {.channels = {"Y"}});
+  EXPECT_EQ(read_environment_map(folder / "a.exr", grey).radiance(7, 0), Rgb(32.0F));
+  test::write_hdr_file(folder / "a.hdr", "-Y 2 +X 4", kRgbe);
+  const EnvironmentMap green =
+      read_environment_map(folder / "a.hdr", {.selection = {.channels = {"G"}}});
+  EXPECT_EQ(green.radiance(0, 1), Rgb(rgbe_picture()(0, 0).g));
+}
+
+TEST(Reader, ReadsThePartThatIsAskedFor) {
+  const TemporaryFolder folder;
+  const Grid<Rgb> second({8, 4}, Rgb(7.0F));
+  test::write_two_part_exr(folder / "two.exr", test::numbered_picture({8, 4}), second);
+  const EnvironmentMap map = read_environment_map(folder / "two.exr", {.selection = {.part = 1}});
+  EXPECT_TRUE(is_flipped(map, second));
+  EXPECT_THAT(map.notes, Contains(HasSubstr("Part 1 of 0 to 1 was read (second)")));
+  EXPECT_THAT(map.origin.picture.parts, testing::ElementsAre("first", "second"));
+}
+
+constexpr std::array<float, 8> kAcesCg = {.713F, .293F, .165F,   .830F,
+                                          .128F, .044F, .32168F, .33767F};
+constexpr std::array<float, 8> kAp0 = {.7347F, .2653F, 0.0F,    1.0F,
+                                       .0001F, -.077F, .32168F, .33767F};
+
+TEST(Reader, NamesPrimariesOtherThanRec709) {
+  const TemporaryFolder folder;
+  const Grid<Rgb> picture = test::numbered_picture({8, 4});
+  const auto notes = [&](const std::array<float, 8>& chromaticities) {
+    test::write_exr_file(folder / "a.exr", picture, {.chromaticities = chromaticities});
+    return read_environment_map(folder / "a.exr").notes;
+  };
+  EXPECT_THAT(notes({.64F, .33F, .3F, .6F, .15F, .06F, .3127F, .329F}), IsEmpty());
+  EXPECT_THAT(notes({.6484F, .3309F, .3212F, .5979F, .1559F, .066F, .3457F, .3585F}), IsEmpty());
+  EXPECT_THAT(notes(kAcesCg),
+              Contains(AllOf(HasSubstr("ACEScg"), HasSubstr("0.2722, 0.6741, 0.0537"),
+                             HasSubstr("--luminance file"))));
+  EXPECT_THAT(notes(kAp0), Contains(AllOf(HasSubstr("AP0"), HasSubstr("not all positive"))));
+}
+
+TEST(Reader, TellsOfPixelsThatAreNotSquare) {
+  const TemporaryFolder folder;
+  const Grid<Rgb> picture = test::numbered_picture({8, 4});
+  test::write_exr_file(folder / "a.exr", picture, {.pixel_aspect = 1.5F});
+  const EnvironmentMap map = read_environment_map(folder / "a.exr");
+  EXPECT_TRUE(is_flipped(map, picture));
+  EXPECT_THAT(map.notes, Contains(HasSubstr("pixelAspectRatio=1.5 ")));
+}
+
+// A profile of which only the size and the marker are looked at.
+TEST(Reader, TellsOfColourProfilesThatMayNotBeSrgb) {
+  const TemporaryFolder folder;
+  const std::vector<unsigned> values(16 * 8 * 3, 99);
+  test::write_integer_picture(folder / "a.jpg", {16, 8}, 3, values, 8);
+  EXPECT_THAT(read_environment_map(folder / "a.jpg").notes, Not(Contains(HasSubstr("profile"))));
+  std::string bytes = test::bytes_of(folder / "a.jpg");
+  const std::string profile(200, 'p');
+  std::string marker("\xff\xe2\0\0ICC_PROFILE\0\1\1", 18);
+  marker[3] = static_cast<char>(marker.size() - 2 + profile.size());
+  bytes.insert(2, marker + profile);
+  test::write_bytes(folder / "a.jpg", bytes);
+  EXPECT_THAT(read_environment_map(folder / "a.jpg").notes,
+              Contains(AllOf(HasSubstr("profile"), HasSubstr("ignored"))));
+}
+
+TEST(Reader, WeighsLuminanceAsAskedFor) {
+  const TemporaryFolder folder;
+  const Grid<Rgb> picture = test::numbered_picture({8, 4});
+  test::write_exr_file(folder / "a.exr", picture, {.chromaticities = kAcesCg});
+  const auto weights = [&](LuminanceChoice choice) {
+    return read_environment_map(folder / "a.exr", {.luminance = choice}).weights;
+  };
+  EXPECT_EQ(weights(LuminanceChoice::rec709), kRec709);
+  EXPECT_EQ(weights(LuminanceChoice::published), kPublishedLuminance);
+  EXPECT_EQ(weights(LuminanceChoice::average), kAverageLuminance);
+  EXPECT_NEAR(weights(LuminanceChoice::file).red, 0.27223, 1e-5);
+  test::write_exr_file(folder / "a.exr", picture);
+  EXPECT_EQ(weights(LuminanceChoice::file), kRec709);
 }
 
 }  // namespace

@@ -25,21 +25,6 @@ namespace {
 
 constexpr std::uint64_t kLargestSide = 32768;
 
-bool is_synthetic(const std::string& name) {
-  const auto maps = synthetic_maps();
-  return std::any_of(maps.begin(), maps.end(), [&](const auto& map) { return map.name == name; });
-}
-
-ReadOptions read_options(const CommonOptions& options) {
-  ReadOptions read{std::nullopt, options.repair, options.any_aspect};
-  if (options.preset.empty()) return read;
-  read.preset = preset_by_name(options.preset);
-  if (read.preset) return read;
-  std::string known;
-  for (const PresetInfo& preset : presets()) known += fmt::format(" {}", preset.name);
-  throw InputError(fmt::format("--preset: there is no '{}'; there are:{}", options.preset, known));
-}
-
 /// A whole number in decimal digits only; none if it is anything else or does not fit.
 std::optional<std::uint64_t> parse_number(std::string_view text) {
   std::uint64_t number = 0;
@@ -53,7 +38,11 @@ EnvironmentMap load_map(const std::string& input, Extent size, const ReadOptions
   if (is_synthetic(input)) {
     return with_memory_for(
         [&] { return fmt::format("{} ({}x{})", input, size.width, size.height); },
-        [&] { return make_synthetic_map(input, size); });
+        [&] {
+          EnvironmentMap map = make_synthetic_map(input, size);
+          map.weights = weights_of(read.luminance);
+          return map;
+        });
   }
   try {
     return read_environment_map(input, read);
@@ -122,8 +111,7 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_option("--preset", options.preset,
                      "how the files' pixels map to directions (see `lightproof list presets`)");
   command.add_option("--size", options.size, "WxH of built-in maps")->capture_default_str();
-  command.add_flag("--repair", options.repair,
-                   "set negative, NaN and infinite texels to 0 and say so, instead of refusing");
+  add_input_options(command, options);
   command.add_flag("--any-aspect", options.any_aspect, "accept maps that are not 2:1");
   add_number(command, "--seed", options.seed, 0, UINT64_MAX, "base seed of all random numbers");
   command.add_option("-t,--threads", options.threads, "threads; 0 is one per core")
@@ -156,6 +144,22 @@ CLI::Option* add_path(CLI::App& command, const std::string& name, std::string& p
   return command.add_option(name, path, description)
       ->type_name("PATH")
       ->check([](const std::string& text) { return text.empty() ? "the name is empty" : ""; });
+}
+
+bool is_synthetic(const std::string& name) {
+  const auto maps = synthetic_maps();
+  return std::any_of(maps.begin(), maps.end(), [&](const auto& map) { return map.name == name; });
+}
+
+ReadOptions read_options(const CommonOptions& options) {
+  ReadOptions read{.any_aspect = options.any_aspect};
+  apply(options, read);
+  if (options.preset.empty()) return read;
+  read.preset = preset_by_name(options.preset);
+  if (read.preset) return read;
+  std::string known;
+  for (const PresetInfo& preset : presets()) known += fmt::format(" {}", preset.name);
+  throw InputError(fmt::format("--preset: there is no '{}'; there are:{}", options.preset, known));
 }
 
 Extent parse_size(const std::string& text) {
@@ -196,9 +200,8 @@ std::string input_options(const CommonOptions& options) {
   std::string text;
   if (!options.preset.empty()) text += " --preset " + options.preset;
   if (options.size != CommonOptions{}.size) text += " --size " + options.size;
-  if (options.repair) text += " --repair";
   if (options.any_aspect) text += " --any-aspect";
-  return text;
+  return text + words_of(options);
 }
 
 Progress progress_bar(const CommonOptions& options) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "input_options.h"
 #include "lightproof/core/failure.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/image/environment_map.h"
@@ -25,12 +26,11 @@ enum ExitCode : int {
 };
 
 /// How inputs are read and what is shown meanwhile.
-struct CommonOptions {
+struct CommonOptions : InputOptions {
   std::vector<std::string> maps;
   std::string preset;
   std::string size = "512x256";
   std::string color = "auto";
-  bool repair = false;
   bool any_aspect = false;
   bool quiet = false;
   int threads = 0;
@@ -50,6 +50,12 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, std::uint64_
 /// Adds an option for a file or folder, whose name must not be empty.
 CLI::Option* add_path(CLI::App& command, const std::string& name, std::string& path,
                       const std::string& description);
+
+/// Whether a map goes by this name without a file.
+bool is_synthetic(const std::string& name);
+
+/// How files are read. Throws InputError if an option makes no sense.
+ReadOptions read_options(const CommonOptions& options);
 
 /// "WxH", both at least 1. Throws InputError otherwise.
 Extent parse_size(const std::string& text);
@@ -71,6 +77,7 @@ bool use_color(const CommonOptions& options);
 /// Each registers its subcommand, which writes the exit code when it is run.
 void add_gate(CLI::App& app, int& exit_code);
 void add_study(CLI::App& app, int& exit_code);
+void add_info(CLI::App& app, int& exit_code);
 void add_history(CLI::App& app, int& exit_code);
 void add_list(CLI::App& app, int& exit_code);
 

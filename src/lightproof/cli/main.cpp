@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
   int exit_code = kPassed;
   add_study(app, exit_code);
   add_gate(app, exit_code);
+  add_info(app, exit_code);
   add_history(app, exit_code);
   add_list(app, exit_code);
   try {

@@ -6,6 +6,8 @@
 
 namespace lightproof {
 
+Grid<double> luminance(const EnvironmentMap& map) { return luminance(map, map.weights); }
+
 Grid<double> luminance(const EnvironmentMap& map, LuminanceWeights weights) {
   const Extent extent = map.radiance.extent();
   Grid<double> grey(extent);

@@ -6,27 +6,10 @@
 
 #include "lightproof/core/direction.h"
 #include "lightproof/core/grid.h"
+#include "lightproof/image/luminance.h"
+#include "lightproof/image/map_origin.h"
 
 namespace lightproof {
-
-/// Weights of the grey value of a linear RGB triple. Any positive weights give an unbiased sampler.
-struct LuminanceWeights {
-  double red;
-  double green;
-  double blue;
-  friend bool operator==(LuminanceWeights, LuminanceWeights) = default;
-};
-
-/// ITU-R BT.709.
-inline constexpr LuminanceWeights kRec709 = {0.2126, 0.7152, 0.0722};
-/// As printed in the lecture (NTSC-like; they sum to 1.0000).
-inline constexpr LuminanceWeights kPublishedLuminance = {0.2989, 0.5866, 0.1145};
-
-/// Grey value of one texel, in the unit of the radiance.
-inline double luminance(Rgb rgb, LuminanceWeights weights = kRec709) {
-  return weights.red * static_cast<double>(rgb.r) + weights.green * static_cast<double>(rgb.g) +
-         weights.blue * static_cast<double>(rgb.b);
-}
 
 /// Radiance over all directions, constant inside each texel unless a Lookup says that it is
 /// interpolated: column x covers s in [x/W, (x+1)/W), row y covers t in [y/H, (y+1)/H), in the
@@ -38,9 +21,15 @@ struct EnvironmentMap {
   std::vector<std::string> notes = {};
   /// What the user called it: a path, or the name of a built-in map. Empty: the name.
   std::string source = {};
+  /// Of red, green and blue in the map's luminance: densities that are declared by Rec. 709 follow
+  /// them.
+  LuminanceWeights weights = kRec709;
+  MapOrigin origin = {};
 };
 
-/// The grey value of every texel, same shape as the map.
-Grid<double> luminance(const EnvironmentMap& map, LuminanceWeights weights = kRec709);
+/// The luminance of every texel by the map's own weights, same shape as the map.
+Grid<double> luminance(const EnvironmentMap& map);
+/// The same by other weights.
+Grid<double> luminance(const EnvironmentMap& map, LuminanceWeights weights);
 
 }  // namespace lightproof

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
+#include "lightproof/core/parallel.h"
+#include "lightproof/image/file_format.h"
 #include "lightproof/image/image_file.h"
+#include "lightproof/image/map_figures.h"
 #include "lightproof/image/reproject.h"
-#include "lightproof/image/texel_faults.h"
 
 namespace lightproof {
 namespace {
@@ -15,12 +19,19 @@ namespace fs = std::filesystem;
 
 std::string size_text(Extent extent) { return fmt::format("{} x {}", extent.width, extent.height); }
 
-Preset choose_preset(const ImageFile& image, const ReadOptions& options,
-                     std::vector<std::string>& notes) {
-  if (options.preset) return *options.preset;
-  if (!image.says_lat_long()) return Preset::z_up;
-  notes.push_back("The envmap attribute says latlong: read with preset openexr.");
-  return Preset::openexr;
+void choose_preset(EnvironmentMap& map, const ReadOptions& options) {
+  MapOrigin& origin = map.origin;
+  if (options.preset) {
+    origin.preset = *options.preset;
+    origin.why_preset = "--preset";
+  } else if (origin.picture.says_lat_long) {
+    origin.preset = Preset::openexr;
+    origin.why_preset = "the envmap attribute says latlong";
+    map.notes.emplace_back("The envmap attribute says latlong: read with preset openexr.");
+  } else {
+    origin.preset = Preset::z_up;
+    origin.why_preset = "the file says nothing, and --preset was not given";
+  }
 }
 
 /// Node-centred pictures come as 2n x n and as (2n + 1) x (n + 1).
@@ -29,69 +40,209 @@ bool is_two_to_one(Extent extent, const PresetInfo& preset) {
          (preset.lattice == Lattice::node_centred && extent.width - 1 == 2 * (extent.height - 1));
 }
 
-void check_aspect(const fs::path& file, Extent extent, const PresetInfo& preset, bool any_aspect) {
+void refuse_what_has_no_texel(const fs::path& file, Extent extent, const PresetInfo& preset) {
+  if (preset.lattice != Lattice::node_centred || (extent.width >= 2 && extent.height >= 2)) return;
+  refuse(file, fmt::format("{} pixels, but preset {} needs at least 2 x 2: choose another "
+                           "--preset NAME",
+                           size_text(extent), preset.name));
+}
+
+/// Empty if the convention of the preset allows the shape.
+std::string aspect_fault(Extent extent, const PresetInfo& preset, bool any_aspect) {
   const bool square = extent.width == extent.height;
   if (preset.aspect == 1.0) {
-    if (square) return;
-    refuse(file, fmt::format("{} pixels, but preset {} needs a square picture: choose another "
-                             "--preset NAME",
-                             size_text(extent), preset.name));
+    if (square) return "";
+    return fmt::format(
+        "{} pixels, but preset {} needs a square picture: choose another "
+        "--preset NAME",
+        size_text(extent), preset.name);
   }
-  if (preset.lattice == Lattice::node_centred && (extent.width < 2 || extent.height < 2)) {
-    refuse(file, fmt::format("{} pixels, but preset {} needs at least 2 x 2: choose another "
-                             "--preset NAME",
-                             size_text(extent), preset.name));
-  }
-  if (any_aspect || is_two_to_one(extent, preset)) return;
-  refuse(file,
-         fmt::format("{} pixels, but a latitude-longitude map is twice as wide as high: "
-                     "--any-aspect reads it all the same{}",
-                     size_text(extent), square ? ", --preset pbrt-v4 if it is octahedral" : ""));
+  if (any_aspect || is_two_to_one(extent, preset)) return "";
+  return fmt::format(
+      "{} pixels, but a latitude-longitude map is twice as wide as high: "
+      "--any-aspect reads it all the same{}",
+      size_text(extent), square ? ", --preset pbrt-v4 if it is octahedral" : "");
 }
 
-void require_radiance(const fs::path& file, Grid<Rgb>& picture, bool repair,
-                      std::vector<std::string>& notes) {
+std::vector<MapFault> faults_of(const TexelScan& scan) {
+  std::vector<MapFault> faults;
+  for (const TexelFault& fault : scan.faults) {
+    if (fault.count == 0) continue;
+    faults.push_back(
+        {std::string(fault.kind), describe_fault(fault), fault.count, fault.column, fault.row});
+  }
+  return faults;
+}
+
+/// The first reason for a refusal is the one that is told.
+void refuse_later(MapOrigin& origin, std::string reason) {
+  if (origin.refusal.empty()) origin.refusal = std::move(reason);
+}
+
+/// The only note that needs the map itself: how much of its light was put in.
+std::string clamp_note(const EnvironmentMap& map, const TexelScan& scan,
+                       const Grid<Rgb>& infinite) {
+  const EnvironmentMap put_in{.name = {},
+                              .radiance = map_from_picture(map.origin.preset, infinite),
+                              .weights = map.weights};
+  const double share = static_cast<double>(scan.brightest) * figures_of(put_in).mean_luminance /
+                       figures_of(map).mean_luminance;
+  return fmt::format(
+      "Repaired: {}. +Inf became {:.6g}, the largest finite value; -Inf, NaN and "
+      "negative values became 0. Where +Inf stood lies now {:.3g} % of the map's "
+      "light.",
+      describe_faults(scan), scan.brightest, 100.0 * share);
+}
+
+std::string zero_note(const TexelScan& scan) {
+  const bool any_infinite = scan.count_of(kInfiniteValues) > 0;
+  return fmt::format("Set to 0: {}.{}", describe_faults(scan),
+                     any_infinite ? " Infinite values may be a light's brightest texels: "
+                                    "--repair=clamp sets +Inf to the largest finite value instead."
+                                  : "");
+}
+
+/// Makes every value a radiance, and brings the picture into the frame of the map.
+void take_pixels(EnvironmentMap& map, Grid<Rgb> picture, Repair repair) {
   const TexelScan scan = scan_texels(picture);
-  if (!scan.clean() && !repair) {
-    refuse(file, fmt::format("{}, counted from 0 at the top left: --repair sets such values to 0",
-                             describe_faults(scan)));
+  std::ranges::move(faults_of(scan), std::back_inserter(map.origin.faults));
+  if (!scan.clean() && repair == Repair::refuse) {
+    const bool any_infinite = scan.count_of(kInfiniteValues) > 0;
+    refuse_later(
+        map.origin,
+        fmt::format("{}, counted from 0 at the top left: --repair sets such values to 0{}",
+                    describe_faults(scan),
+                    any_infinite ? ", --repair=clamp +Inf to the largest finite value" : ""));
   }
-  if (!scan.clean()) {
-    repair_texels(picture);
-    notes.push_back(fmt::format("Set to 0: {}.", describe_faults(scan)));
+  const bool clamps = repair == Repair::clamp && scan.count_of(kInfiniteValues) > 0;
+  const Grid<Rgb> infinite = clamps ? infinite_channels(picture) : Grid<Rgb>();
+  if (!scan.clean()) repair_texels(picture, clamps ? scan.brightest : 0.0F);
+  if (scan.brightest < std::numeric_limits<float>::min()) {
+    const std::string reason = fmt::format(
+        "every texel is black (the greatest value is {}): no light to sample", scan.brightest);
+    map.origin.faults.push_back({.kind = "black", .message = reason});
+    refuse_later(map.origin, reason);
   }
-  if (scan.brightest >= std::numeric_limits<float>::min()) return;
-  refuse(file, fmt::format("every texel is black (the greatest value is {}): no light to sample",
-                           scan.brightest));
+  map.radiance = map_from_picture(map.origin.preset, picture);
+  if (clamps) {
+    map.notes.push_back(clamp_note(map, scan, infinite));
+  } else if (!scan.clean() && repair != Repair::refuse) {
+    map.notes.push_back(zero_note(scan));
+  }
 }
 
-void note_mapping(Extent picture, Preset preset, std::vector<std::string>& notes) {
-  const PresetInfo& chosen = info(preset);
-  const Extent map = map_extent(preset, picture);
+void note_mapping(EnvironmentMap& map) {
+  const Extent picture = map.origin.picture.extent;
+  const PresetInfo& chosen = info(map.origin.preset);
+  const Extent texels = map.radiance.extent();
   if (chosen.lattice == Lattice::node_centred) {
-    notes.push_back(fmt::format("{} nodes interpolated bilinearly to {} texels.",
-                                size_text(picture), size_text(map)));
-  } else if (map != picture) {
-    notes.push_back(fmt::format("{} octahedral pixels brought to {} texels, nearest pixel each.",
-                                size_text(picture), size_text(map)));
+    map.notes.push_back(fmt::format("{} nodes interpolated bilinearly to {} texels.",
+                                    size_text(picture), size_text(texels)));
+  } else if (texels != picture) {
+    map.notes.push_back(
+        fmt::format("{} octahedral pixels brought to {} texels, nearest pixel each.",
+                    size_text(picture), size_text(texels)));
   } else if (picture.width % 2 != 0 &&
-             (preset == Preset::pbrt_v3 || preset == Preset::z_up_half_turn)) {
-    notes.push_back("The width is odd: the half turn moved the columns by half a texel.");
+             (chosen.preset == Preset::pbrt_v3 || chosen.preset == Preset::z_up_half_turn)) {
+    map.notes.emplace_back("The width is odd: the half turn moved the columns by half a texel.");
   }
+}
+
+bool are_positive(LuminanceWeights weights) {
+  return weights.red > 0.0 && weights.green > 0.0 && weights.blue > 0.0;
+}
+
+LuminanceWeights weights_of_file(const fs::path& file, const PictureHeader& picture,
+                                 std::vector<std::string>& notes) {
+  if (!picture.chromaticities) {
+    notes.emplace_back("No chromaticities in the header: luminance by the weights of Rec. 709.");
+    return kRec709;
+  }
+  const LuminanceWeights weights = luminance_weights(*picture.chromaticities);
+  const std::string primaries = describe(*picture.chromaticities);
+  if (!are_positive(weights)) {
+    refuse(file,
+           fmt::format(
+               "the primaries in the header ({}) imply the luminance weights {}: --luminance file "
+               "needs positive ones; choose --luminance rec709, or convert the file",
+               primaries, describe(weights)));
+  }
+  notes.push_back(fmt::format("Luminance by the weights {} of the primaries in the header ({}).",
+                              describe(weights), primaries));
+  return weights;
+}
+
+/// Whether RGB is what it is taken for where nothing is said.
+bool is_default_space(const PictureHeader& picture) {
+  const std::string_view name = name_of(*picture.chromaticities);
+  return name.starts_with(kRec709Name) ||
+         (name == kRadianceName && picture.format == kRadianceFormat);
+}
+
+void choose_weights(const fs::path& file, EnvironmentMap& map, LuminanceChoice choice) {
+  const PictureHeader& picture = map.origin.picture;
+  if (choice == LuminanceChoice::file) {
+    map.weights = weights_of_file(file, picture, map.notes);
+    return;
+  }
+  map.weights = weights_of(choice);
+  if (!picture.chromaticities || is_default_space(picture)) return;
+  const LuminanceWeights theirs = luminance_weights(*picture.chromaticities);
+  map.notes.push_back(fmt::format(
+      "The header names primaries ({}): the values were not converted, and luminance is by the "
+      "weights {}; those primaries imply {}{}.",
+      describe(*picture.chromaticities), describe(map.weights), describe(theirs),
+      are_positive(theirs) ? " (--luminance file)" : ", not all positive"));
+}
+
+enum class Purpose { sampling, inspection };
+
+EnvironmentMap read_map(const fs::path& file, const ReadOptions& options, Purpose purpose) {
+  ImageFile image(file, options.selection);
+  EnvironmentMap map{.name = file.stem().string(), .radiance = {}};
+  map.origin = {.picture = image.header()};
+  MapOrigin& origin = map.origin;
+  choose_preset(map, options);
+  const Extent extent = origin.picture.extent;
+  refuse_what_has_no_texel(file, extent, info(origin.preset));
+  if (const std::string fault = aspect_fault(extent, info(origin.preset), options.any_aspect);
+      !fault.empty()) {
+    if (purpose == Purpose::sampling) refuse(file, fault);
+    origin.faults.push_back({.kind = "aspect", .message = fault});
+    refuse_later(origin, fault);
+  }
+  Grid<Rgb> picture = image.read_pixels();
+  const std::vector<std::string>& header_notes = image.header().notes;
+  map.notes.insert(map.notes.begin(), header_notes.begin(), header_notes.end());
+  origin.picture.notes.clear();
+  choose_weights(file, map, options.luminance);
+  take_pixels(map, std::move(picture), options.repair);
+  if (purpose == Purpose::sampling && !origin.refusal.empty()) refuse(file, origin.refusal);
+  note_mapping(map);
+  return map;
 }
 
 }  // namespace
 
 EnvironmentMap read_environment_map(const fs::path& file, const ReadOptions& options) {
-  ImageFile image(file);
-  EnvironmentMap map{file.stem().string(), {}, image.notes()};
-  const Preset preset = choose_preset(image, options, map.notes);
-  check_aspect(file, image.extent(), info(preset), options.any_aspect);
-  Grid<Rgb> picture = image.read_pixels();
-  require_radiance(file, picture, options.repair, map.notes);
-  note_mapping(picture.extent(), preset, map.notes);
-  map.radiance = map_from_picture(preset, picture);
-  return map;
+  return read_map(file, options, Purpose::sampling);
+}
+
+EnvironmentMap inspect_environment_map(const fs::path& file, const ReadOptions& options) {
+  return read_map(file, options, Purpose::inspection);
+}
+
+LuminanceWeights weights_of(LuminanceChoice choice) {
+  switch (choice) {
+    case LuminanceChoice::published:
+      return kPublishedLuminance;
+    case LuminanceChoice::average:
+      return kAverageLuminance;
+    case LuminanceChoice::rec709:
+    case LuminanceChoice::file:
+      break;
+  }
+  return kRec709;
 }
 
 }  // namespace lightproof

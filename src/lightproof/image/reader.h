@@ -1,30 +1,51 @@
-// Environment maps from files. The only place, with writer.h, that knows OpenImageIO.
+// Environment maps from files. The only place, with writer.h, behind which OpenImageIO stands.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 
 #include "lightproof/image/environment_map.h"
+#include "lightproof/image/texel_faults.h"
 #include "lightproof/warp/preset.h"
 
 namespace lightproof {
+
+/// How much red, green and blue count in a map's luminance.
+enum class LuminanceChoice {
+  rec709,
+  published,  ///< the lecture's
+  average,
+  file,  ///< as the chromaticities in the file's header imply; Rec. 709 where it has none
+};
 
 struct ReadOptions {
   /// How file pixels map to directions; without it the file's own `envmap` attribute decides
   /// (`openexr`), and `z-up` is taken where there is none.
   std::optional<Preset> preset = std::nullopt;
-  /// Set negative, NaN and infinite values to 0 and say so in the notes, instead of refusing.
-  bool repair = false;
+  /// Of negative, NaN and infinite values; what was done is said in the notes.
+  Repair repair = Repair::refuse;
   /// Accept a lat-long image that is not twice as wide as high.
   bool any_aspect = false;
+  /// What of the file is read.
+  ChannelSelection selection = {};
+  LuminanceChoice luminance = LuminanceChoice::rec709;
 };
 
-/// Reads OpenEXR, Radiance .hdr, or 8-bit PNG/JPEG (decoded by ^2.2; HDR files are linear already)
-/// and brings it into the frame of EnvironmentMap. The name is the file's stem.
+/// Reads OpenEXR, Radiance .hdr, or PNG/JPEG (8 and 16 bits, decoded by ^2.2 or by the gamma that a
+/// PNG names; HDR files are linear already) and brings it into the frame of EnvironmentMap. The
+/// name is the file's stem.
 /// Throws InputError naming file, texel, reason and what would help: missing, unreadable, empty,
 /// no R, G, B, NaN, infinite or negative texels (count and first position as column, row from the
 /// top of the file), not 2:1, all black.
 EnvironmentMap read_environment_map(const std::filesystem::path& file,
                                     const ReadOptions& options = {});
+
+/// The same for a file that is looked at and not sampled: aspect, faulty texels and blackness do
+/// not throw, but stand in the map's origin. Faulty values are then 0.
+EnvironmentMap inspect_environment_map(const std::filesystem::path& file,
+                                       const ReadOptions& options = {});
+
+/// The weights of a choice for a map without chromaticities.
+LuminanceWeights weights_of(LuminanceChoice choice);
 
 }  // namespace lightproof

@@ -134,4 +134,15 @@ Grid<Rgb> map_from_picture(Preset preset, const Grid<Rgb>& picture) {
   return permuted(preset, picture);
 }
 
+PicturePlace place_in_picture(Preset preset, Extent picture, int column, int row) {
+  const Extent map = map_extent(preset, picture);
+  const Direction d = direction_from_square({centre(column, map.width), centre(row, map.height)});
+  const SquarePoint at = image_from_direction(preset, d);
+  if (has_nodes(preset)) {
+    return {static_cast<int>(std::lround(at.s * (picture.width - 1))),
+            static_cast<int>(std::lround((1.0 - at.t) * (picture.height - 1)))};
+  }
+  return {pixel(at.s, picture.width), picture.height - 1 - pixel(at.t, picture.height)};
+}
+
 }  // namespace lightproof

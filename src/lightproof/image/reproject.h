@@ -16,4 +16,13 @@ Extent map_extent(Preset preset, Extent picture);
 /// texel centres.
 Grid<Rgb> map_from_picture(Preset preset, const Grid<Rgb>& picture);
 
+/// Column and row of a picture, from its top left.
+struct PicturePlace {
+  int column = 0;
+  int row = 0;
+};
+
+/// The pixel that holds, or for nodes is nearest to, the centre of a texel of the map.
+PicturePlace place_in_picture(Preset preset, Extent picture, int column, int row);
+
 }  // namespace lightproof

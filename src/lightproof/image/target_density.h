@@ -26,9 +26,17 @@ enum class Lookup {
 /// directions under B.
 struct TargetDensity {
   Weighting weighting;
+  /// Rec. 709 gives way to the map's own weights: see on_map().
   LuminanceWeights grey = kRec709;
   Lookup lookup = Lookup::nearest;
   friend bool operator==(TargetDensity, TargetDensity) = default;
 };
+
+/// The density that is declared on this map: by the map's own luminance weights, unless weights
+/// other than Rec. 709 were declared.
+inline TargetDensity on_map(TargetDensity declared, const EnvironmentMap& map) {
+  if (declared.grey == kRec709) declared.grey = map.weights;
+  return declared;
+}
 
 }  // namespace lightproof

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "lightproof/core/parallel.h"
@@ -11,9 +12,11 @@
 namespace lightproof {
 namespace {
 
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
 constexpr std::array<TexelFault, 3> kNoFaults = {
     TexelFault{.kind = "NaN"},
-    TexelFault{.kind = "infinite values"},
+    TexelFault{.kind = kInfiniteValues},
     TexelFault{.kind = "negative values"},
 };
 
@@ -63,6 +66,11 @@ bool TexelScan::clean() const {
   return std::ranges::all_of(faults, [](const TexelFault& fault) { return fault.count == 0; });
 }
 
+std::size_t TexelScan::count_of(std::string_view kind) const {
+  const auto found = std::ranges::find(faults, kind, &TexelFault::kind);
+  return found == faults.end() ? 0 : found->count;
+}
+
 TexelScan scan_texels(const Grid<Rgb>& picture) {
   const auto height = static_cast<std::size_t>(picture.extent().height);
   std::vector<TexelScan> rows(height);
@@ -72,25 +80,36 @@ TexelScan scan_texels(const Grid<Rgb>& picture) {
   return whole;
 }
 
+std::string describe_fault(const TexelFault& fault) {
+  return fmt::format("{} {} with {} ({} column {}, row {})", fault.count,
+                     fault.count == 1 ? "texel" : "texels", fault.kind,
+                     fault.count == 1 ? "at" : "the first at", fault.column, fault.row);
+}
+
 std::string describe_faults(const TexelScan& scan) {
   std::string text;
   for (const TexelFault& fault : scan.faults) {
-    if (fault.count == 0) continue;
-    text += fmt::format("{}{} {} with {} ({} column {}, row {})", text.empty() ? "" : ", ",
-                        fault.count, fault.count == 1 ? "texel" : "texels", fault.kind,
-                        fault.count == 1 ? "at" : "the first at", fault.column, fault.row);
+    if (fault.count > 0) text += (text.empty() ? "" : ", ") + describe_fault(fault);
   }
   return text;
 }
 
-void repair_texels(Grid<Rgb>& picture) {
+void repair_texels(Grid<Rgb>& picture, float infinite) {
   parallel_for(static_cast<std::size_t>(picture.extent().height), [&](std::size_t y) {
     for (Rgb& rgb : picture.row(static_cast<int>(y))) {
       for (float* v : {&rgb.r, &rgb.g, &rgb.b}) {
-        if (!is_radiance(*v)) *v = 0.0F;
+        if (!is_radiance(*v)) *v = *v == kInfinity ? infinite : 0.0F;
       }
     }
   });
+}
+
+Grid<Rgb> infinite_channels(const Grid<Rgb>& picture) {
+  const auto mark = [](float v) { return v == kInfinity ? 1.0F : 0.0F; };
+  Grid<Rgb> marks(picture.extent());
+  std::ranges::transform(picture.values(), marks.values().begin(),
+                         [&](Rgb rgb) { return Rgb(mark(rgb.r), mark(rgb.g), mark(rgb.b)); });
+  return marks;
 }
 
 }  // namespace lightproof

@@ -11,6 +11,9 @@
 
 namespace lightproof {
 
+/// The kind of +Inf and -Inf.
+inline constexpr std::string_view kInfiniteValues = "infinite values";
+
 /// Texels with at least one value of a kind; the first in reading order, counted from 0 at the top
 /// left of the picture.
 struct TexelFault {
@@ -26,14 +29,30 @@ struct TexelScan {
   float brightest = 0.0F;
 
   bool clean() const;
+  /// How many texels have a fault of this kind.
+  std::size_t count_of(std::string_view kind) const;
 };
 
 TexelScan scan_texels(const Grid<Rgb>& picture);
 
-/// "2 texels with negative values (the first at column 5, row 2), 1 texel with NaN (…)".
+/// "2 texels with negative values (the first at column 5, row 2)".
+std::string describe_fault(const TexelFault& fault);
+
+/// All of them: "2 texels with negative values (…), 1 texel with NaN (…)".
 std::string describe_faults(const TexelScan& scan);
 
-/// Sets every negative, NaN or infinite value to 0; the other channels of the texel stay.
-void repair_texels(Grid<Rgb>& picture);
+/// What becomes of values that no radiance can have.
+enum class Repair {
+  refuse,  ///< the file is not read
+  zero,    ///< each is set to 0
+  clamp,   ///< +Inf becomes the largest finite value of the picture, each other one 0
+};
+
+/// Replaces every value that no radiance can have by 0, and +Inf by `infinite`; the other channels
+/// of the texel stay.
+void repair_texels(Grid<Rgb>& picture, float infinite);
+
+/// 1 in the channels that are +Inf, else 0: what repair_texels() makes bright.
+Grid<Rgb> infinite_channels(const Grid<Rgb>& picture);
 
 }  // namespace lightproof

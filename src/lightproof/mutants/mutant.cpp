@@ -39,7 +39,9 @@ Subject subject_of(const Mutant& mutant, Weighting weighting) {
           target,
           false,
           false,
-          [&mutant, target](const EnvironmentMap& map) { return bind(mutant, target, map); },
+          [&mutant, target](const EnvironmentMap& map) {
+            return bind(mutant, on_map(target, map), map);
+          },
           kLawResolution,
           true};
 }

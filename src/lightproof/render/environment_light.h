@@ -6,12 +6,14 @@
 
 namespace lightproof {
 
-/// The map with a sampler for each weighting: the fastest monotone one, so that stratified points
+/// The map with a sampler of its luminance for each weighting: the fastest monotone one, so that stratified points
 /// stay stratified. Refers to the map, which must outlive it.
 class EnvironmentLight {
  public:
   explicit EnvironmentLight(const EnvironmentMap& map)
-      : map_(&map), by_a_(map, {Weighting::A, kRec709}), by_b_(map, {Weighting::B, kRec709}) {}
+      : map_(&map),
+        by_a_(map, on_map({Weighting::A}, map)),
+        by_b_(map, on_map({Weighting::B}, map)) {}
 
   const EnvironmentMap& map() const { return *map_; }
   const GuideTable& sampler(Weighting weighting) const {

@@ -31,7 +31,7 @@ struct SamplerInfo {
   std::string_view source;  ///< paper or lecture
   std::string_view growth;  ///< steps of one sample on a map of S x T texels, up to a constant
   double (*steps)(Extent);  ///< the same as a function
-  LuminanceWeights grey;    ///< the grey value that the sampler declares
+  LuminanceWeights grey;    ///< the grey value that the sampler declares; Rec. 709: the map's own
   Lookup lookup = Lookup::nearest;  ///< the look-up whose density it declares
   /// Step of its sums of rows and columns, and of the random numbers that it reads; 0 if it
   /// searches no such sums.
@@ -44,6 +44,7 @@ struct SamplerInfo {
   /// The map must outlive the sampler. Throws InputError if it is black.
   AnySampler (*make)(const EnvironmentMap& map, Weighting weighting);
 
+  /// On a map it is on_map() of this.
   TargetDensity target(Weighting weighting) const { return {weighting, grey, lookup}; }
 };
 

@@ -48,7 +48,7 @@ class PixelEstimator {
     for (std::uint64_t done = 0; done < count; done += LightBatch::kCapacity) {
       const auto part = std::min<std::uint64_t>(count - done, LightBatch::kCapacity);
       for (const Rgb estimate : batch_.estimate(*lighting_, *point_, stream_, next_, part)) {
-        const double grey = luminance(estimate);
+        const double grey = luminance(estimate, lighting_->light->map().weights);
         sum += grey;
         single_.add(grey);
       }

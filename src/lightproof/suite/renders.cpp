@@ -15,16 +15,17 @@ constexpr std::string_view kMaterial = "phong";
 
 /// Signed errors of the grey values at the receiver's pixels over the mean of the reference there;
 /// and their root mean square. Pixels beside the receiver show the map and have no error.
-void compare(RenderRecord& record, std::span<const Pixel> pixels) {
+void compare(RenderRecord& record, std::span<const Pixel> pixels, LuminanceWeights weights) {
+  const auto grey = [&](const Grid<Rgb>& picture, const Pixel& pixel) {
+    return luminance(picture(pixel.x, pixel.y), weights);
+  };
   const double count = static_cast<double>(pixels.size());
   double mean = 0.0;
-  for (const Pixel& pixel : pixels) mean += luminance(record.reference(pixel.x, pixel.y)) / count;
+  for (const Pixel& pixel : pixels) mean += grey(record.reference, pixel) / count;
   record.error = Grid<double>(record.picture.extent());
   double squared = 0.0;
   for (const Pixel& pixel : pixels) {
-    const double error = (luminance(record.picture(pixel.x, pixel.y)) -
-                          luminance(record.reference(pixel.x, pixel.y))) /
-                         mean;
+    const double error = (grey(record.picture, pixel) - grey(record.reference, pixel)) / mean;
     record.error(pixel.x, pixel.y) = error;
     squared += error * error;
   }
@@ -64,7 +65,7 @@ std::vector<RenderRecord> study_renders(std::span<const EnvironmentLight> lights
       record.samples = options.samples;
       record.reference = reference;
       record.reference_samples = options.reference_samples;
-      compare(record, pixels);
+      compare(record, pixels, light.map().weights);
       records.push_back(std::move(record));
     }
     if (progress) {

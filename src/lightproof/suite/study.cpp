@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 
 #include "lightproof/core/machine.h"
 #include "lightproof/core/random.h"
+#include "lightproof/image/map_figures.h"
 #include "lightproof/samplers/binary_search.h"
 #include "lightproof/suite/direction_sampler.h"
 #include "lightproof/suite/growth.h"
-#include "lightproof/warp/lat_long.h"
 
 namespace lightproof {
 namespace {
@@ -23,23 +22,11 @@ MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed) {
   MapRecord record;
   record.map = map;
   record.source = map.name;
-  double first = 0.0;
-  double second = 0.0;
-  double peak = 0.0;
-  const Extent extent = map.radiance.extent();
-  for (int y = 0; y < extent.height; ++y) {
-    const double solid_angle = texel_solid_angle(extent, y);
-    for (const Rgb rgb : map.radiance.row(y)) {
-      const double grey = luminance(rgb);
-      first += grey * solid_angle;
-      second += grey * grey * solid_angle;
-      peak = std::max(peak, grey);
-    }
-  }
-  record.mean_luminance = first / kSphere;
-  record.peak_ratio = peak / record.mean_luminance;
-  record.effective_fraction = first * first / (kSphere * second);
-  const BinarySearch sampler(map, {Weighting::B, kRec709});
+  const MapFigures figures = figures_of(map);
+  record.mean_luminance = figures.mean_luminance;
+  record.peak_ratio = figures.peak_luminance / figures.mean_luminance;
+  record.effective_fraction = figures.effective_fraction;
+  const BinarySearch sampler(map, on_map({Weighting::B}, map));
   const RandomStream stream("drawn/" + map.name, seed);
   for (std::uint64_t i = 0; i < kDrawnPoints; ++i) {
     record.drawn.push_back(sampler.sample(stream.point(i)).at);

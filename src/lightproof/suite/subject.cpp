@@ -50,12 +50,14 @@ std::function<BoundSampler()> linear_scan_of(const EnvironmentMap& map, TargetDe
   };
 }
 
-/// The target densities of the subjects, each once.
-std::vector<TargetDensity> targets_of(std::span<const Subject> subjects) {
+/// The target densities of the subjects on a map, each once.
+std::vector<TargetDensity> targets_of(std::span<const Subject> subjects,
+                                      const EnvironmentMap& map) {
   std::vector<TargetDensity> targets;
   for (const Subject& subject : subjects) {
-    if (std::find(targets.begin(), targets.end(), subject.target) == targets.end()) {
-      targets.push_back(subject.target);
+    const TargetDensity target = on_map(subject.target, map);
+    if (std::find(targets.begin(), targets.end(), target) == targets.end()) {
+      targets.push_back(target);
     }
   }
   return targets;
@@ -91,7 +93,7 @@ std::vector<Problem> problems_of(std::span<const EnvironmentMap> maps,
                                  std::span<const Subject> subjects) {
   std::vector<Problem> problems;
   for (const EnvironmentMap& map : maps) {
-    for (const TargetDensity target : targets_of(subjects)) {
+    for (const TargetDensity target : targets_of(subjects, map)) {
       Problem problem{
           map.name,
           to_string(target.weighting),
@@ -104,7 +106,7 @@ std::vector<Problem> problems_of(std::span<const EnvironmentMap> maps,
           },
           {}};
       for (const Subject& subject : subjects) {
-        if (!(subject.target == target)) continue;
+        if (!(on_map(subject.target, map) == target)) continue;
         problem.candidates.push_back(candidate_of(subject, map));
         if (subject.inverts_shared_cdf) problem.twin = linear_scan_of(map, target);
       }

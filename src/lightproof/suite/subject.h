@@ -13,7 +13,7 @@ namespace lightproof {
 
 struct Subject {
   std::string name;
-  TargetDensity target;  ///< what it claims to draw
+  TargetDensity target;  ///< what it claims to draw; on a map, on_map() of it
   bool known_defects = false;
   /// Claims to return the texel of LinearScan for every point.
   bool inverts_shared_cdf = false;

@@ -1,0 +1,73 @@
+// lightproof info: what a file holds, how it would be read, what is wrong with it.
+#include <fmt/format.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+
+#include "common.h"
+#include "lightproof/core/error.h"
+#include "lightproof/core/parallel.h"
+#include "lightproof/image/map_description.h"
+#include "lightproof/image/synthetic.h"
+
+namespace lightproof::cli {
+namespace {
+
+struct Options : CommonOptions {
+  bool json = false;
+};
+
+MapDescription describe_input(const std::string& input, Extent size, const ReadOptions& read) {
+  if (input.empty()) throw InputError("a file's name is empty");
+  EnvironmentMap map =
+      is_synthetic(input) ? make_synthetic_map(input, size) : inspect_environment_map(input, read);
+  if (is_synthetic(input)) map.weights = weights_of(read.luminance);
+  map.source = input;
+  return describe(map);
+}
+
+/// One object for one file, an array for several, whichever of them could be read.
+void print_json(const std::vector<MapDescription>& maps, std::size_t files) {
+  if (files > 1) {
+    fmt::print("{}", json_of(maps));
+  } else if (!maps.empty()) {
+    fmt::print("{}", json_of(maps.front()));
+  }
+}
+
+int run(const Options& options) {
+  const ThreadLimit threads(options.threads);
+  const Extent size = parse_size(options.size);
+  const ReadOptions read = read_options(options);
+  int exit_code = kPassed;
+  std::vector<MapDescription> maps;
+  for (const std::string& input : options.maps) {
+    try {
+      maps.push_back(describe_input(input, size, read));
+      if (!options.json) fmt::print("{}", text_of(maps.back()));
+    } catch (const InputError& error) {
+      fmt::print(stderr, "lightproof: {}\n", error.what());
+      exit_code = kBadInput;
+    }
+  }
+  if (options.json) print_json(maps, options.maps.size());
+  return exit_code;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "info", "What a file holds, how it would be read, and what is wrong with it");
+  add_common_options(*command, *options);
+  command->get_option("MAP")->required();
+  command->add_flag("--json", options->json, "as JSON: an object, or an array for several files");
+  command->footer(
+      "Files that other commands refuse for their values or shape are described, and their faults\n"
+      "listed. Exit codes: 0 all files were read, 2 usage, or some were not.");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace lightproof::cli

@@ -1,0 +1,29 @@
+// Options that say what of a file becomes a map, and how.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+
+#include "lightproof/image/reader.h"
+
+namespace lightproof::cli {
+
+struct InputOptions {
+  std::string repair_by;  ///< "zero", "clamp"; empty: faulty files are refused
+  std::string channels;   ///< "R,G,B" or one name
+  std::string layer;
+  std::optional<int> part = {};
+  std::string luminance = "rec709";
+};
+
+/// Adds --repair, --channels, --layer, --part and --luminance.
+void add_input_options(CLI::App& command, InputOptions& options);
+
+/// Throws InputError if --channels names neither one channel nor three.
+void apply(const InputOptions& options, ReadOptions& read);
+
+/// Those that differ from the defaults as words of a command line, each option after a space.
+std::string words_of(const InputOptions& options);
+
+}  // namespace lightproof::cli

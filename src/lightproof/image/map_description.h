@@ -1,0 +1,41 @@
+// A map in words and numbers, without its pixels: what `lightproof info` prints.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightproof/image/environment_map.h"
+#include "lightproof/image/map_figures.h"
+#include "lightproof/image/reproject.h"
+
+namespace lightproof {
+
+struct MapDescription {
+  std::string name;
+  std::string file;  ///< as it was given: a path, or the name of a built-in map
+  MapOrigin origin;
+  Extent texels;  ///< of the map that the picture became
+  LuminanceWeights weights = kRec709;
+  MapFigures figures;
+  PicturePlace peak;         ///< in the file
+  Direction peak_direction;  ///< world, z up
+  std::vector<std::string> notes;
+};
+
+MapDescription describe(const EnvironmentMap& map);
+
+/// One JSON object. Keys: file, format, width and height (in pixels of the file), preset,
+/// preset_reason, parts, part, channels, layers, read, left_out, orientation, primaries, exposure,
+/// luminance_weights, mean_luminance (over solid angle), peak_luminance, peak_texel (column and row
+/// of the file), peak_direction, effective_fraction (null if black), faults: [kind, count, column,
+/// row, message], refused (null, or why other commands refuse the file), notes. Text that is not
+/// UTF-8 has its bad bytes replaced by U+FFFD.
+std::string json_of(const MapDescription& description);
+
+/// An array of such objects.
+std::string json_of(const std::vector<MapDescription>& descriptions);
+
+/// Some lines for a terminal, the file's name first.
+std::string text_of(const MapDescription& description);
+
+}  // namespace lightproof

@@ -1,0 +1,34 @@
+#include "lightproof/image/map_figures.h"
+
+#include "lightproof/core/measure.h"
+#include "lightproof/warp/lat_long.h"
+
+namespace lightproof {
+
+MapFigures figures_of(const EnvironmentMap& map) {
+  MapFigures figures;
+  double first = 0.0;
+  double second = 0.0;
+  const Extent extent = map.radiance.extent();
+  for (int y = 0; y < extent.height; ++y) {
+    const double solid_angle = texel_solid_angle(extent, y);
+    for (int x = 0; x < extent.width; ++x) {
+      const double grey = luminance(map.radiance(x, y), map.weights);
+      first += grey * solid_angle;
+      second += grey * grey * solid_angle;
+      if (grey <= figures.peak_luminance) continue;
+      figures.peak_luminance = grey;
+      figures.peak_column = x;
+      figures.peak_row = y;
+    }
+  }
+  figures.mean_luminance = first / kSphere;
+  figures.effective_fraction = first * first / (kSphere * second);
+  return figures;
+}
+
+Direction direction_of_texel(Extent map, int column, int row) {
+  return direction_from_square({(column + 0.5) / map.width, (row + 0.5) / map.height});
+}
+
+}  // namespace lightproof

@@ -1,0 +1,25 @@
+// A map in a few numbers.
+#pragma once
+
+#include "lightproof/core/direction.h"
+#include "lightproof/image/environment_map.h"
+
+namespace lightproof {
+
+/// All in luminance by the map's own weights.
+struct MapFigures {
+  double mean_luminance = 0.0;  ///< over the sphere
+  double peak_luminance = 0.0;
+  int peak_column = 0;  ///< of the first texel, in the map's own order, that is as bright
+  int peak_row = 0;
+  /// G^2 / (4 pi Q), with G and Q the integrals of luminance and of its square over the sphere: the
+  /// share of the sphere that the light fills. NaN for a black map.
+  double effective_fraction = 0.0;
+};
+
+MapFigures figures_of(const EnvironmentMap& map);
+
+/// World direction of a texel's centre, z up.
+Direction direction_of_texel(Extent map, int column, int row);
+
+}  // namespace lightproof

@@ -1,0 +1,41 @@
+// Where a map comes from: the picture, how it was read, what was wrong with it.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightproof/image/picture_header.h"
+#include "lightproof/warp/preset.h"
+
+namespace lightproof {
+
+/// Something for which a file is refused unless an option allows it.
+struct MapFault {
+  std::string kind;       ///< "NaN", "infinite values", "negative values", "aspect", "black"
+  std::string message;    ///< as the refusal says it
+  std::size_t count = 0;  ///< of texels; 0 where the picture as a whole is at fault
+  /// Of the first such texel, counted from 0 at the top left of the picture.
+  int column = 0;
+  int row = 0;
+};
+
+/// Of a built-in map, whose rows and columns follow `z-up`, unless a file says otherwise.
+struct MapOrigin {
+  PictureHeader picture = {.format = "built-in",
+                           .extent = {},
+                           .parts = {""},
+                           .channels = {"R", "G", "B"},
+                           .layers = {},
+                           .read = {"R", "G", "B"},
+                           .orientation = {}};
+  Preset preset = Preset::z_up;
+  std::string why_preset = "built-in maps follow it";
+  /// Found in the file, repaired or not.
+  std::vector<MapFault> faults = {};
+  /// The message with which read_environment_map() refuses the file; empty if it does not.
+  std::string refusal = {};
+};
+
+}  // namespace lightproof

@@ -1,0 +1,123 @@
+// lightproof info: what it prints of good files, of bad ones, and of both together.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/cli/program.h"
+
+namespace lightproof::test {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+class Info : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  static Finished info(Words words) {
+    words.insert(words.begin(), "info");
+    return lightproof(words);
+  }
+  static json info_json(Words words) {
+    words.emplace_back("--json");
+    return json::parse(info(words).out);
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(Info, GivesTheKeysThatOtherProgramsReadAndTheFiguresOfTheMap) {
+  write_map(path("a.exr"), {8, 4},
+            [](Grid<Rgb>& picture) { std::ranges::fill(picture.values(), Rgb(2.0F)); });
+  const json found = info_json({path("a.exr")});
+  for (const char* key :
+       {"file", "format", "width", "height", "preset", "channels", "layers", "mean_luminance",
+        "peak_luminance", "peak_direction", "effective_fraction", "faults", "notes"}) {
+    EXPECT_TRUE(found.contains(key)) << key;
+  }
+  EXPECT_EQ(found.at("file"), path("a.exr"));
+  EXPECT_NEAR(found.at("mean_luminance").get<double>(), 2.0, 1e-6);  // Rec. 709 sums to 1
+  EXPECT_NEAR(found.at("effective_fraction").get<double>(), 1.0, 1e-12);
+  EXPECT_EQ(found.at("peak_direction").size(), 3U);
+}
+
+TEST_F(Info, GivesAnArrayForSeveralFiles) {
+  write_map(path("a.exr"));
+  const json found = info_json({path("a.exr"), "sun-sky"});
+  ASSERT_TRUE(found.is_array());
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[1].at("file"), "sun-sky");
+}
+
+TEST_F(Info, DescribesWhatTheGateRefuses) {
+  write_map(path("bad.exr"), {9, 4},
+            [](Grid<Rgb>& picture) { picture(5, 2).g = std::numeric_limits<float>::quiet_NaN(); });
+  EXPECT_EQ(quick_gate({path("bad.exr")}).exit_code, 2);
+  const Finished text = info({path("bad.exr")});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(text.out, AllOf(StartsWith(path("bad.exr") + "\n"), HasSubstr("column 5, row 2"),
+                              HasSubstr("9 x 4")));
+  EXPECT_EQ(info_json({path("bad.exr")}).at("faults").size(), 2U);
+}
+
+TEST_F(Info, GoesOnAfterAFileThatCannotBeRead) {
+  write_map(path("good.exr"));
+  for (const Words& words : {Words{path("none.exr"), path("good.exr")},
+                             Words{path("none.exr"), path("good.exr"), "--json"}}) {
+    const Finished both = info(words);
+    EXPECT_EQ(both.exit_code, 2);
+    EXPECT_THAT(both.err, AllOf(HasSubstr("none.exr"), HasSubstr("no such file")));
+    EXPECT_THAT(both.out, AllOf(HasSubstr("good.exr"), Not(HasSubstr("none.exr"))));
+  }
+  EXPECT_THAT(info({path("none.exr"), "--json"}).out, IsEmpty());
+}
+
+TEST_F(Info, NeedsAFile) { EXPECT_EQ(info({}).exit_code, 2); }
+
+TEST_F(Info, ReadsWhatTheOptionsChoose) {
+  write_exr_file(path("a.exr"), numbered_picture({8, 4}),
+                 {.channels = {"sky.R", "sky.G", "sky.B"}});
+  EXPECT_EQ(info({path("a.exr")}).exit_code, 2);
+  EXPECT_EQ(info({path("a.exr"), "--part", "1"}).exit_code, 2);
+  EXPECT_THAT(Words(info_json({path("a.exr"), "--layer", "sky"}).at("read")),
+              ElementsAre("sky.R", "sky.G", "sky.B"));
+  const json grey = info_json({path("a.exr"), "--channels", "sky.G", "--part", "0"});
+  EXPECT_THAT(Words(grey.at("read")), ElementsAre("sky.G"));
+  EXPECT_NEAR(grey.at("peak_luminance").get<double>(), 32.25, 1e-12);
+}
+
+// The least that a process of this program takes, with all its libraries, and no more than a
+// hundred megabytes beside: the picture that the header claims would take 1.6 GB.
+TEST_F(Info, TakesNoMemoryForWhatAHeaderOnlyClaims) {
+  const long usual = info({"constant", "--size", "8x4"}).peak_kilobytes;
+  const auto expect_small = [&](const std::string& name, const std::string& bytes) {
+    write_bytes(path(name), bytes);
+    const Finished refused = info({path(name)});
+    EXPECT_EQ(refused.exit_code, 2) << name;
+    EXPECT_THAT(refused.err, HasSubstr(name));
+    EXPECT_LT(refused.peak_kilobytes, usual + 100'000) << name << "\n" << refused.err;
+  };
+  const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8192 +X 16384\n";
+  expect_small("short.hdr", header + std::string(1000, '\x80'));
+  expect_small("longer.hdr", header + std::string(200'000, '\x80'));
+
+  write_map(path("small.exr"), {64, 32});
+  std::string exr = bytes_of(path("small.exr"));
+  for (const char* window : {"dataWindow", "displayWindow"}) {
+    // Name, type and length, then the corners: 0, 0 and the last column and row.
+    const std::size_t corner = exr.find(window) + std::string(window).size() + 1 + 6 + 4 + 8;
+    exr.replace(corner, 8, std::string("\xff\x3f\0\0\xff\x1f\0\0", 8));
+  }
+  expect_small("claim.exr", exr);
+}
+
+}  // namespace
+}  // namespace lightproof::test
