@@ -42,14 +42,21 @@ Command command_of(const CLI::App& app, const CommandLine& line) {
   return command;
 }
 
+/// "lightproof: there is no command 'gat'; did you mean 'gate'? --help lists them"
+std::string complaint(const Command& command, std::string_view kind, const std::string& typed,
+                      const std::vector<std::string>& known) {
+  const std::string reason = no_such_name(kind, typed, known);
+  return fmt::format("{}: {}{} --help lists them", command.name, reason,
+                     reason.ends_with('?') ? "" : ";");
+}
+
 std::optional<std::string> mistyped_command(const Command& command, const CommandLine& line) {
   std::vector<std::string> known;
   for (const CLI::App* below : commands_of(*command.app)) known.push_back(below->get_name());
   if (known.empty() || command.next >= line.size()) return std::nullopt;
   const std::string& typed = line[command.next];
   if (typed.starts_with('-')) return std::nullopt;
-  return fmt::format("{}: {}; --help lists them", command.name,
-                     no_such_name("command", typed, known));
+  return complaint(command, "command", typed, known);
 }
 
 /// Hidden ones are not suggested.
@@ -66,8 +73,7 @@ std::optional<std::string> mistyped_option(const CLI::App& app, const Command& c
   for (const std::string& word : app.remaining(true)) {
     if (!word.starts_with('-') || word == "-" || word == "--") continue;
     const std::string typed = word.substr(0, word.find('='));
-    return fmt::format("{}: {}; --help lists them", command.name,
-                       no_such_name("option", typed, option_names(*command.app)));
+    return complaint(command, "option", typed, option_names(*command.app));
   }
   return std::nullopt;
 }

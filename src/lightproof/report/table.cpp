@@ -49,9 +49,14 @@ std::string summary_lines(const GateResult& gate, Colour colour) {
 
 /// "statistic 1031, 1023 degrees of freedom, log10 p -0.37, …": what the test has.
 std::string figures_of(const TestRecord& test) {
-  std::string text = "statistic " + significant(test.statistic, 6);
-  if (test.dof > 0.0) text += fmt::format(", {} degrees of freedom", significant(test.dof, 6));
-  text += test.log10_p ? ", log10 p " + significant(*test.log10_p) : std::string(", exact check");
+  std::string text;
+  if (test.log10_p) {
+    text += fmt::format("statistic {}, ", significant(test.statistic, 6));
+    if (test.dof > 0.0) text += fmt::format("{} degrees of freedom, ", significant(test.dof, 6));
+    text += fmt::format("log10 p {}", significant(*test.log10_p));
+  } else {
+    text += "exact check";
+  }
   text += ", effect " + effect_text(test);
   if (test.detectable_effect) text += ", detectable " + detectable_text(test);
   return text + fmt::format(", {} samples", with_thousands(test.samples));
