@@ -8,7 +8,7 @@ namespace lightproof::test {
 namespace {
 
 std::string check(std::vector<std::string> arguments) {
-  std::vector<std::string> words = {"python3", "-W", "ignore", LIGHTPROOF_SCHEMA_CHECK};
+  std::vector<std::string> words = {LIGHTPROOF_PYTHON, "-W", "ignore", LIGHTPROOF_SCHEMA_CHECK};
   words.insert(words.end(), arguments.begin(), arguments.end());
   const Finished finished = run({.words = words});
   if (finished.exit_code == 0) return "";

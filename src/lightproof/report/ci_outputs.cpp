@@ -66,7 +66,7 @@ std::string junit_case(const GateResult& gate, const TestRecord& test, bool coun
   };
   if (test.log10_p) {
     property("p", p_text(*test.log10_p));
-    property("log10_p", significant(*test.log10_p, 6));
+    property("log10_p", fmt::format("{:.6g}", *test.log10_p));
   }
   property("effect", effect_text(test));
   if (test.detectable_effect) property("detectable", detectable_text(test));
