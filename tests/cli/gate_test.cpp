@@ -328,7 +328,7 @@ TEST_P(GateReplay, ReproducesTheSameBits) {
   const json all = json_of(folder / "whole.json");
   std::size_t replayed = 0;
   for (const std::string& file : names_in(rejected)) {
-    if (!file.ends_with(".json")) continue;
+    if (!file.ends_with(".json") || file == "manifest.json") continue;
     const json rejection = json_of(rejected / file);
     const std::string replay = rejection.at("replay");
     const std::string words = replay.substr(std::string_view("lightproof ").size());
