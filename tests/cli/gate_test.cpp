@@ -249,11 +249,12 @@ TEST(GateRejections, AreWrittenAsFiles) {
 TEST(GateRejections, ReplaceThoseOfAnEarlierRunIfForced) {
   const TemporaryFolder folder;
   const auto gate = [&](const Words& more) {
-    Words words = {"sun-sky", "--size", "128x64", "-q", "--rejections", "rejected", "--sampler"};
+    Words words = {"gate",  "sun-sky", "--size",       "128x64",   "-n",
+                   "65536", "-q",      "--rejections", "rejected", "--sampler"};
     words.insert(words.end(), more.begin(), more.end());
-    return quick_gate(words, folder / "");
+    return lightproof(words, folder / "");
   };
-  EXPECT_EQ(gate({"squared", "-n", "65536"}).exit_code, 1);
+  EXPECT_EQ(gate({"squared"}).exit_code, 1);
   write_bytes(folder / "rejected/notes.txt", "mine");
   const Finished refused = gate({"alias"});
   EXPECT_EQ(refused.exit_code, 2);

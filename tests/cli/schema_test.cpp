@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(
     Runs, GateSchema,
     testing::Values(Words{"constant"}, Words{},
                     Words{"black-first-row", "--with-published", "-n", "65536"},
-                    Words{"sun-sky", "--sampler", "squared", "--size", "64x32", "-n", "65536"},
+                    Words{"sun-sky", "--sampler", "squared", "-n", "65536"},
                     Words{"sun-sky", "--sampler", "squared", "--sequential"},
                     Words{"cold.exr", "--repair", "--preset", "mitsuba", "--sampler", "alias"}));
 
