@@ -17,6 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
+using testing::StartsWith;
 
 const Words kSound = {"gate", "constant", "--size", "64x32", "-n", "65536"};
 
@@ -58,12 +59,28 @@ TEST(Gate, RejectsThePublishedScanWhereTheFirstRowIsBlack) {
   EXPECT_TRUE(has_rejected_check_at_origin(results)) << results.dump(1);
 }
 
-TEST(Gate, ShowsKnownDefectsButPassesWithoutThem) {
+TEST(Gate, LooksLikeAPassWhereItPasses) {
   const TemporaryFolder folder;
   const Finished gate =
       gate_into(folder / "g.json", {"gate", "black-first-row", "--size", "64x32", "-n", "65536"});
   EXPECT_EQ(gate.exit_code, 0) << gate.out;
-  EXPECT_THAT(gate.out, AllOf(HasSubstr("linear_scan_published"), HasSubstr("reject")));
+  EXPECT_THAT(gate.out, AllOf(Not(HasSubstr("published")), Not(HasSubstr("\u2717")),
+                              Not(HasSubstr("Rejected tests")), Not(HasSubstr("Diagnosis"))));
+  const json results = json_of(folder / "g.json");
+  EXPECT_TRUE(results.at("rejections").empty());
+  EXPECT_TRUE(results.at("known_defects").empty());
+}
+
+TEST(Gate, ShowsKnownDefectsApartIfToldTo) {
+  const TemporaryFolder folder;
+  const Finished gate = gate_into(folder / "g.json", {"gate", "black-first-row", "--size", "64x32",
+                                                      "-n", "65536", "--with-published"});
+  EXPECT_EQ(gate.exit_code, 0) << gate.out;
+  const std::size_t section = gate.out.find("Kept as published, with known defects");
+  ASSERT_NE(section, std::string::npos) << gate.out;
+  EXPECT_GT(gate.out.find("\u2717"), section) << gate.out;
+  EXPECT_TRUE(json_of(folder / "g.json").at("rejections").empty());
+  EXPECT_FALSE(json_of(folder / "g.json").at("known_defects").empty());
   const json results = json_of(folder / "g.json");
   EXPECT_EQ(results.at("outcome"), "accept");
   for (const json& test : results.at("tests")) {
@@ -126,7 +143,8 @@ TEST(GateJson, IsTheSameForAnyNumberOfThreads) {
   for (const char* threads : {"1", "2", "7"}) {
     words.back() = threads;
     EXPECT_EQ(gate_into(folder / "g.json", words).exit_code, 0);
-    texts.push_back(bytes_of(folder / "g.json"));
+    const std::string text = bytes_of(folder / "g.json");
+    texts.push_back(text.substr(text.find("\"maps\"")));  // before it stands the command
   }
   EXPECT_EQ(texts[0], texts[1]);
   EXPECT_EQ(texts[0], texts[2]);
@@ -134,15 +152,20 @@ TEST(GateJson, IsTheSameForAnyNumberOfThreads) {
 
 TEST(GateJson, FollowsTheSeed) {
   const Words words = {"constant", "--sampler", "binary_search", "--seed"};
+  const auto results = [](const Words& all) {
+    json gate = gate_results(all);
+    gate.erase("command");
+    return gate;
+  };
   const auto with_seed = [&](const char* seed) {
     Words all = words;
     all.emplace_back(seed);
-    return gate_results(all);
+    return results(all);
   };
   const json one = with_seed("1");
   json two = with_seed("2");
   EXPECT_EQ(one, with_seed("1"));
-  EXPECT_EQ(one, gate_results({"constant", "--sampler", "binary_search"}));
+  EXPECT_EQ(one, results({"constant", "--sampler", "binary_search"}));
   EXPECT_EQ(two.at("seed"), 2);
   EXPECT_NE(one.at("tests"), two.at("tests"));
 }
@@ -175,6 +198,16 @@ TEST(GateOptions, ReadSamplesAsDecimal) {
   EXPECT_EQ(gate_results({"constant", "-n", "02048"}).at("samples"), 2048);
 }
 
+TEST(GateOptions, ReadSamplesAsPeopleWriteThem) {
+  const std::pair<const char*, int> numbers[] = {
+      {"2^11", 2048}, {"2e3", 2000},   {"2.5e3", 2500},   {"2k", 2000},
+      {"1.5K", 1500}, {"1e+4", 10000}, {"20.50e2", 2050}, {"0.002M", 2000}};
+  for (const auto& [text, number] : numbers) {
+    EXPECT_EQ(gate_results({"constant", "--sampler", "alias", "-n", text}).at("samples"), number)
+        << text;
+  }
+}
+
 TEST(GateOptions, RefuseANegativeSeed) {
   const Finished gate = quick_gate({"constant", "--seed", "-1"});
   EXPECT_EQ(gate.exit_code, 2);
@@ -200,28 +233,76 @@ TEST(GateRejections, AreWrittenAsFiles) {
                                     "-n", "65536", "-q", "--rejections", target});
   EXPECT_EQ(gate.exit_code, 1);
   EXPECT_THAT(names_in(folder / "rejected"),
-              ElementsAre("squared-A-sun-sky-residual.exr", "squared-A-sun-sky-residual.png",
-                          "squared-A-sun-sky.json", "squared-B-sun-sky-residual.exr",
-                          "squared-B-sun-sky-residual.png", "squared-B-sun-sky.json"));
+              ElementsAre("manifest.json", "squared-A-sun-sky-residual.exr",
+                          "squared-A-sun-sky-residual.png", "squared-A-sun-sky.json",
+                          "squared-B-sun-sky-residual.exr", "squared-B-sun-sky-residual.png",
+                          "squared-B-sun-sky.json"));
   const json rejection = json_of(folder / "rejected" / "squared-B-sun-sky.json");
   EXPECT_EQ(rejection.at("looks_like"), "squared");
   EXPECT_EQ(rejection.at("worst_bins").size(), 20U);
-  EXPECT_EQ(rejection.at("row_divergence").size(), 64U);
+  EXPECT_EQ(rejection.at("cumulative_row_divergence").size(), 64U);
   const std::string replay = rejection.at("replay");
   EXPECT_THAT(replay, AllOf(HasSubstr("--sampler squared"), HasSubstr("--size 128x64"),
                             HasSubstr("--samples 65536"), HasSubstr("--seed 1")));
 }
 
-TEST(Gate, LeavesOutKnownDefectsIfToldTo) {
-  const json gate = gate_results({"constant", "--sound-only"});
+TEST(GateRejections, ReplaceThoseOfAnEarlierRunIfForced) {
+  const TemporaryFolder folder;
+  const auto gate = [&](const Words& more) {
+    Words words = {"gate",  "sun-sky", "--size",       "128x64",   "-n",
+                   "65536", "-q",      "--rejections", "rejected", "--sampler"};
+    words.insert(words.end(), more.begin(), more.end());
+    return lightproof(words, folder / "");
+  };
+  EXPECT_EQ(gate({"squared"}).exit_code, 1);
+  write_bytes(folder / "rejected/notes.txt", "mine");
+  const Finished refused = gate({"alias"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err,
+              AllOf(HasSubstr("rejected"), HasSubstr("--force"), HasSubstr("This would go on: ")));
+  EXPECT_GT(names_in(folder / "rejected").size(), 2U);
+  EXPECT_NE(gate({"alias", "--force"}).exit_code, 2);
+  EXPECT_THAT(names_in(folder / "rejected"), ElementsAre("manifest.json", "notes.txt"));
+}
+
+TEST(GateGithub, PrintsOneAnnotationForEachDefectEvenIfQuiet) {
+  const Finished gate = lightproof({"gate", "sun-sky", "--size", "128x64", "--sampler", "squared",
+                                    "-n", "65536", "-q", "--github"});
+  EXPECT_EQ(gate.exit_code, 1);
+  EXPECT_EQ(std::count(gate.out.begin(), gate.out.end(), '\n'), 2) << gate.out;
+  EXPECT_THAT(gate.out, AllOf(StartsWith("::error title=lightproof%3A squared "),
+                              HasSubstr("looks like: "), HasSubstr("Again: lightproof gate ")));
+}
+
+TEST(Gate, LeavesOutKnownDefects) {
   Words sound;
   for (const SamplerInfo& sampler : samplers()) {
     if (!sampler.known_defects) sound.emplace_back(sampler.name);
   }
-  EXPECT_EQ(values_of(gate, "sampler"), sound);
-  const Finished both = lightproof({"gate", "--sound-only", "--sampler", "linear_scan_published"});
+  EXPECT_EQ(values_of(gate_results({"constant"}), "sampler"), sound);
+  EXPECT_EQ(values_of(gate_results({"constant", "--sound-only"}), "sampler"), sound)
+      << "scripts of earlier versions go on";
+  const Finished both =
+      lightproof({"gate", "--with-published", "--sampler", "linear_scan_published"});
   EXPECT_EQ(both.exit_code, 2);
-  EXPECT_THAT(both.err, AllOf(HasSubstr("--sound-only"), HasSubstr("--sampler")));
+  EXPECT_THAT(both.err, AllOf(HasSubstr("--with-published"), HasSubstr("--sampler")));
+}
+
+TEST(GateSamplers, OfDirectionsTakeNoMap) {
+  const Finished gate = quick_gate({"sun-sky", "--sampler", "cosine_hemisphere"});
+  EXPECT_EQ(gate.exit_code, 2) << gate.out;
+  EXPECT_THAT(gate.err, AllOf(HasSubstr("cosine_hemisphere"), HasSubstr("needs no map")));
+  const Words both = {"sun-sky", "--sampler", "cosine_hemisphere", "--sampler", "alias"};
+  const Finished mixed = quick_gate(both);
+  EXPECT_NE(mixed.exit_code, 2) << mixed.out;
+  EXPECT_THAT(mixed.err, HasSubstr("cosine_hemisphere draws directions and needs no map"));
+  EXPECT_THAT(values_of(gate_results(both), "map"), ElementsAre("sun-sky", "directions"));
+}
+
+TEST(GateSamplers, OfDirectionsHaveNoWeighting) {
+  const Finished gate = quick_gate({"--sampler", "cosine_hemisphere", "--weighting", "B"});
+  EXPECT_EQ(gate.exit_code, 2) << gate.out;
+  EXPECT_THAT(gate.err, AllOf(HasSubstr("--weighting"), HasSubstr("leave the option out")));
 }
 
 // The command that stands beside a rejection gives the same bits, out of a run over more samplers
@@ -248,7 +329,7 @@ TEST_P(GateReplay, ReproducesTheSameBits) {
   const json all = json_of(folder / "whole.json");
   std::size_t replayed = 0;
   for (const std::string& file : names_in(rejected)) {
-    if (!file.ends_with(".json")) continue;
+    if (!file.ends_with(".json") || file == "manifest.json") continue;
     const json rejection = json_of(rejected / file);
     const std::string replay = rejection.at("replay");
     const std::string words = replay.substr(std::string_view("lightproof ").size());

@@ -32,9 +32,10 @@ TEST_P(Help, NamesEveryOptionOnStdout) {
   for (const std::string& text : GetParam().mentioned) EXPECT_THAT(help.out, HasSubstr(text));
 }
 
-const Words kCommon = {"MAP",        "--preset",     "--size",  "--repair",   "--any-aspect",
-                       "--seed",     "-t,--threads", "--color", "-q,--quiet", "-n,--samples",
-                       "--channels", "--layer",      "--part",  "--luminance"};
+const Words kCommon = {"MAP",          "--preset",     "--size",       "--repair",
+                       "--any-aspect", "--seed",       "-t,--threads", "--color",
+                       "-q,--quiet",   "--channels",   "--layer",      "--part",
+                       "--luminance",  "-n,--samples", "--force",      "--progress"};
 
 Words with_common(Words words) {
   words.insert(words.end(), kCommon.begin(), kCommon.end());
@@ -46,9 +47,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         HelpCase{"",
                  {"study", "gate", "info", "history", "list", "--version", "Usage: lightproof"}},
-        HelpCase{"gate", with_common({"--sampler", "--weighting", "--level", "--json", "--junit",
-                                      "--markdown", "--github", "--sequential", "--rejections",
-                                      "Exit codes", "inconclusive"})},
+        HelpCase{"gate",
+                 with_common({"--sampler", "--weighting", "--level", "--json", "--junit",
+                              "--markdown", "--github", "--sequential", "--rejections",
+                              "--with-published", "Exit codes", "inconclusive", "powers of 1000"})},
         HelpCase{"study", with_common({"-o,--output", "--throughput", "--no-throughput",
                                        "--largest", "--no-self-test", "Exit codes"})},
         HelpCase{"info",
@@ -63,8 +65,9 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 TEST(UsageErrors, RefuseEmptyNamesOfFiles) {
-  for (const Words& words : {Words{"gate", "constant", "--json", ""}, Words{"study", "-o", ""},
-                             Words{"study", "--throughput", ""}}) {
+  for (const Words& words :
+       {Words{"gate", "constant", "--json", ""}, Words{"study", "-o", ""},
+        Words{"study", "--throughput", ""}, Words{"gate", "--rejections", ""}}) {
     const Finished finished = lightproof(words);
     EXPECT_EQ(finished.exit_code, 2);
     EXPECT_THAT(finished.err, HasSubstr("empty"));
@@ -107,6 +110,11 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{"TooFewSamples", {"gate", "-n", "1023"}, "--samples"},
         UsageCase{"TooManySamples", {"gate", "-n", "1099511627777"}, "--samples"},
         UsageCase{"NegativeSamples", {"gate", "-n", "-5"}, "--samples"},
+        UsageCase{"SamplesOfAFractionalPower", {"gate", "-n", "1e3.5"}, "--samples"},
+        UsageCase{"SamplesThatAreNotWhole", {"gate", "-n", "1.00005e4"}, "--samples"},
+        UsageCase{"SamplesInMilli", {"gate", "-n", "4m"}, "2^22"},
+        UsageCase{"TooManySamplesInPowers", {"gate", "-n", "2^64"}, "--samples"},
+        UsageCase{"TooManySamplesInTens", {"gate", "-n", "1e20"}, "--samples"},
         UsageCase{"FractionalSamples", {"gate", "-n", "2048.5"}, "--samples"},
         UsageCase{"LevelAndSamples", {"gate", "--level", "quick", "-n", "4194304"}, "--samples"},
         UsageCase{"UnknownLevel", {"gate", "--level", "slow"}, "nightly"},
@@ -171,11 +179,81 @@ TEST(SizeOfBuiltInMaps, IsCheckedEvenIfNoBuiltInMapUsesIt) {
   EXPECT_THAT(finished.err, HasSubstr("--size"));
 }
 
+struct Mistyped {
+  std::string name;
+  Words words;
+  std::string complaint;
+
+  friend void PrintTo(const Mistyped& m, std::ostream* out) { *out << m.name; }
+};
+
+class MistypedName : public testing::TestWithParam<Mistyped> {};
+
+TEST_P(MistypedName, IsAnsweredWithTheNearestOne) {
+  const Finished finished = lightproof(GetParam().words);
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.out, IsEmpty());
+  EXPECT_THAT(finished.err, AllOf(StartsWith("lightproof"), HasSubstr(GetParam().complaint)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, MistypedName,
+    testing::Values(
+        Mistyped{"Command", {"gat"}, "there is no command 'gat'; did you mean 'gate'?"},
+        Mistyped{
+            "CommandWithCapitals", {"List"}, "there is no command 'List'; did you mean 'list'?"},
+        Mistyped{"CommandOfHistory",
+                 {"history", "comapre", "a", "b"},
+                 "lightproof history: there is no command 'comapre'; did you mean 'compare'?"},
+        Mistyped{"Option",
+                 {"gate", "--smapler", "alias"},
+                 "lightproof gate: there is no option '--smapler'; did you mean '--sampler'?"},
+        Mistyped{"OptionWithValue",
+                 {"study", "--outptu=x"},
+                 "lightproof study: there is no option '--outptu'; did you mean '--output'?"},
+        Mistyped{"Map", {"gate", "sunsky"}, "no built-in map 'sunsky'; did you mean 'sun-sky'?"},
+        Mistyped{"Sampler",
+                 {"gate", "constant", "--sampler", "binary_serach"},
+                 "there is no sampler 'binary_serach'; did you mean 'binary_search'?"},
+        Mistyped{"SamplerOfDirections",
+                 {"gate", "--sampler", "cosine_hemispere"},
+                 "did you mean 'cosine_hemisphere'?"},
+        Mistyped{"Mutant",
+                 {"gate", "constant", "--sampler", "sine_at_edge"},
+                 "did you mean 'sine-at-edge'?"},
+        Mistyped{"Preset",
+                 {"gate", "constant", "--preset", "OpenExr"},
+                 "there is no preset 'OpenExr'; did you mean 'openexr'?"},
+        Mistyped{"Weighting",
+                 {"gate", "--weighting", "b"},
+                 "there is no weighting 'b'; did you mean 'B'?"},
+        Mistyped{"Level", {"gate", "--level", "ful"}, "did you mean 'full'?"},
+        Mistyped{"Registry", {"list", "sampler"}, "did you mean 'samplers'?"},
+        Mistyped{"Colour", {"gate", "--color", "allways"}, "did you mean 'always'?"}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(UnknownName, OfNothingNearIsAnsweredWithoutAGuess) {
+  EXPECT_THAT(lightproof({"prove"}).err, Not(HasSubstr("did you mean")));
+  EXPECT_THAT(quick_gate({"constant", "--preset", "maya"}).err, Not(HasSubstr("did you mean")));
+}
+
+TEST(UnknownName, CannotControlTheTerminal) {
+  for (const Words& words : {Words{"\x1b[2J"}, Words{"gate", "--\x1b[2J"}, Words{"gate", "\x1b[2J"},
+                             Words{"gate", "-n", "\x1b[2J"}, Words{"list", "\x1b[2J"}}) {
+    const Finished finished = lightproof(words);
+    EXPECT_EQ(finished.exit_code, 2);
+    EXPECT_THAT(finished.err, AllOf(HasSubstr("\\x1b[2J"), Not(HasSubstr("\x1b"))));
+  }
+}
+
 TEST(UnknownName, OfASamplerListsTheKnownOnes) {
   const Finished finished = lightproof({"gate", "constant", "--sampler", "walker"});
   EXPECT_EQ(finished.exit_code, 2);
-  EXPECT_THAT(finished.err, AllOf(HasSubstr("'walker'"), HasSubstr("linear_scan_published"),
-                                  HasSubstr("binary_search")));
+  EXPECT_THAT(
+      finished.err,
+      AllOf(HasSubstr("'walker'"), HasSubstr("samplers of maps: linear_scan_published, "),
+            HasSubstr("binary_search"), HasSubstr("of directions: "),
+            HasSubstr("cosine_hemisphere"), HasSubstr("mutants: "), HasSubstr("sine-at-edge")));
 }
 
 TEST(UnknownName, OfAPresetListsTheKnownOnes) {

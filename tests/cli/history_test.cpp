@@ -9,6 +9,7 @@
 
 #include "lightproof/history/store.h"
 #include "tests/cli/program.h"
+#include "tests/cli/schema.h"
 
 namespace lightproof::test {
 namespace {
@@ -151,6 +152,51 @@ TEST_F(HistoryCommand, ComparesWithExitCodes) {
   EXPECT_EQ(json_of(path("c.json")).at("outcome"), "regressed");
   EXPECT_THAT(bytes_of(path("c.md")), HasSubstr("| regressed | kernel/0 | ns |"));
   EXPECT_EQ(history({"compare", "head", "base"}).exit_code, 0) << "faster is no regression";
+}
+
+TEST_F(HistoryCommand, AnnotatesWhatIsSlowerEvenIfQuiet) {
+  add_session("first", 1.2, 0);
+  const Words compare = {"compare", "base", "head", "--github", "-q"};
+  EXPECT_EQ(history({"compare", "base", "base", "-q"}).exit_code, 2);
+  EXPECT_THAT(
+      history(compare).out,
+      AllOf(StartsWith("::warning title=lightproof%3A kernel/0::suspected: "), HasSubstr("+20")));
+  add_session("second", 1.2, 100);
+  const Finished regressed = history(compare);
+  EXPECT_EQ(regressed.exit_code, 1);
+  EXPECT_THAT(regressed.out, StartsWith("::error title=lightproof%3A kernel/0::regressed: "));
+  EXPECT_EQ(std::count(regressed.out.begin(), regressed.out.end(), '\n'), 1) << regressed.out;
+}
+
+TEST_F(HistoryCommand, SaysWhatSuspectedMeans) {
+  EXPECT_THAT(
+      lightproof({"history", "compare", "--help"}).out,
+      AllOf(HasSubstr("suspected"), HasSubstr("0 nothing regressed"), HasSubstr("--github")));
+}
+
+TEST_F(HistoryCommand, WritesToTheStandardOutput) {
+  add_session("first", 1.0, 0);
+  const Finished compared = history({"compare", "base", "head", "--json", "-"});
+  EXPECT_EQ(json::parse(compared.out).at("outcome"), "passed");
+  EXPECT_THAT(compared.err, HasSubstr("kernel/0"));
+  EXPECT_THAT(history({"trend", "-o", "-"}).out, StartsWith("<!doctype html>"));
+  EXPECT_FALSE(fs::exists(path("-")));
+}
+
+TEST_F(HistoryCommand, WritesJsonThatItsSchemaDescribes) {
+  add_session("first", 1.2, 0);
+  EXPECT_EQ(history({"compare", "base", "head", "--json", "c.json", "-q"}).exit_code, 0);
+  expect_valid("comparison.schema.json", path("c.json"));
+  add_session("second", 1.2, 100);
+  EXPECT_EQ(history({"compare", "base", "head", "--json", "c.json", "-q"}).exit_code, 1);
+  expect_valid("comparison.schema.json", path("c.json"));
+}
+
+TEST_F(HistoryCommand, LetsNoNameControlTheTerminal) {
+  write("a\x1b[2J.json", {"abc\x1b[2J"});
+  const Finished added = history({"add", "a\x1b[2J.json"});
+  EXPECT_EQ(added.exit_code, 0) << added.err;
+  EXPECT_THAT(added.out, AllOf(HasSubstr("a\\x1b[2J"), testing::Not(HasSubstr("\x1b"))));
 }
 
 TEST_F(HistoryCommand, RefusesWhatCannotBeCompared) {

@@ -23,14 +23,16 @@ class MapFile : public testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// Exit code 2 and one line that starts with the program's name and names the file.
+  /// Exit code 2 and one line that starts with the program's name and names the file; a second one
+  /// if another command line would go on.
   void expect_refused(const Words& words, const testing::Matcher<std::string>& message) const {
     const Finished gate = quick_gate(words);
     EXPECT_EQ(gate.exit_code, 2);
     EXPECT_THAT(gate.out, IsEmpty());
     EXPECT_THAT(gate.err, AllOf(StartsWith("lightproof: "), HasSubstr(words.front()), message,
                                 Not(HasSubstr("internal error"))));
-    EXPECT_EQ(std::count(gate.err.begin(), gate.err.end(), '\n'), 1) << gate.err;
+    const bool has_remedy = gate.err.find("This would go on: ") != std::string::npos;
+    EXPECT_EQ(std::count(gate.err.begin(), gate.err.end(), '\n'), has_remedy ? 2 : 1) << gate.err;
   }
 
  private:
@@ -97,6 +99,46 @@ TEST_F(MapFile, ThatIsNotTwoToOneNeedsToBeAskedFor) {
   write_map(path("narrow.exr"), {9, 4});
   expect_refused({path("narrow.exr")}, AllOf(HasSubstr("9 x 4"), HasSubstr("--any-aspect")));
   EXPECT_EQ(quick_gate({path("narrow.exr"), "--any-aspect"}).exit_code, 0);
+}
+
+/// The command that a refusal offers, run by a shell in the folder of the map.
+Finished run_offered(const Finished& refused, const fs::path& folder) {
+  constexpr std::string_view kOffer = "This would go on: ";
+  const std::size_t at = refused.err.find(kOffer);
+  if (at == std::string::npos) return {-1, "", "no command in: " + refused.err, 0.0};
+  return run({.words = {"bash", "-c", refused.err.substr(at + kOffer.size())}, .folder = folder});
+}
+
+TEST_F(MapFile, ThatIsRefusedComesWithTheCommandThatGoesOn) {
+  const auto spoil = [](Grid<Rgb>& picture) { picture(5, 2).g = kNan; };
+  write_map(path("it's mine.exr"), {8, 4}, spoil);
+  write_map(path("narrow.exr"), {9, 4});
+  write_map(path("both\n.exr"), {9, 4}, spoil);
+  for (const std::string name : {"it's mine.exr", "narrow.exr", "both\n.exr"}) {
+    const Finished refused = quick_gate({"--sampler", "alias", "--", name}, path(""));
+    EXPECT_EQ(refused.exit_code, 2);
+    const Finished offered = run_offered(refused, path(""));
+    EXPECT_THAT(offered.exit_code, testing::AnyOf(0, 3)) << refused.err << offered.err;
+    EXPECT_THAT(offered.out, HasSubstr("alias B"));
+  }
+}
+
+TEST_F(MapFile, ThatNoFlagAcceptsComesWithoutACommand) {
+  write_map(path("void.exr"), {8, 4},
+            [](Grid<Rgb>& picture) { std::ranges::fill(picture.values(), Rgb(kNan)); });
+  EXPECT_THAT(quick_gate({path("void.exr")}).err, Not(HasSubstr("This would go on")));
+}
+
+// What a file is called is the choice of whoever made it.
+TEST_F(MapFile, CannotControlTheTerminalByItsName) {
+  const std::string name = "sky\x1b[2J\r.exr";
+  write_map(path(name), {8, 4}, [](Grid<Rgb>& picture) { picture(5, 2).g = kNan; });
+  const auto control = testing::ContainsRegex("[\x1b\r]");
+  const Finished refused = quick_gate({path(name)});
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("sky\\x1b[2J"), Not(control)));
+  const Finished repaired = quick_gate({path(name), "--repair"});
+  EXPECT_THAT(repaired.err, AllOf(HasSubstr("Set to 0"), Not(control)));
+  EXPECT_THAT(repaired.out, AllOf(HasSubstr("sky\\x1b[2J"), Not(control)));
 }
 
 TEST_F(MapFile, AmongGoodOnesStopsTheRunBeforeAnythingIsPrinted) {

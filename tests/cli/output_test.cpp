@@ -84,6 +84,40 @@ TEST_F(Output, OnStdoutThatCannotBeWrittenIsNotAPass) {
   }
 }
 
+TEST_F(Output, ToADashIsTheStandardOutputAlone) {
+  for (const char* option : {"--json", "--junit", "--markdown"}) {
+    const Finished gate = quick_gate({"constant", "--github", option, "-"}, path(""));
+    EXPECT_NE(gate.exit_code, 2) << gate.err;
+    EXPECT_THAT(gate.out, StartsWith(option == std::string("--json")    ? "{\n"
+                                     : option == std::string("--junit") ? "<?xml"
+                                                                        : "### "));
+    EXPECT_THAT(gate.out, Not(HasSubstr("worst test")));
+    EXPECT_THAT(gate.err, HasSubstr("worst test")) << "the table is for people";
+    EXPECT_THAT(names_in(path("")), IsEmpty());
+  }
+  const Finished quiet = quick_gate({"constant", "-q", "--json", "-"}, path(""));
+  EXPECT_THAT(quiet.err, IsEmpty());
+  EXPECT_FALSE(nlohmann::json::parse(quiet.out).at("tests").empty());
+}
+
+TEST_F(Output, OfTwoKindsDoesNotFitOneStandardOutput) {
+  const Finished gate = quick_gate({"constant", "--json", "-", "--junit", "-"});
+  EXPECT_EQ(gate.exit_code, 2);
+  EXPECT_THAT(gate.out, IsEmpty());
+}
+
+TEST_F(Output, IntoAFolderOrFromAFileIsNoStandardStream) {
+  for (const Words& words :
+       {Words{"gate", "constant", "--rejections", "-"}, Words{"study", "constant", "-o", "-"},
+        Words{"study", "constant", "--throughput", "-"},
+        Words{"history", "trend", "--db", "-", "-o", "t.html"}}) {
+    const Finished finished = lightproof(words, path(""));
+    EXPECT_EQ(finished.exit_code, 2) << words[0];
+    EXPECT_THAT(finished.err, HasSubstr("./-")) << words[0];
+    EXPECT_THAT(names_in(path("")), IsEmpty());
+  }
+}
+
 class FullDisk : public testing::Test {
  protected:
   void SetUp() override {

@@ -12,6 +12,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 
 /// Long enough that a study which starts its work instead is noticed.
@@ -39,12 +40,33 @@ class StudyRefuses : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(StudyRefuses, TheDefaultFolderIfItIsNotEmpty) {
+TEST_F(StudyRefuses, AFolderThatHoldsSomething) {
+  for (const char* folder : {"out", "other"}) {
+    fs::create_directory(path(folder));
+    write_bytes(path(folder) / "notes.txt", "mine");
+    const Words where = folder == std::string("out") ? Words{} : Words{"-o", folder};
+    expect_refused(study(where),
+                   AllOf(HasSubstr(folder), HasSubstr("--force"), HasSubstr("This would go on: "),
+                         HasSubstr("study constant")));
+    EXPECT_THAT(names_in(path(folder)), ElementsAre("notes.txt"));
+  }
+}
+
+TEST_F(StudyRefuses, ToReplaceWhatNoManifestListsEvenIfForced) {
   fs::create_directory(path("out"));
-  write_bytes(path("out/report.html"), "earlier");
-  expect_refused(study({}), AllOf(HasSubstr("out"), HasSubstr("-o out")));
-  EXPECT_EQ(bytes_of(path("out/report.html")), "earlier");
-  EXPECT_THAT(names_in(path("out")), ElementsAre("report.html"));
+  write_bytes(path("out/report.html"), "mine");
+  expect_refused(study({}), Not(HasSubstr("This would go on")));
+  expect_refused(study({"--force"}), AllOf(HasSubstr("report.html"), HasSubstr("manifest")));
+  EXPECT_EQ(bytes_of(path("out/report.html")), "mine");
+}
+
+TEST_F(StudyRefuses, AManifestThatNamesFilesElsewhere) {
+  fs::create_directory(path("out"));
+  write_bytes(path("mine"), "mine");
+  write_bytes(path("out/manifest.json"),
+              R"({"format": "lightproof manifest", "files": ["../mine"]})");
+  expect_refused(study({"--force"}), AllOf(HasSubstr("'../mine'"), HasSubstr("no plain name")));
+  EXPECT_EQ(bytes_of(path("mine")), "mine");
 }
 
 TEST_F(StudyRefuses, AFileForAFolder) {

@@ -8,6 +8,7 @@
 
 #include "lightproof/image/reader.h"
 #include "tests/cli/program.h"
+#include "tests/cli/schema.h"
 
 namespace lightproof::test {
 namespace {
@@ -23,14 +24,16 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-const Words kStudy = {"study", "constant",        "--size",         "32x16", "-n",
-                      "65536", "--no-throughput", "--no-self-test", "-o",    "report"};
+const Words kStudy = {"study",           "constant",       "--size",     "32x16", "-n", "65536",
+                      "--no-throughput", "--no-self-test", "--progress", "0",     "-o", "report"};
 constexpr auto kLimit = std::chrono::seconds(1000);
 
 /// A disk of 64 kB, on which an earlier report lies; then what is on it.
 const std::string kOnFullDisk =
     "mount -t tmpfs -o size=64k none report && echo earlier > report/report.html && "
-    "echo older > report/constant-sphere-on-plane-phong-brdf.exr && \"$@\"; "
+    "echo older > report/constant-sphere-on-plane-phong-brdf.exr && "
+    "echo '{\"format\": \"lightproof manifest\", \"files\": [\"report.html\", "
+    "\"constant-sphere-on-plane-phong-brdf.exr\"]}' > report/manifest.json && \"$@\" --force; "
     "code=$?; ls -A report; cat report/*.exr report/report.html; exit $code";
 
 /// The folder of the studies and how they ended.
@@ -118,6 +121,18 @@ TEST_F(Study, NamesFilesWithoutSpaces) {
   EXPECT_THAT(names_in(path("")), Each(Not(HasSubstr(" "))));
 }
 
+TEST_F(Study, ListsItsFilesInAManifest) {
+  Words names = json_of(path("manifest.json")).at("files");
+  names.emplace_back("manifest.json");
+  EXPECT_THAT(names, testing::UnorderedElementsAreArray(names_in(path(""))));
+  EXPECT_TRUE(json_of(path("manifest.json")).at("complete"));
+}
+
+TEST_F(Study, WritesJsonThatItsSchemasDescribe) {
+  expect_valid("study.schema.json", path("results.json"));
+  expect_valid("manifest.schema.json", path("manifest.json"));
+}
+
 TEST_F(Study, LeavesNoPartsBehind) { EXPECT_THAT(parts_in(path("")), IsEmpty()); }
 
 /// Tests of maps, without what depends on the number of all tests: a study has more.
@@ -133,9 +148,11 @@ std::vector<json> verdicts_on_maps(const json& gate) {
 /// Likewise: a replay names the number of all tests.
 std::vector<json> rejections_of(const json& gate) {
   std::vector<json> rejections;
-  for (json rejection : gate.at("rejections")) {
-    rejection.erase("replay");
-    rejections.push_back(std::move(rejection));
+  for (const char* kind : {"rejections", "known_defects"}) {
+    for (json rejection : gate.at(kind)) {
+      rejection.erase("replay");
+      rejections.push_back(std::move(rejection));
+    }
   }
   return rejections;
 }
@@ -143,8 +160,8 @@ std::vector<json> rejections_of(const json& gate) {
 TEST_F(Study, FindsTheSameAsTheGate) {
   const json gate = json_of(path("results.json")).at("gate");
   const TemporaryFolder folder;
-  lightproof({"gate", "constant", "--size", "32x16", "-n", "65536", "-q", "--json",
-              (folder / "g.json").string()});
+  lightproof({"gate", "constant", "--size", "32x16", "-n", "65536", "-q", "--with-published",
+              "--json", (folder / "g.json").string()});
   const json alone = json_of(folder / "g.json");
   EXPECT_TRUE(verdicts_on_maps(gate) == verdicts_on_maps(alone));
   EXPECT_EQ(rejections_of(gate), rejections_of(alone));

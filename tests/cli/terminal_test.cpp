@@ -79,6 +79,37 @@ TEST(ProgressBar, IsNotDrawnIntoAPipe) {
   EXPECT_THAT(gate_on(Terminal::on_stdout).err, IsEmpty());
 }
 
+/// What both streams show on one terminal, in their order.
+TEST(ProgressBar, IsWipedBeforeTheTable) {
+  const std::string script = "exec \"$0\" gate constant step -n 65536 --size 32x16 >&2";
+  const Finished gate =
+      run({.words = {"sh", "-c", script, program()}, .terminal = Terminal::on_stderr});
+  EXPECT_EQ(gate.exit_code, 0);
+  const std::size_t table = gate.err.find("verdict");
+  ASSERT_NE(table, std::string::npos) << gate.err;
+  ASSERT_GE(table, 4U);
+  EXPECT_EQ(gate.err.substr(table - 4, 4), "\r\x1b[K") << gate.err;
+}
+
+TEST(ProgressLines, ArePrintedWhereNobodySeesABar) {
+  Words words = {"gate", "-n", "2^22", "--size", "32x16", "--progress", "1"};
+  const Finished gate = Process(lightproof_command(words)).wait(std::chrono::seconds(600));
+  EXPECT_EQ(gate.exit_code, 0);
+  EXPECT_THAT(gate.err, testing::ContainsRegex("(^|\n)gate: [0-9]+ %(, [0-9hmins ]+ left)?\n"));
+  EXPECT_THAT(gate.err, Not(HasSubstr("\r")));
+  words.back() = "0";
+  words.emplace_back("-t");
+  words.emplace_back("0");
+  EXPECT_THAT(Process(lightproof_command(words)).wait(std::chrono::seconds(600)).err, IsEmpty());
+}
+
+TEST(ProgressLines, AreNotPrintedIfQuiet) {
+  const Finished gate = Process(lightproof_command({"gate", "-n", "2^22", "--size", "32x16",
+                                                    "--progress", "1", "-q"}))
+                            .wait(std::chrono::seconds(600));
+  EXPECT_THAT(gate.err, IsEmpty());
+}
+
 TEST(ProgressBar, IsNotDrawnIfQuiet) {
   EXPECT_THAT(gate_on(Terminal::on_stderr, {"-q"}).err, IsEmpty());
 }

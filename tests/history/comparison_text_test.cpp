@@ -42,12 +42,30 @@ TEST(ComparisonTable, SaysWhatToDoAboutASuspicion) {
 
 TEST(ComparisonMarkdown, IsATableThatNoNameCanBreak) {
   const std::string text = comparison_markdown(of_ratio(1.5, "a|b\nc"));
-  EXPECT_THAT(text, HasSubstr("| regressed | a/b c | ns |"));
+  EXPECT_THAT(text, HasSubstr("| regressed | a&#124;b c | ns |"));
   for (std::size_t at = text.find("\n| "); at != std::string::npos;
        at = text.find("\n| ", at + 1)) {
     const auto line = text.substr(at + 1, text.find('\n', at + 1) - at - 1);
     EXPECT_EQ(std::count(line.begin(), line.end(), '|'), 10) << line;
   }
+}
+
+TEST(ComparisonAnnotations, AreNineOfEachLevelAndTheNumberOfTheOthers) {
+  Comparison comparison = of_ratio(1.5, "a,b\n100%");
+  EXPECT_EQ(comparison_annotations(comparison)
+                .find("::error title=lightproof%3A a%2Cb%0A100%25::regressed: "),
+            0U)
+      << comparison_annotations(comparison);
+  EXPECT_EQ(comparison_annotations(of_ratio(1.0)), "");
+  comparison.rows.assign(12, comparison.rows[0]);
+  const std::string text = comparison_annotations(comparison);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10) << text;
+  EXPECT_THAT(text, HasSubstr("3 measurements more regressed"));
+}
+
+TEST(ComparisonTable, LetsNoNameControlTheTerminal) {
+  EXPECT_THAT(comparison_table(of_ratio(1.5, "a\x1b[2J")),
+              AllOf(HasSubstr("a\\x1b[2J"), Not(HasSubstr("\x1b"))));
 }
 
 TEST(ComparisonJson, HasTheRowsAndTheirJudgements) {

@@ -92,7 +92,7 @@ TEST(Junit, CountsNoOpenTestOfASamplerWithKnownDefects) {
 TEST(Markdown, NamesTheWorstFirstAndStaysBelowItsLimit) {
   const std::string few = gate_markdown(gate_with(3), true);
   EXPECT_LT(few.find("log10 p -22"), few.find("log10 p -21"));
-  EXPECT_THAT(few, HasSubstr("a/b<c>"));
+  EXPECT_THAT(few, HasSubstr("| a&#124;b&lt;c&gt;&amp;\"d\" |"));
   EXPECT_THAT(few, Not(HasSubstr("more")));
   const std::string many = gate_markdown(gate_with(2000), true);
   EXPECT_LT(many.size(), 60000U);
@@ -100,13 +100,60 @@ TEST(Markdown, NamesTheWorstFirstAndStaysBelowItsLimit) {
   EXPECT_THAT(gate_markdown(gate_with(0), true), HasSubstr("0 rejected"));
 }
 
+/// Each sampler on each map has two rejected tests.
+GateResult gate_with_configurations(std::size_t configurations) {
+  GateResult gate{1e-6, 4194304, 7, {}};
+  for (std::size_t i = 0; i < configurations; ++i) {
+    for (const double log10_p : {-20.0, -30.0 - static_cast<double>(i)}) {
+      TestRecord test = testing::accepted_test("mine", "map" + std::to_string(i));
+      test.outcome = Outcome::reject;
+      test.log10_p = log10_p;
+      test.test = log10_p < -20.0 ? "rows" : "texels";
+      test.detail = "row 0\nis 100% dark";
+      gate.tests.push_back(test);
+    }
+  }
+  return gate;
+}
+
+TEST(Annotations, AreOneForEachSamplerAndMap) {
+  GateResult gate = gate_with_configurations(1);
+  gate.rejections.push_back({"mine", "B", "map0", "upside-down", "t flipped", {}, {}});
+  const std::string text = gate_annotations(gate, true);
+  EXPECT_EQ(count_of(text, "::error "), 1U) << text;
+  EXPECT_EQ(count_of(text, "\n"), 1U) << text;
+  EXPECT_THAT(text, AllOf(HasSubstr("title=lightproof%3A mine B on map0::"),
+                          HasSubstr("2 of 2 tests rejected, the worst reference/rows: log10 p -30"),
+                          HasSubstr("row 0%0Ais 100%25 dark"),
+                          HasSubstr("looks like: t flipped (upside-down)"),
+                          HasSubstr("Again: lightproof gate map0 --sampler mine")));
+}
+
 TEST(Annotations, AreNineAndTheNumberOfTheOthers) {
-  const std::string text = gate_annotations(gate_with(12), true);
+  const std::string text = gate_annotations(gate_with_configurations(12), true);
   EXPECT_EQ(count_of(text, "::error "), 10U);
-  EXPECT_EQ(count_of(text, "\n"), 10U) << "one line each";
-  EXPECT_THAT(text, HasSubstr("row 0%0Ais 100%25 dark"));
-  EXPECT_THAT(text, HasSubstr("and 3 more rejected tests"));
+  EXPECT_LT(text.find("map11"), text.find("map10")) << "the least likely first";
+  EXPECT_THAT(text, HasSubstr("3 configurations more rejected"));
   EXPECT_EQ(gate_annotations(gate_with(0), true), "");
+}
+
+TEST(Annotations, LeaveOutKnownDefectsThatDoNotCount) {
+  GateResult gate = gate_with_configurations(1);
+  for (TestRecord& test : gate.tests) test.known_defect = true;
+  EXPECT_EQ(count_of(gate_annotations(gate, true), "::error "), 1U);
+  EXPECT_EQ(gate_annotations(gate, false), "");
+}
+
+TEST(Junit, GivesProbabilitiesAsNumbers) {
+  GateResult gate = gate_with(1);
+  gate.tests[0].log10_p = -0.681;
+  gate.tests[1].log10_p = -400.5;
+  const std::string xml = gate_junit(gate, true);
+  EXPECT_THAT(xml, AllOf(HasSubstr("name=\"p\" value=\"0.2084\""),
+                         HasSubstr("name=\"log10_p\" value=\"-0.681\""),
+                         HasSubstr("name=\"p\" value=\"3.16e-401\"")));
+  gate.tests[1].log10_p.reset();
+  EXPECT_EQ(count_of(gate_junit(gate, true), "name=\"p\""), 1U) << "an exact check has none";
 }
 
 }  // namespace

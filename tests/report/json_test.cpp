@@ -30,10 +30,20 @@ GateResult small_gate() {
   return gate;
 }
 
+json gate_document(const GateResult& gate, Outcome outcome, bool count_known_defects = true) {
+  const RunDescription run = {"0.1.0",
+                              "abc",
+                              "lightproof gate city.exr",
+                              {{"city", "maps/city.exr", {64, 32}, "mitsuba", {"A note."}}}};
+  return json::parse(gate_json(gate, {outcome, count_known_defects}, run));
+}
+
 TEST(GateJson, HasItsKeys) {
-  const json document = json::parse(gate_json(small_gate(), Outcome::inconclusive));
-  EXPECT_EQ(keys_of(document), (std::set<std::string>{"outcome", "family_alpha", "samples", "seed",
-                                                      "tests", "rejections"}));
+  const json document = gate_document(small_gate(), Outcome::inconclusive);
+  EXPECT_EQ(keys_of(document),
+            (std::set<std::string>{"format_version", "version", "commit", "command", "maps",
+                                   "outcome", "family_alpha", "samples", "seed", "tests",
+                                   "rejections", "known_defects"}));
   EXPECT_EQ(keys_of(document["tests"][0]),
             (std::set<std::string>{"sampler", "weighting", "map", "oracle", "test", "samples",
                                    "statistic", "dof", "log10_p", "effect", "detectable_effect",
@@ -46,7 +56,7 @@ TEST(GateJson, HasItsKeys) {
 }
 
 TEST(GateJson, HasNullWhereThereIsNoProbability) {
-  const json document = json::parse(gate_json(small_gate(), Outcome::reject));
+  const json document = gate_document(small_gate(), Outcome::reject);
   EXPECT_TRUE(document["tests"][1]["log10_p"].is_null());
   EXPECT_TRUE(document["tests"][1]["detectable_effect"].is_null());
 }
@@ -56,23 +66,67 @@ TEST(GateJson, WritesWhatIsNotFiniteAsNullOrTheLargestNumber) {
   gate.tests[0].log10_p = -HUGE_VAL;
   gate.tests[0].statistic = HUGE_VAL;
   gate.tests[0].effect = std::nan("");
-  const json test = json::parse(gate_json(gate, Outcome::reject))["tests"][0];
+  const json test = gate_document(gate, Outcome::reject)["tests"][0];
   EXPECT_EQ(test["log10_p"], -1e308);
   EXPECT_EQ(test["statistic"], 1e308);
   EXPECT_TRUE(test["effect"].is_null());
 }
 
+TEST(GateJson, SaysWhatTheRunWasMadeWith) {
+  const json document = gate_document(small_gate(), Outcome::accept);
+  EXPECT_EQ(document["commit"], "abc");
+  EXPECT_EQ(document["command"], "lightproof gate city.exr");
+  EXPECT_EQ(document["maps"], (json{{{"name", "city"},
+                                     {"file", "maps/city.exr"},
+                                     {"width", 64},
+                                     {"height", 32},
+                                     {"preset", "mitsuba"},
+                                     {"notes", {"A note."}}}}));
+}
+
+TEST(GateJson, KeepsKnownDefectsApartFromRejections) {
+  GateResult gate = small_gate();
+  for (const char* sampler : {"binary_search", "published"}) {
+    gate.rejections.push_back({.sampler = sampler,
+                               .weighting = "B",
+                               .map = "city",
+                               .looks_like = "row",
+                               .diagnosis = "a row is dark",
+                               .residual = {},
+                               .row_divergence = {}});
+  }
+  TestRecord published = gate.tests[1];
+  published.sampler = "published";
+  published.known_defect = true;
+  gate.tests.push_back(published);
+  const json apart = gate_document(gate, Outcome::accept, false);
+  ASSERT_EQ(apart["rejections"].size(), 1U);
+  EXPECT_EQ(apart["rejections"][0]["sampler"], "binary_search");
+  ASSERT_EQ(apart["known_defects"].size(), 1U);
+  EXPECT_EQ(apart["known_defects"][0]["sampler"], "published");
+  const json together = gate_document(gate, Outcome::reject, true);
+  EXPECT_EQ(together["rejections"].size(), 2U);
+  EXPECT_TRUE(together["known_defects"].empty());
+}
+
+TEST(GateJson, HasNoDegreesOfFreedomWhereTheyMeanNothing) {
+  GateResult gate = small_gate();
+  gate.tests[0].dof = 0.0;
+  EXPECT_TRUE(gate_document(gate, Outcome::accept)["tests"][0]["dof"].is_null());
+}
+
 TEST(GateJson, SurvivesNamesThatAreNotUtf8) {
   GateResult gate = small_gate();
   gate.tests[0].map = "bad\xff name";
-  EXPECT_EQ(json::parse(gate_json(gate, Outcome::accept))["tests"][0]["map"], "bad\ufffd name");
+  EXPECT_EQ(gate_document(gate, Outcome::accept)["tests"][0]["map"], "bad\ufffd name");
 }
 
 TEST(StudyJson, HoldsEverythingButThePixels) {
-  const json document = json::parse(study_json(testing::made_up_study()));
-  EXPECT_EQ(keys_of(document), (std::set<std::string>{"version", "machine", "seed", "maps", "gate",
-                                                      "convergence", "throughput", "caches",
-                                                      "growth", "tables", "renders", "self_test"}));
+  const json document = json::parse(study_json(testing::made_up_study(), {}));
+  EXPECT_EQ(keys_of(document),
+            (std::set<std::string>{"format_version", "version", "commit", "command", "machine",
+                                   "seed", "maps", "gate", "convergence", "throughput", "caches",
+                                   "growth", "tables", "renders", "self_test"}));
   EXPECT_EQ(document["maps"].size(), 8U);
   EXPECT_EQ(document["maps"][0]["size"], (json{64, 32}));
   EXPECT_EQ(document["maps"][0]["drawn"].size(), 300U);
@@ -85,7 +139,7 @@ TEST(StudyJson, HoldsEverythingButThePixels) {
 TEST(StudyJson, HasCachesAndKneesOrNull) {
   StudyResult study = testing::made_up_study();
   study.caches.l3.reset();
-  const json document = json::parse(study_json(study));
+  const json document = json::parse(study_json(study, {}));
   EXPECT_EQ(document["caches"], (json{{"l2", 1048576.0}, {"l3", nullptr}}));
   const json& growth = document["growth"];
   EXPECT_EQ(growth[0]["leaves_l3"], (json{4096, 2048}));
@@ -100,7 +154,7 @@ TEST(StudyJson, HasCachesAndKneesOrNull) {
 
 TEST(StudyJson, DoesNotCountKnownDefects) {
   const StudyResult study = testing::made_up_study();
-  EXPECT_EQ(json::parse(study_json(study))["gate"]["outcome"], "accept");
+  EXPECT_EQ(json::parse(study_json(study, {}))["gate"]["outcome"], "accept");
 }
 
 }  // namespace

@@ -52,6 +52,13 @@ TEST(Page, SaysWhatWasNotMeasured) {
   EXPECT_NE(page.find("<h1>No test was run</h1>"), std::string::npos);
 }
 
+TEST(Page, ShowsKnownDefectsInASectionOfTheirOwn) {
+  const std::string page = report_page(testing::made_up_study());
+  const std::size_t section = page.find("<summary>Kept as published, with known defects");
+  ASSERT_NE(section, std::string::npos);
+  EXPECT_GT(page.find("<h4>Rejected tests</h4>"), section);
+}
+
 TEST(Report, WritesAllItsFiles) {
   const fs::path folder = fs::path(::testing::TempDir()) / "lightproof-report" / "new";
   fs::remove_all(folder);
@@ -59,7 +66,7 @@ TEST(Report, WritesAllItsFiles) {
   for (const char* name :
        {"report.html", "results.json", "gate.csv", "convergence.csv", "variance.csv",
         "throughput.csv", "growth.csv", "build.csv", "tables.csv", "renders.csv", "maps.csv",
-        "city-sphere-GGX__roughness_0.3-uniform.exr",
+        "manifest.json", "city-sphere-GGX__roughness_0.3-uniform.exr",
         "city-sphere-GGX__roughness_0.3-uniform-error.exr",
         "city-sphere-GGX__roughness_0.3-reference.exr"}) {
     EXPECT_TRUE(fs::exists(folder / name) && fs::file_size(folder / name) > 0) << name;

@@ -24,7 +24,8 @@ void strip(lightproof::StudyResult& study) {
 int run(int count, char** arguments) {
   lightproof::StudyResult study = lightproof::testing::made_up_study();
   if (count == 3 && std::string_view(arguments[2]) == "bare") strip(study);
-  lightproof::write_report(study, arguments[1]);
+  const lightproof::RunDescription made_by = {study.version, "", "write_sample_report"};
+  lightproof::write_report(study, arguments[1], made_by, lightproof::Overwriting::of_listed_files);
   return 0;
 }
 

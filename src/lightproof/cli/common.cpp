@@ -6,36 +6,31 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
-#include <charconv>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
-#include <mutex>
 #include <set>
+#include <string_view>
 
+#include "known_names.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/out_of_memory.h"
 #include "lightproof/image/reader.h"
 #include "lightproof/image/synthetic.h"
+#include "lightproof/report/text_escapes.h"
+#include "progress_display.h"
+#include "whole_number.h"
 
 namespace lightproof::cli {
 namespace {
 
 constexpr std::uint64_t kLargestSide = 32768;
 
-/// A whole number in decimal digits only; none if it is anything else or does not fit.
-std::optional<std::uint64_t> parse_number(std::string_view text) {
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
 }
 
 EnvironmentMap load_map(const std::string& input, Extent size, const ReadOptions& read) {
   if (input.empty()) throw InputError("a map's name is empty");
-  if (is_synthetic(input)) {
+  if (is_built_in(input)) {
     return with_memory_for(
         [&] { return fmt::format("{} ({}x{})", input, size.width, size.height); },
         [&] {
@@ -49,11 +44,9 @@ EnvironmentMap load_map(const std::string& input, Extent size, const ReadOptions
   } catch (const InputError& error) {
     const bool looks_like_a_name = input.find_first_of("./\\") == std::string::npos;
     if (!looks_like_a_name || access(input.c_str(), F_OK) == 0) throw;
-    std::string known;
-    for (const SyntheticMap& map : synthetic_maps()) known += fmt::format(" {}", map.name);
-    throw InputError(
-        fmt::format("{}: there is no such file, and no built-in map of this name; built in are:{}",
-                    input, known));
+    const std::vector<std::string> known = names_of(synthetic_maps());
+    throw InputError(fmt::format("there is no such file, and {} (built in: {})",
+                                 no_such_name("built-in map", input, known), listed(known)));
   }
 }
 
@@ -69,38 +62,47 @@ void make_names_unique(std::vector<EnvironmentMap>& maps) {
   }
 }
 
-/// Draws the bar at most ten times a second.
-class Bar {
- public:
-  ~Bar() { std::fputs("\r\033[K", stderr); }
-
-  void show(std::string_view step, double fraction) {
-    const std::lock_guard lock(mutex_);
-    const auto now = Clock::now();
-    if (fraction < 1.0 && now - shown_ < std::chrono::milliseconds(100)) return;
-    shown_ = now;
-    constexpr int kWidth = 30;
-    const int full = std::clamp(static_cast<int>(fraction * kWidth), 0, kWidth);
-    fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {}{}", "", full, "", kWidth - full,
-               100.0 * fraction, step, time_left(now, fraction));
-    std::fflush(stderr);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  std::string time_left(Clock::time_point now, double fraction) const {
-    if (fraction <= 0.01) return "";
-    const double spent = std::chrono::duration<double>(now - start_).count();
-    const long seconds = std::lround(spent * (1.0 / fraction - 1.0));
-    return seconds < 60 ? fmt::format(", {} s left", seconds)
-                        : fmt::format(", {} min {} s left", seconds / 60, seconds % 60);
-  }
-
-  std::mutex mutex_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point shown_{};
+/// A flag that accepts what is refused without; the refusal mentions it.
+struct Remedy {
+  std::string_view mentioned;
+  std::vector<std::string> flags;
+  void (*apply)(CommonOptions&);
 };
+
+std::vector<Remedy> remedies() {
+  const auto repair = [](CommonOptions& options) { options.repair_by = "zero"; };
+  const auto any_aspect = [](CommonOptions& options) { options.any_aspect = true; };
+  const auto both = [](CommonOptions& options) {
+    options.repair_by = "zero";
+    options.any_aspect = true;
+  };
+  return {{"--repair", {"--repair"}, repair},
+          {"--any-aspect", {"--any-aspect"}, any_aspect},
+          {"--any-aspect", {"--any-aspect", "--repair"}, both}};
+}
+
+bool is_readable(const std::string& input, Extent size, const ReadOptions& read) {
+  try {
+    load_map(input, size, read);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Passes the error on, as a Refusal if the flags that it mentions are all that it takes.
+[[noreturn]] void refuse(const InputError& error, const std::string& input,
+                         const CommonOptions& options) {
+  for (const Remedy& remedy : remedies()) {
+    if (options.command_line.empty()) break;
+    if (std::string_view(error.what()).find(remedy.mentioned) == std::string_view::npos) continue;
+    CommonOptions changed = options;
+    remedy.apply(changed);
+    if (!is_readable(input, parse_size(options.size), read_options(changed))) continue;
+    throw Refusal(error.what(), with_flags(options.command_line, remedy.flags));
+  }
+  throw InputError(error.what());
+}
 
 }  // namespace
 
@@ -118,18 +120,21 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
   command.add_option("--color", options.color, "colours on stdout (NO_COLOR is honoured)")
-      ->check(CLI::IsMember({"auto", "always", "never"}))
+      ->check(one_of("choice", {"auto", "always", "never"}))
+      ->type_name("auto|always|never")
       ->capture_default_str();
+  add_number(command, "--progress", options.progress_seconds, 0, 86400,
+             "seconds between lines of progress on stderr, where it is no terminal; 0: none");
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
 }
 
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::uint64_t& value,
                         std::uint64_t least, std::uint64_t most, const std::string& description) {
   const auto read = [&value, least, most, name](const std::string& text) {
-    const auto number = parse_number(text);
+    const auto number = whole_number(text);
     if (!number || *number < least || *number > most) {
-      throw CLI::ValidationError(
-          name, fmt::format("'{}' is not a whole number from {} to {}", text, least, most));
+      throw CLI::ValidationError(name, fmt::format("'{}' is not a whole number from {} to {} ({})",
+                                                   text, least, most, kWholeNumberForms));
     }
     value = *number;
   };
@@ -143,10 +148,13 @@ CLI::Option* add_path(CLI::App& command, const std::string& name, std::string& p
                       const std::string& description) {
   return command.add_option(name, path, description)
       ->type_name("PATH")
-      ->check([](const std::string& text) { return text.empty() ? "the name is empty" : ""; });
+      ->check([](const std::string& text) {
+        if (text == "-") return "- is no file here; ./- would be one of this name";
+        return text.empty() ? "the name is empty" : "";
+      });
 }
 
-bool is_synthetic(const std::string& name) {
+bool is_built_in(const std::string& name) {
   const auto maps = synthetic_maps();
   return std::any_of(maps.begin(), maps.end(), [&](const auto& map) { return map.name == name; });
 }
@@ -157,16 +165,16 @@ ReadOptions read_options(const CommonOptions& options) {
   if (options.preset.empty()) return read;
   read.preset = preset_by_name(options.preset);
   if (read.preset) return read;
-  std::string known;
-  for (const PresetInfo& preset : presets()) known += fmt::format(" {}", preset.name);
-  throw InputError(fmt::format("--preset: there is no '{}'; there are:{}", options.preset, known));
+  const std::vector<std::string> known = names_of(presets());
+  throw InputError(fmt::format("--preset: {} ({})", no_such_name("preset", options.preset, known),
+                               listed(known)));
 }
 
 Extent parse_size(const std::string& text) {
   const std::size_t cross = text.find('x');
   if (cross != std::string::npos) {
-    const auto width = parse_number(std::string_view(text).substr(0, cross));
-    const auto height = parse_number(std::string_view(text).substr(cross + 1));
+    const auto width = whole_number_in_digits(std::string_view(text).substr(0, cross));
+    const auto height = whole_number_in_digits(std::string_view(text).substr(cross + 1));
     const auto fits = [](const auto& side) { return side && *side >= 1 && *side <= kLargestSide; };
     if (fits(width) && fits(height)) {
       return {static_cast<int>(*width), static_cast<int>(*height)};
@@ -185,11 +193,15 @@ std::vector<EnvironmentMap> load_maps(const CommonOptions& options) {
   const ReadOptions read = read_options(options);
   std::vector<EnvironmentMap> maps;
   for (const std::string& input : inputs) {
-    maps.push_back(load_map(input, size, read));
+    try {
+      maps.push_back(load_map(input, size, read));
+    } catch (const InputError& error) {
+      refuse(error, input, options);
+    }
     maps.back().source = input;
     if (options.quiet) continue;
     for (const std::string& note : maps.back().notes) {
-      fmt::print(stderr, "{}: {}\n", input, note);
+      fmt::print(stderr, "{}\n", terminal_text(fmt::format("{}: {}", input, note)));
     }
   }
   make_names_unique(maps);
@@ -198,23 +210,21 @@ std::vector<EnvironmentMap> load_maps(const CommonOptions& options) {
 
 std::string input_options(const CommonOptions& options) {
   std::string text;
-  if (!options.preset.empty()) text += " --preset " + options.preset;
+  if (!options.preset.empty()) text += " --preset " + shell_word(options.preset);
   if (options.size != CommonOptions{}.size) text += " --size " + options.size;
   if (options.any_aspect) text += " --any-aspect";
   return text + words_of(options);
 }
 
-Progress progress_bar(const CommonOptions& options) {
-  if (options.quiet || isatty(STDERR_FILENO) == 0) return {};
-  return [bar = std::make_shared<Bar>()](std::string_view step, double fraction) {
-    bar->show(step, fraction);
-  };
+Progress progress_of(const CommonOptions& options) {
+  if (options.quiet) return {};
+  return progress_display(std::chrono::seconds(options.progress_seconds));
 }
 
-bool use_color(const CommonOptions& options) {
+bool use_color(const CommonOptions& options, int stream) {
   if (options.color != "auto") return options.color == "always";
   const char* no_color = std::getenv("NO_COLOR");
-  return (no_color == nullptr || *no_color == '\0') && isatty(STDOUT_FILENO) != 0;
+  return (no_color == nullptr || *no_color == '\0') && isatty(stream) != 0;
 }
 
 }  // namespace lightproof::cli

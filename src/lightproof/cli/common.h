@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "input_options.h"
 #include "lightproof/core/failure.h"
 #include "lightproof/core/progress.h"
@@ -35,6 +36,8 @@ struct CommonOptions : InputOptions {
   bool quiet = false;
   int threads = 0;
   std::uint64_t seed = 1;
+  std::uint64_t progress_seconds = 30;  ///< between lines of progress, where no bar is drawn
+  CommandLine command_line = {};        ///< that these options are from; may be empty
 };
 
 /// Adds the positional MAP… and the options above.
@@ -43,16 +46,16 @@ void add_common_options(CLI::App& command, CommonOptions& options);
 /// The most samples that are drawn for one test.
 inline constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 40U;
 
-/// Adds an option for a whole number from `least` to `most`, in decimal digits only.
+/// Adds an option for a whole number from `least` to `most`, written as whole_number() reads it.
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::uint64_t& value,
                         std::uint64_t least, std::uint64_t most, const std::string& description);
 
-/// Adds an option for a file or folder, whose name must not be empty.
+/// Adds an option for a file that is read or a folder, whose name must not be empty, nor "-".
 CLI::Option* add_path(CLI::App& command, const std::string& name, std::string& path,
                       const std::string& description);
 
 /// Whether a map goes by this name without a file.
-bool is_synthetic(const std::string& name);
+bool is_built_in(const std::string& name);
 
 /// How files are read. Throws InputError if an option makes no sense.
 ReadOptions read_options(const CommonOptions& options);
@@ -62,21 +65,23 @@ Extent parse_size(const std::string& text);
 
 /// Reads files and makes built-in maps, in the order of their names on the command line; without
 /// any, every built-in map. All options are checked, used or not. Notes of the reader go to stderr
-/// unless quiet. Names are made unique.
+/// unless quiet. Names are made unique. Throws a Refusal if a map is refused that other flags
+/// accept.
 std::vector<EnvironmentMap> load_maps(const CommonOptions& options);
 
 /// The options with which load_maps() would read the same maps again, each after a space.
 std::string input_options(const CommonOptions& options);
 
-/// A bar with the time left on stderr if that is a terminal and not quiet; else an empty function.
-Progress progress_bar(const CommonOptions& options);
+/// progress_display(), or an empty function if quiet.
+Progress progress_of(const CommonOptions& options);
 
-/// Whether stdout gets colours: --color, NO_COLOR, terminal.
-bool use_color(const CommonOptions& options);
+/// Whether a stream (STDOUT_FILENO or STDERR_FILENO) gets colours: --color, NO_COLOR, terminal.
+bool use_color(const CommonOptions& options, int stream);
 
-/// Each registers its subcommand, which writes the exit code when it is run.
-void add_gate(CLI::App& app, int& exit_code);
-void add_study(CLI::App& app, int& exit_code);
+/// Each registers its subcommand, which writes the exit code when it is run. `line` is the command
+/// line that will be parsed.
+void add_gate(CLI::App& app, const CommandLine& line, int& exit_code);
+void add_study(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_history(CLI::App& app, int& exit_code);
 void add_list(CLI::App& app, int& exit_code);

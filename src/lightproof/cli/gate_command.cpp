@@ -1,25 +1,28 @@
 // lightproof gate: verdicts only.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <memory>
 
 #include "common.h"
-#include "lightproof/core/error.h"
+#include "describe_run.h"
+#include "gate_samplers.h"
+#include "known_names.h"
 #include "lightproof/core/parallel.h"
-#include "lightproof/core/pending_file.h"
-#include "lightproof/mutants/direction_mutant.h"
-#include "lightproof/mutants/mutant.h"
 #include "lightproof/report/ci_outputs.h"
+#include "lightproof/report/gate_summary.h"
 #include "lightproof/report/json.h"
 #include "lightproof/report/rejection_files.h"
 #include "lightproof/report/table.h"
-#include "lightproof/suite/direction_sampler.h"
+#include "lightproof/report/text_escapes.h"
 #include "lightproof/suite/gate.h"
 #include "lightproof/suite/sequential_gate.h"
+#include "outputs.h"
+#include "whole_number.h"
 
 namespace lightproof::cli {
 namespace {
@@ -34,56 +37,11 @@ struct Options : CommonOptions {
   bool github = false;
   bool sequential = false;
   bool nightly = false;
-  bool sound_only = false;
+  bool with_published = false;
+  bool sound_only = false;  ///< always so; accepted because scripts of earlier versions say it
+  bool force = false;
   GateOptions gate;
 };
-
-/// What is tested: samplers of maps, which need some, and samplers of directions, which need none.
-struct Chosen {
-  std::vector<Subject> of_maps;
-  std::vector<DirectionSampler> of_directions;
-};
-
-template <class Range>
-auto find_named(Range& range, const std::string& name) {
-  return std::find_if(range.begin(), range.end(),
-                      [&](const auto& item) { return item.name == name; });
-}
-
-/// Adds the samplers or mutants of this name. Throws InputError if there are none.
-void add_named(Chosen& chosen, const std::string& name) {
-  for (std::vector<DirectionSampler> all : {direction_samplers(), direction_mutant_samplers()}) {
-    const auto found = find_named(all, name);
-    if (found == all.end()) continue;
-    chosen.of_directions.push_back(std::move(*found));
-    return;
-  }
-  const std::span<const Mutant> all_mutants = mutants();
-  const auto mutant = find_named(all_mutants, name);
-  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
-    chosen.of_maps.push_back(mutant != all_mutants.end()
-                                 ? subject_of(*mutant, weighting)
-                                 : subject_of(sampler_by_name(name), weighting));
-  }
-}
-
-Chosen chosen_samplers(const Options& options) {
-  Chosen chosen;
-  for (const std::string& name : options.samplers) add_named(chosen, name);
-  if (options.samplers.empty()) {
-    chosen.of_maps = all_subjects();
-    if (options.maps.empty()) chosen.of_directions = direction_samplers();
-  }
-  if (options.sound_only) {
-    std::erase_if(chosen.of_maps, [](const Subject& subject) { return subject.known_defects; });
-  }
-  if (options.weighting.empty()) return chosen;
-  chosen.of_directions.clear();
-  std::erase_if(chosen.of_maps, [&](const Subject& subject) {
-    return options.weighting != to_string(subject.target.weighting);
-  });
-  return chosen;
-}
 
 /// Samples per sampler and map.
 std::uint64_t samples_of(const std::string& level) {
@@ -101,39 +59,54 @@ std::uint64_t seed_of_today() {
   return 10000 * year + 100 * month + day;
 }
 
-void write_outputs(const Options& options, const GateResult& result, Outcome outcome,
-                   bool count_known_defects) {
-  if (!options.json.empty()) write_file(options.json, gate_json(result, outcome));
-  if (!options.junit.empty()) write_file(options.junit, gate_junit(result, count_known_defects));
-  if (!options.markdown.empty()) {
-    write_file(options.markdown, gate_markdown(result, count_known_defects));
-  }
-  if (!options.rejections.empty()) write_rejections(result, options.rejections);
-  if (options.github) fmt::print("{}", gate_annotations(result, count_known_defects));
-}
+/// The gate's result, and how it is judged.
+struct Judged {
+  GateResult result;
+  GateVerdict verdict;
+};
 
-int run(const Options& options) {
-  const ThreadLimit threads(options.threads);
-  const Chosen chosen = chosen_samplers(options);
-  for (const std::string& file : {options.json, options.junit, options.markdown}) {
-    if (!file.empty()) check_writable(file);
-  }
-  const std::vector<EnvironmentMap> maps = load_maps(options);
+/// Progress is shown until it returns.
+Judged run_on(std::span<const Problem> problems, const Options& options) {
   GateOptions gate = options.gate;
   gate.seed = options.seed;
-  const std::vector<Problem> problems = problems_of(maps, chosen.of_maps, chosen.of_directions);
-  const Progress progress = progress_bar(options);
-  GateResult result = options.sequential ? run_sequential_gate(problems, gate, progress)
-                                         : run_gate(problems, gate, progress);
-  result.input_options = input_options(options);
-  // A sampler with known defects fails a run only if it was asked for.
-  const bool count_known_defects = !options.samplers.empty();
-  const Outcome outcome = overall_outcome(result, count_known_defects);
+  const Progress progress = progress_of(options);
+  Judged judged;
+  judged.result = options.sequential ? run_sequential_gate(problems, gate, progress)
+                                     : run_gate(problems, gate, progress);
+  judged.result.input_options = input_options(options);
+  // A sampler with known defects fails a run only if it was asked for by its name.
+  judged.verdict.count_known_defects = !options.samplers.empty();
+  judged.verdict.overall = overall_outcome(judged.result, judged.verdict.count_known_defects);
+  return judged;
+}
+
+/// What people read goes to stderr if the standard output is one of the files.
+void print_for_people(const Options& options, const Judged& judged, bool stdout_is_taken) {
+  std::FILE* const stream = stdout_is_taken ? stderr : stdout;
+  const bool counts = judged.verdict.count_known_defects;
   if (!options.quiet) {
-    const Colour colour = use_color(options) ? Colour::ansi : Colour::off;
-    fmt::print("{}", gate_table(result, count_known_defects, colour));
+    const bool colours = use_color(options, stdout_is_taken ? STDERR_FILENO : STDOUT_FILENO);
+    fmt::print(stream, "{}",
+               gate_table(judged.result, counts, colours ? Colour::ansi : Colour::off));
   }
-  write_outputs(options, result, outcome, count_known_defects);
+  if (options.github) fmt::print(stream, "{}", gate_annotations(judged.result, counts));
+}
+
+void write_outputs(const Options& options, const Judged& judged, const RunDescription& run) {
+  const GateResult& result = judged.result;
+  const bool counts = judged.verdict.count_known_defects;
+  if (!options.json.empty()) {
+    write_output(options.json, gate_json(result, judged.verdict, run));
+  }
+  if (!options.junit.empty()) write_output(options.junit, gate_junit(result, counts));
+  if (!options.markdown.empty()) write_output(options.markdown, gate_markdown(result, counts));
+  if (!options.rejections.empty()) {
+    write_rejections(split_gate(result, counts).deciding, options.rejections, run,
+                     overwriting(options.force));
+  }
+}
+
+ExitCode exit_code_of(Outcome outcome) {
   switch (outcome) {
     case Outcome::accept:
     case Outcome::resolution_limited:
@@ -146,28 +119,65 @@ int run(const Options& options) {
   return kInconclusive;
 }
 
+int run(const Options& options) {
+  const ThreadLimit threads(options.threads);
+  const ChosenSamplers chosen = choose_samplers(
+      {options.samplers, options.weighting, options.with_published, !options.maps.empty()});
+  const bool stdout_is_taken =
+      check_outputs(std::vector<std::string>{options.json, options.junit, options.markdown});
+  if (!options.quiet) {
+    for (const std::string& note : chosen.notes) fmt::print(stderr, "{}\n", terminal_text(note));
+  }
+  const std::vector<EnvironmentMap> maps = load_maps(options);
+  if (!options.rejections.empty()) {
+    check_folder(options.rejections, options.force, {}, options.command_line);
+  }
+  const std::vector<Problem> problems = problems_of(maps, chosen.of_maps, chosen.of_directions);
+  const Judged judged = run_on(problems, options);
+  print_for_people(options, judged, stdout_is_taken);
+  write_outputs(options, judged, describe_run(options, maps));
+  return exit_code_of(judged.verdict.overall);
+}
+
 }  // namespace
 
-void add_gate(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("gate", "Test samplers on maps: does each draw the right distribution?");
-  add_common_options(*command, *options);
-  auto* samples = add_number(*command, "-n,--samples", options->gate.samples, 1024, kMostSamples,
-                             "samples per sampler and map");
+namespace {
+
+void add_sampler_options(CLI::App& command, Options& options) {
   CLI::Option* sampler = command
-                             ->add_option("--sampler", options->samplers,
-                                          "test only this one (may be repeated; see `lightproof "
-                                          "list samplers` and `list mutants`)")
+                             .add_option("--sampler", options.samplers,
+                                         "test only this one (may be repeated; see `lightproof "
+                                         "list samplers` and `list mutants`)")
                              ->allow_extra_args(false);
   command
-      ->add_flag("--sound-only", options->sound_only,
-                 "leave out samplers that are kept with known defects")
+      .add_flag("--with-published", options.with_published,
+                "show samplers that are kept with known defects as well; they decide nothing")
       ->excludes(sampler);
-  command->add_option("--weighting", options->weighting, "test only this weighting")
-      ->check(CLI::IsMember({"A", "B"}));
+  command.add_flag("--sound-only", options.sound_only)->group("");
+  command.add_option("--weighting", options.weighting, "test only this weighting")
+      ->check(one_of("weighting", {"A", "B"}))
+      ->type_name("A|B");
+}
+
+void add_output_options(CLI::App& command, Options& options) {
+  add_output(command, "--json", options.json, "write every test to this file");
+  add_output(command, "--junit", options.junit, "the same as JUnit XML, one case a test");
+  add_output(command, "--markdown", options.markdown,
+             "a summary for a pull request or $GITHUB_STEP_SUMMARY");
+  add_path(command, "--rejections", options.rejections,
+           "write residual maps, worst bins and the cumulative divergence of rows of what is "
+           "rejected to this folder");
+  add_force(command, options.force);
+  command.add_flag("--github", options.github,
+                   "print annotations for GitHub Actions: one for each rejected sampler on a map, "
+                   "nine at most, even if quiet");
+}
+
+void add_sample_options(CLI::App& command, const std::shared_ptr<Options>& options) {
+  auto* samples = add_number(command, "-n,--samples", options->gate.samples, 1024, kMostSamples,
+                             fmt::format("samples per sampler and map; {}", kWholeNumberForms));
   command
-      ->add_option_function<std::string>(
+      .add_option_function<std::string>(
           "--level",
           [options](const std::string& level) {
             options->gate.samples = samples_of(level);
@@ -175,28 +185,34 @@ void add_gate(CLI::App& app, int& exit_code) {
           },
           "samples by name: quick 2^19, full 2^22 (as without), nightly 2^26; nightly takes the "
           "date for the seed unless --seed is given")
-      ->check(CLI::IsMember({"quick", "full", "nightly"}))
+      ->check(one_of("level", {"quick", "full", "nightly"}))
+      ->type_name("quick|full|nightly")
       ->excludes(samples);
-  command->add_flag(
+  command.add_flag(
       "--sequential", options->sequential,
       "stop drawing as soon as a sampler is known to be wrong; tests counts and exact checks only");
-  add_number(
-      *command, "--family", options->gate.family, 0, std::uint64_t{1} << 53U,
-      "p-values (with --sequential: samplers) that share the error probability, if more than "
-      "this run has: to judge a part of a run as the whole did");
-  add_path(*command, "--json", options->json, "write every test to this file");
-  add_path(*command, "--junit", options->junit, "the same as JUnit XML, one case a test");
-  add_path(*command, "--markdown", options->markdown, "a summary for a pull request");
-  add_path(
-      *command, "--rejections", options->rejections,
-      "write residual maps, worst bins and divergence by row of what is rejected to this folder");
-  command->add_flag("--github", options->github, "print annotations for GitHub Actions");
+  add_number(command, "--family", options->gate.family, 0, std::uint64_t{1} << 53U,
+             "p-values (with --sequential: samplers) that share the error probability, if more "
+             "than this run has: to judge a part of a run as the whole did");
+}
+
+}  // namespace
+
+void add_gate(CLI::App& app, const CommandLine& line, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  options->command_line = line;
+  CLI::App* command =
+      app.add_subcommand("gate", "Test samplers on maps: does each draw the right distribution?");
+  add_common_options(*command, *options);
+  add_sample_options(*command, options);
+  add_sampler_options(*command, *options);
+  add_output_options(*command, *options);
   command->footer(
       "Without MAP the samplers are tested on every built-in map, and the warps and materials\n"
       "as well. Exit codes: 0 none rejected, 1 rejected, 2 usage or input, 3 inconclusive,\n"
       "70 internal error, 71 not enough memory, 128 + N ended by signal N.\n"
-      "Samplers with known defects are shown, but decide the exit code only if named by\n"
-      "--sampler.");
+      "Samplers with known defects are tested with --with-published, and decide the exit code\n"
+      "only if named by --sampler.");
   const CLI::Option* seed = command->get_option("--seed");
   command->callback([options, seed, &exit_code] {
     if (options->nightly && seed->count() == 0) options->seed = seed_of_today();

@@ -9,12 +9,13 @@
 
 #include "common.h"
 #include "lightproof/core/parallel.h"
-#include "lightproof/core/pending_file.h"
 #include "lightproof/history/comparison.h"
 #include "lightproof/history/comparison_text.h"
 #include "lightproof/history/google_benchmark.h"
 #include "lightproof/history/store.h"
 #include "lightproof/history/trend_page.h"
+#include "lightproof/report/text_escapes.h"
+#include "outputs.h"
 
 namespace lightproof::cli {
 namespace {
@@ -33,6 +34,7 @@ struct CompareOptions {
   std::string database;
   std::string json;
   std::string markdown;
+  bool github = false;
   bool quiet = false;
 };
 
@@ -67,10 +69,10 @@ int add(const AddOptions& options) {
     const std::optional<std::int64_t> id = store.add(runs[i]);
     if (options.quiet) continue;
     if (id) {
-      fmt::print("{}: run {} of {}, {} values\n", options.files[i], *id, runs[i].commit,
-                 runs[i].measurements.size());
+      fmt::print("{}: run {} of {}, {} values\n", terminal_text(options.files[i]), *id,
+                 terminal_text(runs[i].commit), runs[i].measurements.size());
     } else {
-      fmt::print("{}: is there already\n", options.files[i]);
+      fmt::print("{}: is there already\n", terminal_text(options.files[i]));
     }
     std::fflush(stdout);
   }
@@ -78,21 +80,22 @@ int add(const AddOptions& options) {
 }
 
 int compare_commits(const CompareOptions& options) {
-  for (const std::string& file : {options.json, options.markdown}) {
-    if (!file.empty()) check_writable(file);
-  }
+  const bool stdout_is_taken =
+      check_outputs(std::vector<std::string>{options.json, options.markdown});
   const std::vector<BenchmarkRun> runs = HistoryStore::open_to_read(options.database).runs();
   const Comparison comparison = compare(runs, options.base, options.head);
-  if (!options.quiet) fmt::print("{}", comparison_table(comparison));
-  if (!options.json.empty()) write_file(options.json, comparison_json(comparison));
-  if (!options.markdown.empty()) write_file(options.markdown, comparison_markdown(comparison));
+  std::FILE* const for_people = stdout_is_taken ? stderr : stdout;
+  if (!options.quiet) fmt::print(for_people, "{}", comparison_table(comparison));
+  if (options.github) fmt::print(for_people, "{}", comparison_annotations(comparison));
+  write_output(options.json, comparison_json(comparison));
+  write_output(options.markdown, comparison_markdown(comparison));
   return count_of(comparison, RowVerdict::regressed) > 0 ? kRejected : kPassed;
 }
 
 int trend(const TrendOptions& options) {
-  check_writable(options.output);
+  check_outputs(std::vector<std::string>{options.output});
   const std::vector<BenchmarkRun> runs = HistoryStore::open_to_read(options.database).runs();
-  write_file(options.output, trend_page(trend_lines(runs), LIGHTPROOF_VERSION));
+  write_output(options.output, trend_page(trend_lines(runs), LIGHTPROOF_VERSION));
   return kPassed;
 }
 
@@ -126,15 +129,19 @@ void register_compare(CLI::App& history, int& exit_code) {
   command->add_option("BASE", options->base, "commit, or its beginning")->required();
   command->add_option("HEAD", options->head, "commit, or its beginning")->required();
   add_database(*command, options->database);
-  add_path(*command, "--json", options->json, "write every row to this file");
-  add_path(*command, "--markdown", options->markdown, "a table for a pull request");
+  add_output(*command, "--json", options->json, "write every row to this file");
+  add_output(*command, "--markdown", options->markdown,
+             "a table for a pull request or $GITHUB_STEP_SUMMARY");
+  command->add_flag("--github", options->github,
+                    "print annotations for GitHub Actions: an error for each measurement that "
+                    "regressed, a warning for each that is suspected, even if quiet");
   command->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
   command->footer(
       "A benchmark has regressed if two sessions in a row find it slower: by a one-sided\n"
       "Mann-Whitney test at .001 and by more than 5 % and three times the A/A noise; or if it\n"
-      "executes over 1 % more instructions. Slower in one session alone it is suspected.\n"
-      "Exit codes: 0 nothing regressed, 1 regressed, 2 usage or input,\n"
-      "70 internal error, 71 not enough memory.");
+      "executes over 1 % more instructions. Slower in one session alone it is suspected: measure\n"
+      "both commits again, as another session. Exit codes: 0 nothing regressed (though some may "
+      "be\nsuspected), 1 regressed, 2 usage or input, 70 internal error, 71 not enough memory.");
   command->callback([options, &exit_code] { exit_code = compare_commits(*options); });
 }
 
@@ -143,7 +150,7 @@ void register_trend(CLI::App& history, int& exit_code) {
   CLI::App* command =
       history.add_subcommand("trend", "Every benchmark over commits, as a self-contained page");
   add_database(*command, options->database);
-  add_path(*command, "-o,--output", options->output, "the HTML file")->required();
+  add_output(*command, "-o,--output", options->output, "the HTML file")->required();
   command->callback([options, &exit_code] { exit_code = trend(*options); });
 }
 

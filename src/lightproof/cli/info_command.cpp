@@ -21,8 +21,8 @@ struct Options : CommonOptions {
 MapDescription describe_input(const std::string& input, Extent size, const ReadOptions& read) {
   if (input.empty()) throw InputError("a file's name is empty");
   EnvironmentMap map =
-      is_synthetic(input) ? make_synthetic_map(input, size) : inspect_environment_map(input, read);
-  if (is_synthetic(input)) map.weights = weights_of(read.luminance);
+      is_built_in(input) ? make_synthetic_map(input, size) : inspect_environment_map(input, read);
+  if (is_built_in(input)) map.weights = weights_of(read.luminance);
   map.source = input;
   return describe(map);
 }

@@ -1,5 +1,6 @@
 // lightproof list: the registries.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common.h"
+#include "known_names.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/materials/material.h"
 #include "lightproof/mutants/direction_mutant.h"
@@ -71,6 +73,9 @@ std::vector<Entry> entries_of(const std::string& registry) {
   return described(kStrategies);
 }
 
+const std::vector<std::string> kRegistries = {"samplers",  "mutants",   "maps",      "presets",
+                                              "materials", "receivers", "strategies"};
+
 int run(const std::string& registry, bool json) {
   const std::vector<Entry> entries = entries_of(registry);
   if (json) {
@@ -100,8 +105,8 @@ void add_list(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("list", "Print a registry");
   command->add_option("WHAT", options->registry, "which registry")
       ->required()
-      ->check(CLI::IsMember(
-          {"samplers", "mutants", "maps", "presets", "materials", "receivers", "strategies"}));
+      ->check(one_of("registry", kRegistries))
+      ->type_name(fmt::format("{}", fmt::join(kRegistries, "|")));
   command->add_flag("--json", options->json, "as JSON");
   command->callback([options, &exit_code] { exit_code = run(options->registry, options->json); });
 }

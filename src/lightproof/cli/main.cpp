@@ -12,6 +12,8 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/failure.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/report/text_escapes.h"
+#include "usage_errors.h"
 
 namespace {
 
@@ -25,9 +27,14 @@ void on_interrupt(int signal) {
   std::signal(SIGTERM, SIG_DFL);
 }
 
-bool is_command(const CLI::App& app, const std::string& name) {
-  return !app.get_subcommands([&](const CLI::App* command) { return command->check_name(name); })
-              .empty();
+/// What the standard output could not hold is no result.
+bool is_stdout_written() {
+  const bool flushed = std::fflush(stdout) == 0;
+  return flushed && std::ferror(stdout) == 0;
+}
+
+void print_error(const lightproof::InputError& error) {
+  fmt::print(stderr, "lightproof: {}\n", lightproof::terminal_text(error.what()));
 }
 
 int refuse_stdout(int error) {
@@ -44,31 +51,36 @@ int fail(const std::exception_ptr& error) {
 
 int run(int argc, char** argv) {
   using namespace lightproof::cli;
+  const CommandLine line(argv, argv + argc);
   CLI::App app("Prove an environment-light sampler right, fast and stable.", "lightproof");
   app.set_version_flag("--version", "lightproof " LIGHTPROOF_VERSION);
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   int exit_code = kPassed;
-  add_study(app, exit_code);
-  add_gate(app, exit_code);
+  add_study(app, line, exit_code);
+  add_gate(app, line, exit_code);
   add_info(app, exit_code);
   add_history(app, exit_code);
   add_list(app, exit_code);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::RequiredError& error) {
-    if (argc > 1 && argv[1][0] != '-' && !is_command(app, argv[1])) {
-      fmt::print(stderr, "lightproof: there is no command '{}'; --help lists them\n", argv[1]);
-      return kBadInput;
-    }
-    return app.exit(error) == 0 ? kPassed : kBadInput;
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kPassed : kBadInput;
+    fmt::print(stderr, "{}", usage_error(app, line, error));
+    return kBadInput;
   } catch (const lightproof::Interrupted&) {
     fmt::print(stderr, "lightproof: interrupted; nothing half-written was left\n");
     return kInterrupted + caught_signal;
+  } catch (const Refusal& refusal) {
+    print_error(refusal);
+    fmt::print(stderr, "This would go on: {}\n", refusal.command());
+    return kBadInput;
+  } catch (const lightproof::InputError& error) {
+    print_error(error);
+    return kBadInput;
   }
-  if (std::fflush(stdout) != 0) return refuse_stdout(errno);
+  if (!is_stdout_written()) return refuse_stdout(errno);
   return exit_code;
 }
 

@@ -1,5 +1,6 @@
 // lightproof study: the main job.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -7,48 +8,32 @@
 #include <memory>
 
 #include "common.h"
+#include "describe_run.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
-#include "lightproof/core/pending_file.h"
 #include "lightproof/mutants/self_test.h"
 #include "lightproof/report/report.h"
+#include "lightproof/report/text_escapes.h"
 #include "lightproof/suite/study.h"
+#include "outputs.h"
+#include "whole_number.h"
 
 namespace lightproof::cli {
 namespace fs = std::filesystem;
 namespace {
 
 struct Options : CommonOptions {
-  std::string output;
+  std::string output = "out";
   std::string throughput;
+  bool force = false;
   bool no_throughput = false;
   bool no_self_test = false;
   StudyOptions study;
 };
 
-/// The folder for the report. Throws InputError if it may not be written over.
-fs::path output_folder(const Options& options) {
-  fs::path folder = options.output.empty() ? "out" : options.output;
-  std::error_code error;  // what cannot be looked at is reported when it is written to
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
-    throw InputError(fmt::format("{}: is not a folder; name another with -o", folder.string()));
-  }
-  if (options.output.empty() && fs::exists(folder, error) && !fs::is_empty(folder, error)) {
-    throw InputError(fmt::format(
-        "{}: is not empty; say `-o {}` to write over a report in it, or name another folder",
-        folder.string(), folder.string()));
-  }
-  return folder;
-}
-
-/// Makes the folder and tries it, before minutes are spent on what goes there.
-void prepare(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw InputError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
-  }
-  check_writable(folder / "report.html");
+/// A script gets the path as it is, a terminal without what would control it.
+std::string path_text(const fs::path& path) {
+  return isatty(STDOUT_FILENO) != 0 ? terminal_text(path.string()) : path.string();
 }
 
 /// The benchmark program is built beside this one.
@@ -64,38 +49,47 @@ std::optional<fs::path> benchmark_program(const Options& options) {
       program.string()));
 }
 
+/// All that goes into the report. Progress is shown until it returns.
+StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
+  StudyResult result = run_study(std::move(maps), options.study, progress_of(options));
+  result.gate.input_options = input_options(options);
+  if (!options.no_self_test) {
+    result.self_test = run_self_test(options.seed, progress_of(options));
+  }
+  return result;
+}
+
 int run(Options options) {
   const ThreadLimit threads(options.threads);
-  const fs::path folder = output_folder(options);
   options.study.benchmarks = benchmark_program(options);
   options.study.gate.seed = options.study.convergence.seed = options.study.renders.seed =
       options.seed;
   Throughput throughput;
   if (!options.throughput.empty()) throughput = read_throughput(options.throughput);
   std::vector<EnvironmentMap> maps = load_maps(options);
-  prepare(folder);
-  StudyResult result = run_study(std::move(maps), options.study, progress_bar(options));
-  result.gate.input_options = input_options(options);
+  check_folder(options.output, options.force, report_file_names(), options.command_line);
+  const RunDescription description = describe_run(options, maps);
+  StudyResult result = run_on(std::move(maps), options);
   if (!throughput.samplers.empty()) set_throughput(result, std::move(throughput));
-  if (!options.no_self_test) {
-    result.self_test = run_self_test(options.seed, progress_bar(options));
-  }
-  write_report(result, folder);
-  if (!options.quiet) fmt::print("{}\n", (folder / "report.html").string());
+  write_report(result, options.output, description, overwriting(options.force));
+  if (!options.quiet) fmt::print("{}\n", path_text(fs::path(options.output) / "report.html"));
   return kPassed;
 }
 
 }  // namespace
 
-void add_study(CLI::App& app, int& exit_code) {
+void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
+  options->command_line = line;
   CLI::App* command = app.add_subcommand(
       "study", "The main job: gate, convergence, variance, throughput and renders as one report");
   add_common_options(*command, *options);
   add_path(*command, "-o,--output", options->output,
-           "folder of the report (default: out, which must then be empty)");
+           "folder of the report, which must be new or empty unless --force is given")
+      ->capture_default_str();
+  add_force(*command, options->force);
   add_number(*command, "-n,--samples", options->study.gate.samples, 1024, kMostSamples,
-             "samples of each gate test");
+             fmt::format("samples of each gate test; {}", kWholeNumberForms));
   auto* file = add_path(*command, "--throughput", options->throughput,
                         "take throughput from this output of lightproof_bench");
   command->add_flag("--no-throughput", options->no_throughput, "leave throughput out")
@@ -106,8 +100,10 @@ void add_study(CLI::App& app, int& exit_code) {
   command->add_flag("--no-self-test", options->no_self_test,
                     "leave out the test of the gate itself (mutants, calibration, power)");
   command->footer(
-      "Writes report.html, results.json, CSV, EXR and PNG files.\nExit codes: 0 done, 2 usage or "
-      "input,\n70 internal error, 71 not enough memory, 128 + N ended by signal N.");
+      "Writes report.html, results.json, CSV, EXR and PNG files, and manifest.json, which lists\n"
+      "them.\nExit codes: 0 done, 2 usage or input,\n70 internal error, 71 not enough memory, 128 "
+      "+ "
+      "N ended by signal N.");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

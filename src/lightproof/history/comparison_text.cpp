@@ -8,6 +8,7 @@
 
 #include "lightproof/report/columns.h"
 #include "lightproof/report/numbers.h"
+#include "lightproof/report/text_escapes.h"
 
 namespace lightproof {
 namespace {
@@ -16,6 +17,8 @@ using Json = nlohmann::ordered_json;
 
 /// Enough to tell commits apart where the whole name is elsewhere.
 constexpr std::size_t kShortCommit = 12;
+/// Of each level: GitHub shows ten a step.
+constexpr std::size_t kAnnotations = 9;
 
 std::string short_commit(const std::string& commit) {
   const bool hash = commit.find_first_not_of("0123456789abcdef") == std::string::npos;
@@ -118,35 +121,65 @@ Json json_of(const std::optional<Judgement>& j) {
           {"change", change}};
 }
 
+/// What one measurement of the latest session says.
+std::string judgement_text(const ComparisonRow& row) {
+  if (!row.latest) return to_string(row.metric);
+  const Judgement& j = *row.latest;
+  return fmt::format("{} instead of {} ({}, limit {}), {}", value_text(j.head, row.metric),
+                     value_text(j.base, row.metric), change_text(j.ratio), change_text(j.limit),
+                     to_string(row.metric));
+}
+
+/// Workflow commands of one level for the rows of one verdict.
+std::string annotations(const Comparison& comparison, RowVerdict verdict, std::string_view level) {
+  std::string text;
+  std::size_t number = 0;
+  for (const ComparisonRow& row : comparison.rows) {
+    if (row.verdict != verdict || ++number > kAnnotations) continue;
+    text += fmt::format("::{} title={}::{}: {}\n", level,
+                        workflow_property("lightproof: " + row.benchmark), to_string(verdict),
+                        workflow_message(judgement_text(row)));
+  }
+  if (number <= kAnnotations) return text;
+  return text + fmt::format("::{} title=lightproof::{} more {}: see the table\n", level,
+                            counted(number - kAnnotations, "measurement"), to_string(verdict));
+}
+
 }  // namespace
 
 std::string comparison_table(const Comparison& comparison) {
   TextRows rows = {headings()};
   for (const ComparisonRow* row : ordered(comparison)) rows.push_back(cells_of(*row));
-  std::string text =
-      fmt::format("{} against {}\n", short_commit(comparison.head), short_commit(comparison.base));
+  std::string text = terminal_text(fmt::format("{} against {}", short_commit(comparison.head),
+                                               short_commit(comparison.base))) +
+                     "\n";
   for (const std::string& line : aligned_lines(rows)) text += line + "\n";
-  text += fmt::format("\n{}\n{}\n{}\n", setting_text(comparison), rule_text(comparison),
-                      totals(comparison));
+  text += fmt::format("\n{}\n{}\n{}\n", terminal_text(setting_text(comparison)),
+                      rule_text(comparison), totals(comparison));
   const std::string more = advice(comparison);
   return more.empty() ? text : text + more + "\n";
 }
 
 std::string comparison_markdown(const Comparison& comparison) {
   std::string text = fmt::format("### Performance of {} against {}\n\n{}.\n\n|",
-                                 markdown_cell(short_commit(comparison.head)),
-                                 markdown_cell(short_commit(comparison.base)), totals(comparison));
+                                 markdown_text(short_commit(comparison.head)),
+                                 markdown_text(short_commit(comparison.base)), totals(comparison));
   for (const std::string& name : headings()) text += fmt::format(" {} |", name);
   text += "\n|---|---|---|--:|--:|--:|--:|--:|--:|\n";
   for (const ComparisonRow* row : ordered(comparison)) {
     text += "|";
     for (const std::string& cell : cells_of(*row))
-      text += fmt::format(" {} |", markdown_cell(cell));
+      text += fmt::format(" {} |", markdown_text(cell));
     text += "\n";
   }
-  text += fmt::format("\n{} {}\n", rule_text(comparison), markdown_cell(setting_text(comparison)));
+  text += fmt::format("\n{} {}\n", rule_text(comparison), markdown_text(setting_text(comparison)));
   const std::string more = advice(comparison);
   return more.empty() ? text : text + "\n" + more + "\n";
+}
+
+std::string comparison_annotations(const Comparison& comparison) {
+  return annotations(comparison, RowVerdict::regressed, "error") +
+         annotations(comparison, RowVerdict::suspected, "warning");
 }
 
 std::string comparison_json(const Comparison& comparison) {
@@ -159,7 +192,8 @@ std::string comparison_json(const Comparison& comparison) {
                     {"latest", json_of(row.latest)},
                     {"earlier", json_of(row.earlier)}});
   }
-  const Json document = {{"outcome", outcome_of(comparison)},
+  const Json document = {{"format_version", kComparisonFormatVersion},
+                         {"outcome", outcome_of(comparison)},
                          {"base", comparison.base},
                          {"head", comparison.head},
                          {"machine", comparison.machine},

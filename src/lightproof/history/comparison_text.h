@@ -14,9 +14,14 @@ std::string comparison_table(const Comparison& comparison);
 /// The same for a pull request.
 std::string comparison_markdown(const Comparison& comparison);
 
-/// Keys: outcome ("regressed", "suspected", "passed"), base, head, machine, compiler, flags,
-/// sessions, rule, rows: [benchmark, metric, verdict, latest, earlier], where the last two are null
-/// or {base, head, base_runs, head_runs, ratio, limit, noise, log10_p, change}.
+/// GitHub workflow commands: an error for each measurement that regressed and a warning for each
+/// that is suspected, nine of each at most, and the numbers of the others.
+std::string comparison_annotations(const Comparison& comparison);
+
+/// Of comparison_json().
+inline constexpr int kComparisonFormatVersion = 1;
+
+/// Every row; the keys are described in docs/schema/comparison.schema.json.
 std::string comparison_json(const Comparison& comparison);
 
 }  // namespace lightproof

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <vector>
 
-#include "lightproof/report/columns.h"
+#include "lightproof/report/effects.h"
 #include "lightproof/report/gate_summary.h"
 #include "lightproof/report/html.h"
 #include "lightproof/report/numbers.h"
+#include "lightproof/report/text_escapes.h"
 
 namespace lightproof {
 namespace {
@@ -21,18 +21,15 @@ bool counts(const TestRecord& test, bool count_known_defects) {
   return count_known_defects || !test.known_defect;
 }
 
-std::string name_of(const TestRecord& test) {
-  return fmt::format("{} on {}: {}/{}", configuration_name(test), test.map, test.oracle, test.test);
-}
-
-std::string p_text(const TestRecord& test) {
+/// "log10 p -20.3", "exact check".
+std::string probability_of(const TestRecord& test) {
   return test.log10_p ? "log10 p " + significant(*test.log10_p) : std::string("exact check");
 }
 
 std::string diagnosis_of(const GateResult& gate, const TestRecord& test) {
   for (const Rejection& r : gate.rejections) {
     if (r.sampler == test.sampler && r.weighting == test.weighting && r.map == test.map) {
-      return r.diagnosis;
+      return r.diagnosis + " (" + r.looks_like + ")";
     }
   }
   return "";
@@ -53,7 +50,7 @@ std::vector<const TestRecord*> worst_rejections(const GateResult& gate, bool cou
 }
 
 std::string message_of(const GateResult& gate, const TestRecord& test) {
-  std::string text = fmt::format("{}, effect {}", p_text(test), significant(test.effect));
+  std::string text = fmt::format("{}, effect {}", probability_of(test), effect_text(test));
   if (!test.detail.empty()) text += "; " + test.detail;
   const std::string diagnosis = diagnosis_of(gate, test);
   if (!diagnosis.empty()) text += "; looks like: " + diagnosis;
@@ -67,9 +64,12 @@ std::string junit_case(const GateResult& gate, const TestRecord& test, bool coun
   const auto property = [&](std::string_view name, const std::string& value) {
     xml += fmt::format("        <property name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
   };
-  property("p", p_text(test));
-  property("effect", significant(test.effect));
-  if (test.detectable_effect) property("detectable", significant(*test.detectable_effect));
+  if (test.log10_p) {
+    property("p", p_text(*test.log10_p));
+    property("log10_p", fmt::format("{:.6g}", *test.log10_p));
+  }
+  property("effect", effect_text(test));
+  if (test.detectable_effect) property("detectable", detectable_text(test));
   property("samples", std::to_string(test.samples));
   property("seed", std::to_string(test.seed));
   property("replay", replay_command(gate, test));
@@ -90,36 +90,30 @@ std::string junit_case(const GateResult& gate, const TestRecord& test, bool coun
 
 std::string markdown_row(const GateResult& gate, const TestRecord& test) {
   return fmt::format("| {} | {} | {}/{} | {} | {} | {} |\n",
-                     markdown_cell(configuration_name(test)), markdown_cell(test.map), test.oracle,
-                     markdown_cell(test.test), p_text(test), significant(test.effect),
-                     markdown_cell(diagnosis_of(gate, test)));
+                     markdown_text(configuration_name(test)), markdown_text(test.map), test.oracle,
+                     markdown_text(test.test), probability_of(test), effect_text(test),
+                     markdown_text(diagnosis_of(gate, test)));
 }
 
-/// One word for a POSIX shell, whatever is in it.
-std::string shell_quoted(const std::string& text) {
-  const bool plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
+/// Samplers on maps that were rejected, the least likely worst test first; exact checks before all.
+std::vector<GateCell> rejected_cells(const GateResult& gate) {
+  std::vector<GateCell> cells = summarise(gate);
+  std::erase_if(cells, [](const GateCell& cell) { return cell.tally.rejected == 0; });
+  std::stable_sort(cells.begin(), cells.end(), [](const GateCell& a, const GateCell& b) {
+    return a.worst->log10_p.value_or(-1e308) < b.worst->log10_p.value_or(-1e308);
   });
-  if (plain) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
+  return cells;
 }
 
-/// Workflow commands end at a line break and give '%' a meaning.
-std::string command_text(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '%')
-      safe += "%25";
-    else if (c == '\n')
-      safe += "%0A";
-    else if (c == '\r')
-      safe += "%0D";
-    else
-      safe += c;
-  }
-  return safe;
+/// One defect, however many tests see it.
+std::string annotation(const GateResult& gate, const GateCell& cell) {
+  const TestRecord& worst = *cell.worst;
+  const std::string title = fmt::format("lightproof: {} on {}", cell.configuration, cell.map);
+  const std::string message =
+      fmt::format("{} of {} rejected, the worst {}/{}: {}. Again: {}", cell.tally.rejected,
+                  counted(cell.tally.tests, "test"), worst.oracle, worst.test,
+                  message_of(gate, worst), replay_command(gate, worst));
+  return fmt::format("::error title={}::{}\n", workflow_property(title), workflow_message(message));
 }
 
 }  // namespace
@@ -129,9 +123,9 @@ std::string replay_command(const GateResult& gate, const TestRecord& test) {
   const bool of_map = !test.weighting.empty();
   std::string options = gate.sequential ? " --sequential" : "";
   if (gate.family > 0) options += fmt::format(" --family {}", gate.family);
-  const std::string map = shell_quoted(test.source.empty() ? test.map : test.source);
+  const std::string map = shell_word(test.source.empty() ? test.map : test.source);
   return fmt::format("lightproof gate{} --sampler {}{} --samples {} --seed {}{}",
-                     of_map ? " " + map : "", shell_quoted(test.sampler),
+                     of_map ? " " + map : "", shell_word(test.sampler),
                      of_map ? " --weighting " + test.weighting + gate.input_options : "",
                      gate.samples, gate.seed, options);
 }
@@ -188,26 +182,22 @@ std::string gate_markdown(const GateResult& gate, bool count_known_defects) {
 }
 
 std::string gate_annotations(const GateResult& gate, bool count_known_defects) {
-  const auto rejected = worst_rejections(gate, count_known_defects);
+  const GateResult deciding = split_gate(gate, count_known_defects).deciding;
   std::string text;
-  for (std::size_t i = 0; i < std::min(kAnnotations, rejected.size()); ++i) {
-    text += fmt::format("::error title=lightproof::{}: {}\n", command_text(name_of(*rejected[i])),
-                        command_text(message_of(gate, *rejected[i])));
+  std::size_t shown = 0;
+  const std::vector<GateCell> rejected = rejected_cells(deciding);
+  for (; shown < std::min(kAnnotations, rejected.size()); ++shown) {
+    text += annotation(deciding, rejected[shown]);
   }
-  if (rejected.size() > kAnnotations) {
-    text += fmt::format("::error title=lightproof::and {} more rejected tests\n",
-                        rejected.size() - kAnnotations);
+  if (shown < rejected.size()) {
+    text += fmt::format("::error title=lightproof::{} more rejected: see the summary or the log\n",
+                        counted(rejected.size() - shown, "configuration"));
   }
-  const auto inconclusive =
-      std::count_if(gate.tests.begin(), gate.tests.end(), [&](const TestRecord& test) {
-        return counts(test, count_known_defects) && test.outcome == Outcome::inconclusive;
-      });
-  if (inconclusive > 0) {
+  const Tally tally = tally_of(deciding, [](const TestRecord&) { return true; });
+  if (tally.inconclusive > 0) {
     text += fmt::format("::error title=lightproof::{} could not be judged\n",
-                        counted(static_cast<std::size_t>(inconclusive), "test"));
+                        counted(tally.inconclusive, "test"));
   }
-  const Tally tally =
-      tally_of(gate, [&](const TestRecord& test) { return counts(test, count_known_defects); });
   if (tally.limited > 0) {
     text += fmt::format("::warning title=lightproof::{} limited by the sampler's own resolution\n",
                         counted(tally.limited, "test"));

@@ -1,7 +1,8 @@
 #include "lightproof/report/columns.h"
 
 #include <algorithm>
-#include <string_view>
+
+#include "lightproof/report/text_escapes.h"
 
 namespace lightproof {
 namespace {
@@ -11,6 +12,13 @@ std::size_t screen_width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
   }));
+}
+
+TextRows for_terminal(TextRows rows) {
+  for (auto& row : rows) {
+    for (std::string& cell : row) cell = terminal_text(cell);
+  }
+  return rows;
 }
 
 std::vector<std::size_t> column_widths(const TextRows& rows) {
@@ -26,7 +34,8 @@ std::vector<std::size_t> column_widths(const TextRows& rows) {
 
 }  // namespace
 
-std::vector<std::string> aligned_lines(const TextRows& rows) {
+std::vector<std::string> aligned_lines(const TextRows& unsafe) {
+  const TextRows rows = for_terminal(unsafe);
   const std::vector<std::size_t> widths = column_widths(rows);
   std::vector<std::string> lines;
   for (const auto& row : rows) {
@@ -38,15 +47,6 @@ std::vector<std::string> aligned_lines(const TextRows& rows) {
     lines.push_back(std::move(text));
   }
   return lines;
-}
-
-std::string markdown_cell(std::string text) {
-  for (const std::string_view bad : {"\n", "|"}) {
-    for (std::size_t at = text.find(bad); at != std::string::npos; at = text.find(bad, at + 1)) {
-      text.replace(at, 1, bad == "|" ? "/" : " ");
-    }
-  }
-  return text;
 }
 
 }  // namespace lightproof

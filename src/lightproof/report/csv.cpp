@@ -52,6 +52,11 @@ std::string joined(const std::vector<std::string>& texts) {
   return all;
 }
 
+/// None where it has no meaning.
+std::optional<double> dof_of(const TestRecord& test) {
+  return test.dof > 0.0 ? std::optional(test.dof) : std::nullopt;
+}
+
 }  // namespace
 
 std::string gate_csv(const GateResult& gate) {
@@ -59,7 +64,7 @@ std::string gate_csv(const GateResult& gate) {
       "sampler,weighting,map,oracle,test,samples,statistic,dof,log10_p,effect,detectable_effect,"
       "outcome,known_defect,detail\n";
   for (const TestRecord& t : gate.tests) {
-    csv += row(t.sampler, t.weighting, t.map, t.oracle, t.test, t.samples, t.statistic, t.dof,
+    csv += row(t.sampler, t.weighting, t.map, t.oracle, t.test, t.samples, t.statistic, dof_of(t),
                t.log10_p, t.effect, t.detectable_effect, to_string(t.outcome),
                t.known_defect ? "yes" : "no", t.detail);
   }

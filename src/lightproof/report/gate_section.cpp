@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lightproof/report/csv.h"
+#include "lightproof/report/effects.h"
 #include "lightproof/report/gate_summary.h"
 #include "lightproof/report/html.h"
 #include "lightproof/report/numbers.h"
@@ -55,16 +56,13 @@ std::string matrix(const std::vector<GateCell>& cells) {
   Table table("Verdict of every sampler on every map", columns, "matrix");
   for (const std::string& configuration : unique_names(configurations)) {
     std::vector<Cell> row = {text_cell(configuration)};
-    bool known_defect = false;
     for (const std::string& map : maps) {
       const auto found = std::find_if(cells.begin(), cells.end(), [&](const GateCell& c) {
         return c.configuration == configuration && c.map == map;
       });
-      if (found != cells.end()) known_defect = found->known_defect;
       row.push_back(found == cells.end() ? Cell{"\u2013 not run", "absent", ""}
                                          : tally_cell(*found));
     }
-    if (known_defect) row[0].text += " *";
     table.add(row);
   }
   return table.html();
@@ -80,6 +78,16 @@ Cell log10_p_cell(const TestRecord& test) {
   return test.log10_p ? number_cell(*test.log10_p) : Cell{"exact", "number", "no probability"};
 }
 
+Cell effect_cell(const TestRecord& test) {
+  return is_of_worst_cell(test) ? Cell{effect_text(test), "number", ""} : number_cell(test.effect);
+}
+
+Cell detectable_cell(const TestRecord& test) {
+  if (!test.detectable_effect) return {"\u2013", "number", ""};
+  return is_of_worst_cell(test) ? Cell{detectable_text(test), "number", ""}
+                                : number_cell(*test.detectable_effect);
+}
+
 std::vector<Cell> test_row(const TestRecord& t) {
   return {text_cell(configuration_name(t)),
           text_cell(t.map),
@@ -87,8 +95,8 @@ std::vector<Cell> test_row(const TestRecord& t) {
           outcome_cell(t.outcome),
           {t.detail, t.detail.empty() ? "" : "detail", ""},
           log10_p_cell(t),
-          number_cell(t.effect),
-          t.detectable_effect ? number_cell(*t.detectable_effect) : Cell{"\u2013", "number", ""},
+          effect_cell(t),
+          detectable_cell(t),
           number_cell(t.statistic, 5),
           t.dof > 0.0 ? number_cell(t.dof, 6) : Cell{"\u2013", "number", ""},
           {with_thousands(t.samples), "number", ""}};
@@ -125,18 +133,24 @@ std::vector<Sight> sights(const GateResult& gate) {
   return kinds;
 }
 
+TestRecord worst_run_of(const Sight& sight) {
+  TestRecord record;
+  record.test = sight.test;
+  if (!std::isnan(sight.detectable)) record.detectable_effect = sight.detectable;
+  return record;
+}
+
 std::string sight_table(const GateResult& gate) {
   Table table(
       "What each kind of test saw and could have seen",
       {"Oracle", "Test", "Runs", "Rejected", "Inconclusive", "Detectable effect, worst run"});
   for (const Sight& s : sights(gate)) {
-    table.add(
-        {text_cell(s.oracle),
-         text_cell(s.test),
-         {with_thousands(s.tally.tests), "number", ""},
-         {with_thousands(s.tally.rejected), "number", ""},
-         {with_thousands(s.tally.inconclusive), "number", ""},
-         std::isnan(s.detectable) ? Cell{"\u2013", "number", ""} : number_cell(s.detectable)});
+    table.add({text_cell(s.oracle),
+               text_cell(s.test),
+               {with_thousands(s.tally.tests), "number", ""},
+               {with_thousands(s.tally.rejected), "number", ""},
+               {with_thousands(s.tally.inconclusive), "number", ""},
+               detectable_cell(worst_run_of(s))});
   }
   return table.html();
 }
@@ -172,55 +186,53 @@ std::string diagnoses(const GateResult& gate) {
   return "<h4>Diagnosis</h4>\n" + table.html();
 }
 
-std::string failed_tests(const GateResult& gate, const Tally& all) {
-  std::string html;
-  if (all.rejected > 0) {
-    html += "<h4>Rejected tests</h4>\n" +
-            test_table(gate, "Rejected tests",
-                       [](const TestRecord& t) { return t.outcome == Outcome::reject; });
-  }
-  if (all.inconclusive > 0) {
-    html += "<h4>Inconclusive tests</h4>\n" +
-            test_table(gate, "Inconclusive tests",
-                       [](const TestRecord& t) { return t.outcome == Outcome::inconclusive; });
-  }
-  if (all.limited > 0) {
-    html += "<h4>Resolution-limited tests</h4>\n" +
-            test_table(gate, "Resolution-limited tests", [](const TestRecord& t) {
-              return t.outcome == Outcome::resolution_limited;
-            });
-  }
-  return html;
+std::string tests_that_are(const GateResult& gate, Outcome outcome, const std::string& heading) {
+  const auto selected = [&](const TestRecord& test) { return test.outcome == outcome; };
+  if (std::none_of(gate.tests.begin(), gate.tests.end(), selected)) return "";
+  return fmt::format("<h4>{}</h4>\n", escaped(heading)) + test_table(gate, heading, selected);
+}
+
+/// Verdicts, diagnoses, and the tests behind those that are not accepted.
+std::string verdicts(const GateResult& gate) {
+  std::vector<GateCell> cells = summarise(gate);
+  const auto directions = std::stable_partition(
+      cells.begin(), cells.end(), [](const GateCell& cell) { return cell.map != kDirections; });
+  const std::vector<GateCell> of_directions(directions, cells.end());
+  cells.erase(directions, cells.end());
+  return matrix(cells) + direction_verdicts(of_directions) + diagnoses(gate) +
+         tests_that_are(gate, Outcome::reject, "Rejected tests") +
+         tests_that_are(gate, Outcome::inconclusive, "Inconclusive tests") +
+         tests_that_are(gate, Outcome::resolution_limited, "Resolution-limited tests");
+}
+
+/// Closed, so that nobody takes a demonstration for the verdict.
+std::string demonstration(const GateResult& known_defects) {
+  if (known_defects.tests.empty()) return "";
+  return collapsible(kDemonstration, verdicts(known_defects));
 }
 
 constexpr std::string_view kLegend =
     "A and B are the weightings: A draws texels in proportion to their grey value, B to grey value "
     "times solid angle. Oracles: self compares the samples with the sampler's own pdf, reference "
     "with the map itself, mean and variance with integrals of the map; check needs no statistics. "
-    "A fraction behind a verdict counts the tests that led to it. An asterisk marks samplers that "
-    "are "
-    "kept as published, with their known defects, to show what the gate finds; they decide "
-    "nothing.";
+    "A fraction behind a verdict counts the tests that led to it. Effects are relative deviations, "
+    "or Cohen's w of counts; of the worst texel, row or column they are its count over the "
+    "expected one.";
 
 }  // namespace
 
 std::string gate_section(const GateResult& gate) {
-  const Tally all = tally_of(gate, [](const TestRecord&) { return true; });
   std::string html = "<section id=\"gate\">\n<h2>Gate</h2>\n";
-  if (all.tests == 0) {
+  if (gate.tests.empty()) {
     return html + paragraph("No test was run: run `lightproof gate` on these maps.", "empty") +
            "</section>\n";
   }
   html += fmt::format("<h3>{}</h3>\n", escaped(gate_title(gate)));
-  std::vector<GateCell> cells = summarise(gate);
-  const auto directions = std::stable_partition(
-      cells.begin(), cells.end(), [](const GateCell& cell) { return cell.map != kDirections; });
-  const std::vector<GateCell> of_directions(directions, cells.end());
-  cells.erase(directions, cells.end());
-  html += paragraph(kLegend, "note") + matrix(cells) + direction_verdicts(of_directions) +
-          diagnoses(gate) + failed_tests(gate, all);
+  const SplitGate split = split_gate(gate, false);
+  html +=
+      paragraph(kLegend, "note") + verdicts(split.deciding) + demonstration(split.known_defects);
   html += collapsible("What each kind of test could have seen", sight_table(gate));
-  html += collapsible(fmt::format("All {}", counted(all.tests, "test")),
+  html += collapsible(fmt::format("All {}", counted(gate.tests.size(), "test")),
                       test_table(gate, "All tests", [](const TestRecord&) { return true; }));
   return html + download_link("gate.csv", gate_csv(gate)) + "</section>\n";
 }

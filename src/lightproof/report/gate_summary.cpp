@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <tuple>
 
 namespace lightproof {
@@ -81,6 +82,24 @@ Tally deciding_tally(const GateResult& gate) {
 
 Tally known_defect_tally(const GateResult& gate) {
   return tally_of(gate, [](const TestRecord& test) { return test.known_defect; });
+}
+
+bool is_known_defect(const GateResult& gate, const Rejection& rejection) {
+  return std::any_of(gate.tests.begin(), gate.tests.end(), [&](const TestRecord& test) {
+    return test.known_defect && test.sampler == rejection.sampler;
+  });
+}
+
+SplitGate split_gate(const GateResult& gate, bool count_known_defects) {
+  if (count_known_defects) return {gate, {}};
+  SplitGate split{gate, gate};
+  const auto is_known = [](const TestRecord& test) { return test.known_defect; };
+  std::erase_if(split.deciding.tests, is_known);
+  std::erase_if(split.known_defects.tests, std::not_fn(is_known));
+  const auto is_known_rejection = [&](const Rejection& r) { return is_known_defect(gate, r); };
+  std::erase_if(split.deciding.rejections, is_known_rejection);
+  std::erase_if(split.known_defects.rejections, std::not_fn(is_known_rejection));
+  return split;
 }
 
 std::vector<WorstBin> worst_bins(const Rejection& rejection, std::size_t most) {

@@ -57,6 +57,22 @@ Tally deciding_tally(const GateResult& gate);
 /// The tests of samplers that are kept as published, with their known defects.
 Tally known_defect_tally(const GateResult& gate);
 
+/// Whether the rejection is of a sampler that is kept as published, with its known defects.
+bool is_known_defect(const GateResult& gate, const Rejection& rejection);
+
+/// The part of a result that decides, and the part that shows known defects: tests and rejections.
+struct SplitGate {
+  GateResult deciding;
+  GateResult known_defects;
+};
+
+/// Heads what is shown of samplers with known defects.
+inline constexpr std::string_view kDemonstration =
+    "Kept as published, with known defects: demonstration, not part of the verdict";
+
+/// All of it decides if `count_known_defects`.
+SplitGate split_gate(const GateResult& gate, bool count_known_defects);
+
 /// A bin of the 16x32 and how far it is off, in standard deviations.
 struct WorstBin {
   int x;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "lightproof/report/numbers.h"
+#include "lightproof/report/text_escapes.h"
 
 namespace lightproof {
 namespace {
@@ -30,7 +31,7 @@ std::string without_source_map(std::string code) {
 
 std::string escaped(std::string_view text) {
   std::string html;
-  for (const char c : text) {
+  for (const char c : well_formed_text(text)) {
     switch (c) {
       case '&':
         html += "&amp;";

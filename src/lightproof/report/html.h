@@ -8,7 +8,8 @@
 
 namespace lightproof {
 
-/// & < > " ' as entities: safe between tags and inside quoted attributes.
+/// & < > " ' as entities: safe between tags and inside quoted attributes, in HTML and in XML. What
+/// XML cannot hold becomes U+FFFD.
 std::string escaped(std::string_view text);
 
 /// JSON for a <script type="application/json">: no "<" is left that could end the element.

@@ -49,7 +49,7 @@ Json json_of(const TestRecord& t) {
           {"test", t.test},
           {"samples", t.samples},
           {"statistic", number(t.statistic)},
-          {"dof", number(t.dof)},
+          {"dof", t.dof > 0.0 ? number(t.dof) : Json(nullptr)},
           {"log10_p", number(t.log10_p)},
           {"effect", number(t.effect)},
           {"detectable_effect", number(t.detectable_effect)},
@@ -70,6 +70,7 @@ Json json_of(const TableRecord& r);
 Json json_of(const GrowthFit& fit);
 Json json_of(const StepTime& step);
 Json json_of(const MapRecord& r);
+Json json_of(const MapDescription& map);
 Json json_of(const RenderRecord& r);
 Json json_of(const CalibrationRecord& r);
 Json json_of(const FamilyRecord& r);
@@ -83,12 +84,35 @@ Json list_of(const std::vector<Record>& records) {
   return list;
 }
 
-Json json_of(const GateResult& gate, Outcome overall) {
-  Json rejections = Json::array();
-  for (const Rejection& rejection : gate.rejections) rejections.push_back(json_of(gate, rejection));
-  return {{"outcome", to_string(overall)}, {"family_alpha", number(gate.family_alpha)},
-          {"samples", gate.samples},       {"seed", gate.seed},
-          {"tests", list_of(gate.tests)},  {"rejections", rejections}};
+Json rejections_json(const GateResult& gate) {
+  Json list = Json::array();
+  for (const Rejection& rejection : gate.rejections) list.push_back(json_of(gate, rejection));
+  return list;
+}
+
+/// What the gate says of itself in its own document and in a study's.
+Json json_of(const GateResult& gate, GateVerdict verdict) {
+  const SplitGate split = split_gate(gate, verdict.count_known_defects);
+  return {{"outcome", to_string(verdict.overall)},
+          {"family_alpha", number(gate.family_alpha)},
+          {"samples", gate.samples},
+          {"seed", gate.seed},
+          {"tests", list_of(gate.tests)},
+          {"rejections", rejections_json(split.deciding)},
+          {"known_defects", rejections_json(split.known_defects)}};
+}
+
+Json json_of(const MapDescription& map) {
+  return {{"name", map.name},
+          {"file", map.source},
+          {"width", map.extent.width},
+          {"height", map.extent.height},
+          {"preset", map.preset ? Json(*map.preset) : Json(nullptr)},
+          {"notes", map.notes}};
+}
+
+Json commit_of(const RunDescription& run) {
+  return run.commit.empty() ? Json(nullptr) : Json(run.commit);
 }
 
 Json json_of(const GateResult& gate, const Rejection& r) {
@@ -102,7 +126,7 @@ Json json_of(const GateResult& gate, const Rejection& r) {
           {"looks_like", r.looks_like},
           {"diagnosis", r.diagnosis},
           {"worst_bins", worst},
-          {"row_divergence", r.row_divergence},
+          {"cumulative_row_divergence", r.row_divergence},
           {"replay", replay_command(gate, r)}};
 }
 
@@ -259,20 +283,32 @@ std::string text_of(const Json& json) {
 
 }  // namespace
 
-std::string gate_json(const GateResult& gate, Outcome overall) {
-  return text_of(json_of(gate, overall));
+std::string gate_json(const GateResult& gate, GateVerdict verdict, const RunDescription& run) {
+  Json document = {{"format_version", kGateFormatVersion},
+                   {"version", run.version},
+                   {"commit", commit_of(run)},
+                   {"command", run.command},
+                   {"maps", list_of(run.maps)}};
+  document.update(json_of(gate, verdict));
+  return text_of(document);
 }
 
 std::string rejection_json(const GateResult& gate, const Rejection& rejection) {
-  return text_of(json_of(gate, rejection));
+  Json document = {{"format_version", kGateFormatVersion}};
+  document.update(json_of(gate, rejection));
+  return text_of(document);
 }
 
-std::string study_json(const StudyResult& study) {
-  return text_of({{"version", study.version},
+std::string study_json(const StudyResult& study, const RunDescription& run) {
+  const GateVerdict verdict = {deciding_tally(study.gate).outcome(), false};
+  return text_of({{"format_version", kStudyFormatVersion},
+                  {"version", study.version},
+                  {"commit", commit_of(run)},
+                  {"command", run.command},
                   {"machine", study.machine},
                   {"seed", study.seed},
                   {"maps", list_of(study.maps)},
-                  {"gate", json_of(study.gate, deciding_tally(study.gate).outcome())},
+                  {"gate", json_of(study.gate, verdict)},
                   {"self_test", self_test_json(study.self_test)},
                   {"convergence", list_of(study.convergence)},
                   {"throughput", list_of(study.throughput)},

@@ -1,28 +1,41 @@
-// Results for other programs.
+// Results for other programs. Every key is described, with its unit and measure, by a JSON Schema
+// in docs/schema: gate.schema.json, rejection.schema.json, study.schema.json. `format_version`
+// grows when a key changes its meaning or goes away.
 //
-// Numbers that JSON cannot hold, in both documents: NaN is null, the infinities are 1e308 and
-// -1e308 (an impossible sample has log10_p -1e308). Text that is not UTF-8 (file names may be
-// anything) has its bad bytes replaced by U+FFFD.
+// Numbers that JSON cannot hold: NaN is null, the infinities are 1e308 and -1e308 (an impossible
+// sample has log10_p -1e308). Text that is not UTF-8 (file names may be anything) has its bad bytes
+// replaced by U+FFFD.
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "lightproof/report/run_description.h"
 #include "lightproof/suite/results.h"
 
 namespace lightproof {
 
-/// Keys: outcome, family_alpha, samples, seed, tests: [sampler, weighting, map, oracle, test,
-/// samples, statistic, dof, log10_p (null for a deterministic check), effect, detectable_effect
-/// (null where there is none), outcome, known_defect, detail]. `overall` is the verdict on the
-/// whole run: the caller decides whether known defects count.
-std::string gate_json(const GateResult& gate, Outcome overall);
+/// Of gate_json() and rejection_json().
+inline constexpr int kGateFormatVersion = 1;
+/// Of study_json().
+inline constexpr int kStudyFormatVersion = 1;
 
-/// One of its rejections: sampler, weighting, map, looks_like, diagnosis, worst_bins,
-/// row_divergence, replay.
+/// The verdict on a whole run: the caller decides whether known defects count.
+struct GateVerdict {
+  Outcome overall = Outcome::inconclusive;
+  bool count_known_defects = false;
+};
+
+/// Every test; `rejections` holds those that count, `known_defects` those of samplers that are kept
+/// as published and do not.
+std::string gate_json(const GateResult& gate, GateVerdict verdict, const RunDescription& run);
+
+/// One of its rejections, with the command that draws the same samples again.
 std::string rejection_json(const GateResult& gate, const Rejection& rejection);
 
 /// Everything in the study but the pixels, which lie in the EXR files that it names. Tests of
-/// samplers with known defects do not count towards gate.outcome.
-std::string study_json(const StudyResult& study);
+/// samplers with known defects do not count towards gate.outcome. Of `run` it takes commit and
+/// command.
+std::string study_json(const StudyResult& study, const RunDescription& run);
 
 }  // namespace lightproof

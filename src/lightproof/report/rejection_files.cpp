@@ -30,16 +30,17 @@ Grid<Rgb> enlarged(const Grid<Rgb>& picture, int factor) {
 
 }  // namespace
 
-void write_rejections(const GateResult& gate, const std::filesystem::path& folder) {
-  PendingFolder pending(folder);
+void write_rejections(const GateResult& gate, const std::filesystem::path& folder,
+                      const RunDescription& run, Overwriting overwriting) {
+  ResultFolder results(folder, overwriting);
   for (const Rejection& rejection : gate.rejections) {
-    const std::filesystem::path stem = pending.temporary() / stem_of(rejection);
+    const std::filesystem::path stem = results.temporary() / stem_of(rejection);
     write_exr(stem.string() + "-residual.exr", flip_rows(grey_picture(rejection.residual)));
     const Grid<Rgb> colours = flip_rows(diverging_picture(rejection.residual, kFullColour));
     write_png(stem.string() + "-residual.png", enlarged(colours, kPixelsPerBin));
     write_file(stem.string() + ".json", rejection_json(gate, rejection));
   }
-  pending.commit();
+  results.commit(run);
 }
 
 }  // namespace lightproof

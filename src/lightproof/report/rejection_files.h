@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "lightproof/report/result_folder.h"
 #include "lightproof/suite/results.h"
 
 namespace lightproof {
@@ -10,8 +11,12 @@ namespace lightproof {
 /// For every rejection three files named <sampler>-<weighting>-<map>:
 ///   …-residual.exr  (O - E) / sqrt(E) of the 32 x 16 bins over (phi, theta), zenith at the top
 ///   …-residual.png  the same in colours: red too many, blue too few, full at ten; 16 pixels a bin
-///   ….json          diagnosis, worst 20 bins, divergence summed up by row, command to run it again
-/// Makes the folder, even if there is nothing to write. Throws InputError if it cannot be written.
-void write_rejections(const GateResult& gate, const std::filesystem::path& folder);
+///   ….json          diagnosis, worst 20 bins, divergence of the rows added up from t = 0, command
+///                   to run it again
+/// and the manifest. Makes the folder, even if there is nothing to write. Throws InputError if it
+/// cannot be written, or if a file stands in the way that may not be overwritten.
+void write_rejections(const GateResult& gate, const std::filesystem::path& folder,
+                      const RunDescription& run = {},
+                      Overwriting overwriting = Overwriting::refused);
 
 }  // namespace lightproof

@@ -1,6 +1,7 @@
 #include "lightproof/report/report.h"
 
-#include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/pending_file.h"
@@ -36,38 +37,53 @@ void write_pictures(const std::vector<RenderRecord>& renders, const fs::path& fo
   }
 }
 
-void write_tables(const StudyResult& study, const fs::path& folder) {
-  write_file(folder / "gate.csv", gate_csv(study.gate));
-  write_file(folder / "convergence.csv", convergence_csv(study.convergence));
-  write_file(folder / "variance.csv", variance_csv(study.convergence));
-  write_file(folder / "throughput.csv", throughput_csv(study.throughput));
-  write_file(folder / "growth.csv", growth_csv(study.growth));
-  write_file(folder / "build.csv", build_csv(study.throughput));
-  write_file(folder / "tables.csv", tables_csv(study.tables));
-  write_file(folder / "renders.csv", renders_csv(study.renders));
-  write_file(folder / "maps.csv", maps_csv(study.maps));
-  if (study.self_test) {
-    write_file(folder / "mutants.csv", mutants_csv(study.self_test->mutants));
+using NamedTables = std::vector<std::pair<std::string, std::string>>;
+
+NamedTables tables_of(const StudyResult& study) {
+  const SelfTestResult self_test = study.self_test.value_or(SelfTestResult{});
+  return {{"gate.csv", gate_csv(study.gate)},
+          {"convergence.csv", convergence_csv(study.convergence)},
+          {"variance.csv", variance_csv(study.convergence)},
+          {"throughput.csv", throughput_csv(study.throughput)},
+          {"growth.csv", growth_csv(study.growth)},
+          {"build.csv", build_csv(study.throughput)},
+          {"tables.csv", tables_csv(study.tables)},
+          {"renders.csv", renders_csv(study.renders)},
+          {"maps.csv", maps_csv(study.maps)},
+          {"mutants.csv", mutants_csv(self_test.mutants)}};
+}
+
+void write_texts(const StudyResult& study, const RunDescription& run, const fs::path& folder) {
+  for (const auto& [name, table] : tables_of(study)) {
+    if (name == "mutants.csv" && !study.self_test) continue;
+    write_file(folder / name, table);
   }
-  write_file(folder / "results.json", study_json(study));
+  write_file(folder / "results.json", study_json(study, run));
+  write_file(folder / "report.html", report_page(study));
 }
 
 }  // namespace
 
-void write_report(const StudyResult& study, const fs::path& folder) {
-  PendingFolder pending(folder);
-  const std::string temporary = pending.temporary().string();
+std::set<std::string> report_file_names() {
+  std::set<std::string> names = {"report.html", "results.json"};
+  for (const auto& [name, table] : tables_of({})) names.insert(name);
+  return names;
+}
+
+void write_report(const StudyResult& study, const fs::path& folder, const RunDescription& run,
+                  Overwriting overwriting) {
+  ResultFolder results(folder, overwriting);
+  const std::string temporary = results.temporary().string();
   try {
     write_pictures(study.renders, temporary);
-    write_tables(study, temporary);
-    write_file(pending.temporary() / "report.html", report_page(study));
+    write_texts(study, run, temporary);
   } catch (const InputError& error) {
     // The reader knows the final name.
     std::string text = error.what();
     if (text.starts_with(temporary)) text.replace(0, temporary.size(), folder.string());
     throw InputError(text);
   }
-  pending.commit();
+  results.commit(run);
 }
 
 }  // namespace lightproof

@@ -2,20 +2,29 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
+#include <string>
 
+#include "lightproof/report/result_folder.h"
 #include "lightproof/suite/results.h"
 
 namespace lightproof {
 
+/// Names of files that every report has.
+std::set<std::string> report_file_names();
+
 /// Writes into `folder`, which is created if need be:
 ///   report.html    one self-contained page
 ///   results.json   everything but the pixels (report/json.h)
-///   gate.csv, convergence.csv, variance.csv, throughput.csv, tables.csv, renders.csv,
-///   maps.csv
+///   gate.csv, convergence.csv, variance.csv, throughput.csv, growth.csv, build.csv, tables.csv,
+///   renders.csv, maps.csv, mutants.csv
 ///   <map>-<receiver>-<material>-<strategy>.exr, …-error.exr (signed, relative to the reference's
 ///   mean, the same in R, G and B), <map>-<receiver>-<material>-reference.exr; the pictures and
 ///   the reference as .png too, at one exposure a scene
-/// Nothing appears before all of it is written. Throws InputError if one cannot be written.
-void write_report(const StudyResult& study, const std::filesystem::path& folder);
+///   manifest.json  the list of these (report/result_folder.h)
+/// Nothing appears before all of it is written. Throws InputError if one cannot be written, or if a
+/// file stands in its way that may not be overwritten.
+void write_report(const StudyResult& study, const std::filesystem::path& folder,
+                  const RunDescription& run = {}, Overwriting overwriting = Overwriting::refused);
 
 }  // namespace lightproof

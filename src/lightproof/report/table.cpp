@@ -6,8 +6,10 @@
 
 #include "lightproof/report/ci_outputs.h"
 #include "lightproof/report/columns.h"
+#include "lightproof/report/effects.h"
 #include "lightproof/report/gate_summary.h"
 #include "lightproof/report/numbers.h"
+#include "lightproof/report/text_escapes.h"
 
 namespace lightproof {
 namespace {
@@ -22,10 +24,6 @@ std::string log10_p_text(const TestRecord& test) {
   return test.log10_p ? significant(*test.log10_p) : "exact";
 }
 
-std::string detectable_text(const TestRecord& test) {
-  return test.detectable_effect ? significant(*test.detectable_effect) : "-";
-}
-
 std::string tally_text(const Tally& tally) {
   const std::size_t passed = tally.tests - tally.rejected - tally.inconclusive - tally.limited;
   return fmt::format("{}/{}", passed, tally.tests);
@@ -37,10 +35,9 @@ std::string summary_lines(const GateResult& gate, Colour colour) {
       {"verdict", "sampler", "map", "passed", "worst test", "log10 p", "effect", "detectable"}};
   for (const GateCell& cell : cells) {
     const TestRecord& worst = *cell.worst;
-    rows.push_back({outcome_text(cell.tally.outcome()),
-                    cell.configuration + (cell.known_defect ? " *" : ""), cell.map,
+    rows.push_back({outcome_text(cell.tally.outcome()), cell.configuration, cell.map,
                     tally_text(cell.tally), worst.oracle + "/" + worst.test, log10_p_text(worst),
-                    significant(worst.effect), detectable_text(worst)});
+                    effect_text(worst), detectable_text(worst)});
   }
   const std::vector<std::string> lines = aligned_lines(rows);
   std::string text = lines[0] + "\n";
@@ -50,22 +47,35 @@ std::string summary_lines(const GateResult& gate, Colour colour) {
   return text;
 }
 
+/// "statistic 1031, 1023 degrees of freedom, log10 p -0.37, …": what the test has.
+std::string figures_of(const TestRecord& test) {
+  std::string text;
+  if (test.log10_p) {
+    text += fmt::format("statistic {}, ", significant(test.statistic, 6));
+    if (test.dof > 0.0) text += fmt::format("{} degrees of freedom, ", significant(test.dof, 6));
+    text += fmt::format("log10 p {}", significant(*test.log10_p));
+  } else {
+    text += "exact check";
+  }
+  text += ", effect " + effect_text(test);
+  if (test.detectable_effect) text += ", detectable " + detectable_text(test);
+  return text + fmt::format(", {} samples", with_thousands(test.samples));
+}
+
 std::string full_text(const TestRecord& test) {
-  std::string text = fmt::format(
-      "{} on {}: {}/{}\n    statistic {}, dof {}, log10 p {}, effect {}, detectable {}, {} samples",
-      configuration_name(test), test.map, test.oracle, test.test, significant(test.statistic, 6),
-      significant(test.dof, 6), log10_p_text(test), significant(test.effect), detectable_text(test),
-      with_thousands(test.samples));
-  if (!test.detail.empty()) text += "\n    " + test.detail;
+  std::string text = terminal_text(fmt::format("{} on {}: {}/{}", configuration_name(test),
+                                               test.map, test.oracle, test.test)) +
+                     "\n    " + figures_of(test);
+  if (!test.detail.empty()) text += "\n    " + terminal_text(test.detail);
   return text + "\n";
 }
 
 std::string diagnosis_lines(const GateResult& gate) {
   std::string text;
   for (const Rejection& r : gate.rejections) {
-    text += fmt::format("{} {} on {} looks like: {} ({})\n", r.sampler, r.weighting, r.map,
-                        r.diagnosis, r.looks_like);
-    text += "    again: " + replay_command(gate, r) + "\n";
+    text += terminal_text(fmt::format("{} {} on {} looks like: {} ({})", r.sampler, r.weighting,
+                                      r.map, r.diagnosis, r.looks_like));
+    text += "\n    again: " + replay_command(gate, r) + "\n";
   }
   return text.empty() ? "" : "\nDiagnosis\n" + text;
 }
@@ -87,23 +97,29 @@ std::string limited_lines(const GateResult& gate) {
   return text.empty() ? "" : "\nResolution-limited tests\n" + text;
 }
 
+std::string all_lines(const GateResult& gate, Colour colour) {
+  return summary_lines(gate, colour) + rejected_lines(gate, colour) + limited_lines(gate) +
+         diagnosis_lines(gate);
+}
+
+/// Without colours, which mean a verdict.
+std::string demonstration_lines(const GateResult& known_defects) {
+  if (known_defects.tests.empty()) return "";
+  return fmt::format("\n{}\n", kDemonstration) + all_lines(known_defects, Colour::off);
+}
+
 }  // namespace
 
 std::string gate_table(const GateResult& gate, bool count_known_defects, Colour colour) {
-  const Tally all = count_known_defects ? tally_of(gate, [](const TestRecord&) { return true; })
-                                        : deciding_tally(gate);
-  const Tally known = count_known_defects ? Tally{} : known_defect_tally(gate);
-  std::string total = fmt::format(
+  const SplitGate split = split_gate(gate, count_known_defects);
+  const Tally all = tally_of(split.deciding, [](const TestRecord&) { return true; });
+  const std::string total = fmt::format(
       "{}: {}, {} rejected, {} inconclusive{}; family-wise error {}, {} samples per "
       "configuration, seed {}",
       outcome_text(all.outcome()), counted(all.tests, "test"), all.rejected, all.inconclusive,
       limited_text(all), significant(gate.family_alpha), with_thousands(gate.samples), gate.seed);
-  if (known.tests > 0) {
-    total += fmt::format("\n* kept as published, with known defects: {} of {} rejected",
-                         known.rejected, counted(known.tests, "test"));
-  }
-  return summary_lines(gate, colour) + rejected_lines(gate, colour) + limited_lines(gate) +
-         diagnosis_lines(gate) + "\n" + painted(total, all.outcome(), colour) + "\n";
+  return all_lines(split.deciding, colour) + demonstration_lines(split.known_defects) + "\n" +
+         painted(total, all.outcome(), colour) + "\n";
 }
 
 }  // namespace lightproof

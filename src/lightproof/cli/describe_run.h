@@ -1,0 +1,15 @@
+// What a run is made with, as its results say it.
+#pragma once
+
+#include <span>
+
+#include "common.h"
+#include "lightproof/image/environment_map.h"
+#include "lightproof/report/run_description.h"
+
+namespace lightproof::cli {
+
+/// Version and commit of this program, the command line, and the maps as they were read.
+RunDescription describe_run(const CommonOptions& options, std::span<const EnvironmentMap> maps);
+
+}  // namespace lightproof::cli

@@ -1,0 +1,98 @@
+#include "gate_samplers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "known_names.h"
+#include "lightproof/core/error.h"
+#include "lightproof/mutants/direction_mutant.h"
+#include "lightproof/mutants/mutant.h"
+#include "lightproof/samplers/registry.h"
+
+namespace lightproof::cli {
+namespace {
+
+template <class Range>
+auto find_named(Range& range, const std::string& name) {
+  return std::find_if(range.begin(), range.end(),
+                      [&](const auto& item) { return item.name == name; });
+}
+
+[[noreturn]] void refuse_unknown(const std::string& name) {
+  const std::vector<std::string> of_maps = names_of(samplers());
+  const std::vector<std::string> of_directions = names_of(direction_samplers());
+  std::vector<std::string> defective = names_of(mutants());
+  for (const std::string& mutant : names_of(direction_mutant_samplers())) {
+    defective.push_back(mutant);
+  }
+  std::vector<std::string> all = of_maps;
+  for (const auto& more : {of_directions, defective}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  throw InputError(
+      fmt::format("--sampler: {} (samplers of maps: {}; of directions: {}; mutants: {})",
+                  no_such_name("sampler", name, all), listed(of_maps), listed(of_directions),
+                  listed(defective)));
+}
+
+/// Adds the samplers or mutants of this name. Throws InputError if there are none.
+void add_named(ChosenSamplers& chosen, const std::string& name) {
+  for (std::vector<DirectionSampler> all : {direction_samplers(), direction_mutant_samplers()}) {
+    const auto found = find_named(all, name);
+    if (found == all.end()) continue;
+    chosen.of_directions.push_back(std::move(*found));
+    return;
+  }
+  const std::span<const Mutant> all_mutants = mutants();
+  const std::span<const SamplerInfo> all_samplers = samplers();
+  const auto mutant = find_named(all_mutants, name);
+  const auto sampler = find_named(all_samplers, name);
+  if (mutant == all_mutants.end() && sampler == all_samplers.end()) refuse_unknown(name);
+  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+    chosen.of_maps.push_back(mutant != all_mutants.end() ? subject_of(*mutant, weighting)
+                                                         : subject_of(*sampler, weighting));
+  }
+}
+
+/// Of directions that were named together with maps or a weighting, which they have no use for.
+void settle_named_directions(const SamplerChoice& choice, ChosenSamplers& chosen) {
+  if (chosen.of_directions.empty()) return;
+  const std::string names = listed(names_of(chosen.of_directions));
+  if (!choice.weighting.empty()) {
+    const std::string reason =
+        fmt::format("--weighting: {} draws directions, which have no weighting", names);
+    if (chosen.of_maps.empty()) throw InputError(reason + ": leave the option out");
+    chosen.notes.push_back(reason + ": left out");
+    chosen.of_directions.clear();
+    return;
+  }
+  if (!choice.has_maps) return;
+  const std::string reason = fmt::format("--sampler: {} draws directions and needs no map", names);
+  if (chosen.of_maps.empty()) {
+    throw InputError(reason + ": leave the maps out, or name a sampler of maps as well");
+  }
+  chosen.notes.push_back(reason + ": tested once, without one");
+}
+
+}  // namespace
+
+ChosenSamplers choose_samplers(const SamplerChoice& choice) {
+  ChosenSamplers chosen;
+  for (const std::string& name : choice.names) add_named(chosen, name);
+  settle_named_directions(choice, chosen);
+  if (choice.names.empty()) {
+    chosen.of_maps = all_subjects();
+    if (!choice.with_published) {
+      std::erase_if(chosen.of_maps, [](const Subject& subject) { return subject.known_defects; });
+    }
+    const bool of_directions = !choice.has_maps && choice.weighting.empty();
+    if (of_directions) chosen.of_directions = direction_samplers();
+  }
+  std::erase_if(chosen.of_maps, [&](const Subject& subject) {
+    return !choice.weighting.empty() && choice.weighting != to_string(subject.target.weighting);
+  });
+  return chosen;
+}
+
+}  // namespace lightproof::cli

@@ -1,0 +1,106 @@
+#include "progress_display.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <condition_variable>
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace lightproof::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::string time_text(long seconds) {
+  if (seconds < 60) return fmt::format("{} s", seconds);
+  if (seconds < 3600) return fmt::format("{} min {} s", seconds / 60, seconds % 60);
+  return fmt::format("{} h {} min", seconds / 3600, seconds / 60 % 60);
+}
+
+/// ", 2 min 5 s left", if enough is done to say so.
+std::string time_left(Clock::time_point start, double fraction) {
+  if (fraction <= 0.01) return "";
+  const double spent = std::chrono::duration<double>(Clock::now() - start).count();
+  return fmt::format(", {} left", time_text(std::lround(spent * (1.0 / fraction - 1.0))));
+}
+
+/// Draws the bar at most ten times a second.
+class Bar {
+ public:
+  Bar() = default;
+  ~Bar() { std::fputs("\r\033[K", stderr); }
+  Bar(const Bar&) = delete;
+  Bar& operator=(const Bar&) = delete;
+
+  void show(std::string_view step, double fraction) {
+    const std::lock_guard lock(mutex_);
+    const auto now = Clock::now();
+    if (fraction < 1.0 && now - shown_ < std::chrono::milliseconds(100)) return;
+    shown_ = now;
+    constexpr int kWidth = 30;
+    const int full = std::clamp(static_cast<int>(fraction * kWidth), 0, kWidth);
+    fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {}{}", "", full, "", kWidth - full,
+               100.0 * fraction, step, time_left(start_, fraction));
+    std::fflush(stderr);
+  }
+
+ private:
+  std::mutex mutex_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point shown_;
+};
+
+/// Prints a line every interval, from a thread of its own: one step of the work may take longer.
+class Lines {
+ public:
+  explicit Lines(std::chrono::seconds interval)
+      : printer_([this, interval](const std::stop_token& stop) { print_every(interval, stop); }) {}
+
+  void show(std::string_view step, double fraction) {
+    const std::lock_guard lock(mutex_);
+    step_ = step;
+    fraction_ = fraction;
+  }
+
+ private:
+  void print_every(std::chrono::seconds interval, const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (!stop.stop_requested()) {
+      ended_.wait_for(lock, stop, interval, [] { return false; });
+      if (stop.stop_requested()) return;
+      fmt::print(stderr, "{}: {:.0f} %{}\n", step_, 100.0 * fraction_,
+                 time_left(start_, fraction_));
+      std::fflush(stderr);
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable_any ended_;
+  Clock::time_point start_ = Clock::now();
+  std::string step_ = "starting";
+  double fraction_ = 0.0;
+  std::jthread printer_;  ///< last: it uses the others
+};
+
+template <class Display>
+Progress shown_on(std::shared_ptr<Display> display) {
+  return [display = std::move(display)](std::string_view step, double fraction) {
+    display->show(step, fraction);
+  };
+}
+
+}  // namespace
+
+Progress progress_display(std::chrono::seconds interval) {
+  if (isatty(STDERR_FILENO) != 0) return shown_on(std::make_shared<Bar>());
+  if (interval.count() == 0) return {};
+  return shown_on(std::make_shared<Lines>(interval));
+}
+
+}  // namespace lightproof::cli

@@ -1,0 +1,14 @@
+// How far the work is, on stderr.
+#pragma once
+
+#include <chrono>
+
+#include "lightproof/core/progress.h"
+
+namespace lightproof::cli {
+
+/// On a terminal a bar, which is wiped when the last copy of the function goes: before anything is
+/// printed. Elsewhere a plain line every `interval`, "gate: 40 %, 2 min 5 s left"; 0: none.
+Progress progress_display(std::chrono::seconds interval);
+
+}  // namespace lightproof::cli
