@@ -171,8 +171,8 @@ TEST(ParallelFor, UsesAllThreadsInsideOfTheLastOuterTask) {
 }
 
 #ifdef __SANITIZE_THREAD__
-/// Two threads, one of which reads what the other has written in a loop, after a loop of its own. The
-/// first comes first by the clock, but nothing orders them.
+/// Two threads, one of which reads what the other has written in a loop, after a loop of its own.
+/// The first comes first by the clock, but nothing orders them.
 [[noreturn]] void race_between_loops() {
   int shared = 0;
   std::atomic<bool> written = false;
