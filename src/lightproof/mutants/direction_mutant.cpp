@@ -188,7 +188,7 @@ void add_materials(std::vector<DirectionMutant>& all) {
                  lobes.sampler.pdf)));
   all.push_back(mutant(
       {"number-not-stretched", "the number that chose the lobe used again as it is", "phong_45",
-       "clumped", "reference"},
+       "unknown", "reference"},
       drawn(
           [lobes](SquarePoint u) { return u.s < lobes.share ? lobes.diffuse(u) : lobes.glossy(u); },
           lobes.sampler.pdf)));

@@ -158,27 +158,32 @@ bool positions_are_wrong(const Verdicts& verdicts) {
          verdicts.rejected("reference", "positions in the last row");
 }
 
+/// Pairs say so whatever the coordinates' laws are; sums over runs only where each coordinate is
+/// uniform.
 bool samples_depend(const Verdicts& verdicts) {
-  return verdicts.any_rejected_that("reference", "independence at lag") ||
-         verdicts.any_rejected_that("reference", "sums over runs");
+  if (verdicts.any_rejected_that("reference", "independence at lag")) return true;
+  const bool uniform = !verdicts.rejected("reference", "phi (Kuiper)") &&
+                       !verdicts.rejected("reference", "theta (Anderson-Darling)") &&
+                       !verdicts.rejected("reference", "transformed pair") &&
+                       !positions_are_wrong(verdicts);
+  return uniform && verdicts.any_rejected_that("reference", "sums over runs");
 }
 
 /// Of a pdf that is not the density that is drawn, which is the declared one.
 std::string_view name_of_wrong_pdf(const Problem& problem, const Expectation& expectation,
                                    const Evidence& evidence, const Verdicts& verdicts) {
-  const DensityComparison& density = evidence.inspection->density;
+  const Inspection& inspection = *evidence.inspection;
   const bool returned = verdicts.rejected("check", "pdf of the sample");
-  if (verdicts.rejected("check", "pdf is the declared density") && !returned) {
-    if (density.ratio.is_constant()) return "pdf-scaled";
-    if (density.times_jacobian.is_constant() || density.over_jacobian.is_constant()) {
+  if (verdicts.rejected("check", "pdf is the declared density")) {
+    if (!returned && inspection.density.ratio.is_constant()) return "pdf-scaled";
+    if (!returned && (inspection.density.times_jacobian.is_constant() ||
+                      inspection.density.over_jacobian.is_constant())) {
       return "pdf-of-another-measure";
     }
-    const std::string_view law = law_of_pdf(problem, expectation, evidence.inspection->own);
-    return law;
-  }
-  if (verdicts.rejected("check", "pdf is the declared density")) {
-    const std::string_view law = law_of_pdf(problem, expectation, evidence.inspection->own);
-    if (!law.empty()) return law;
+    const std::string_view law = law_of_pdf(problem, expectation, inspection.own);
+    // Of a law's shape, but no probability: a density over something else.
+    if (!law.empty())
+      return check_pdf_integral(inspection.own).passed ? law : "pdf-of-another-measure";
   }
   if (!returned) return {};
   return verdicts.find("check", "pdf of the sample")->effect > kNoise ? "pdf-of-another-place"

@@ -43,7 +43,8 @@ double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectati
   const std::uint64_t samples = draws.samples - draws.lost.count;
   std::vector<double> all = {log10_p(serpentine(draws.texels), serpentine(masses), samples),
                              log10_p(rows, reference::row_marginal(masses), samples),
-                             log10_p(columns, reference::column_marginal(masses), samples)};
+                             log10_p(columns, reference::column_marginal(masses), samples),
+                             worst_cell(draws.texels.values(), masses.values(), samples).log10_p};
   // The masses of an interpolated law say nothing of the bins that divide texels.
   if (expectation.lookup == Lookup::nearest) {
     const Grid<double> bins = reference::bin_masses(masses, expectation.weighting, kGateBins);

@@ -24,13 +24,14 @@ struct LawFit {
   std::string_view law;     ///< empty: none is likelier than the declared one
   double log10_odds = 0.0;  ///< against the next, the declared law among them
   std::string_view next;    ///< empty: the declared one
-  double log10_p = 0.0;     ///< of goodness of fit, over bins, texels, rows and columns
+  double log10_p = 0.0;     ///< of goodness of fit, over bins, texels, rows, columns, worst texel
   bool named() const;       ///< likelier than the next by the odds, and not rejected
 };
 
 LawFit likeliest_law(const Problem& problem, const Expectation& expectation, const Draws& draws);
 
-/// The smallest p-value of goodness of fit over bins, texels, rows and columns, times their number.
+/// The smallest p-value of goodness of fit over bins, texels, rows, columns and the worst texel,
+/// times their number.
 double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectation& expectation);
 
 }  // namespace lightproof
