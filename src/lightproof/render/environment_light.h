@@ -6,8 +6,8 @@
 
 namespace lightproof {
 
-/// The map with a sampler of its luminance for each weighting: the fastest monotone one, so that stratified points
-/// stay stratified. Refers to the map, which must outlive it.
+/// The map with a sampler of its luminance for each weighting: the fastest monotone one, so that
+/// stratified points stay stratified. Refers to the map, which must outlive it.
 class EnvironmentLight {
  public:
   explicit EnvironmentLight(const EnvironmentMap& map)
