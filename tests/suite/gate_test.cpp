@@ -111,7 +111,7 @@ TEST(Gate, TheSameJsonForAnyNumberOfThreads) {
   const auto json = [&](int threads) {
     const ThreadLimit limit(threads);
     const GateResult result = run_gate({&map, 1}, subjects, {.samples = 1000003});
-    return gate_json(result, overall_outcome(result, false));
+    return gate_json(result, {overall_outcome(result, false), false}, {});
   };
   const std::string one = json(1);
   EXPECT_EQ(json(2), one);

@@ -98,7 +98,7 @@ TEST(SequentialGate, TheSameJsonForAnyNumberOfThreads) {
     const ThreadLimit limit(threads);
     const GateResult result =
         run_sequential_gate(problems_of({&map, 1}, subjects), {.samples = 1000003});
-    return gate_json(result, overall_outcome(result, true));
+    return gate_json(result, {overall_outcome(result, true), true}, {});
   };
   const std::string one = json(1);
   EXPECT_EQ(json(2), one);

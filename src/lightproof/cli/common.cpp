@@ -26,8 +26,6 @@ namespace {
 
 constexpr std::uint64_t kLargestSide = 32768;
 
-}
-
 EnvironmentMap load_map(const std::string& input, Extent size, const ReadOptions& read) {
   if (input.empty()) throw InputError("a map's name is empty");
   if (is_built_in(input)) {

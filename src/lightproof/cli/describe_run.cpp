@@ -5,7 +5,7 @@
 namespace lightproof::cli {
 namespace {
 
-MapDescription describe(const EnvironmentMap& map, const CommonOptions& options) {
+MapOfRun describe(const EnvironmentMap& map, const CommonOptions& options) {
   const bool asked = !options.preset.empty() && !is_built_in(map.source);
   return {map.name, map.source, map.radiance.extent(),
           asked ? std::optional(options.preset) : std::nullopt, map.notes};

@@ -70,7 +70,7 @@ Json json_of(const TableRecord& r);
 Json json_of(const GrowthFit& fit);
 Json json_of(const StepTime& step);
 Json json_of(const MapRecord& r);
-Json json_of(const MapDescription& map);
+Json json_of(const MapOfRun& map);
 Json json_of(const RenderRecord& r);
 Json json_of(const CalibrationRecord& r);
 Json json_of(const FamilyRecord& r);
@@ -102,7 +102,7 @@ Json json_of(const GateResult& gate, GateVerdict verdict) {
           {"known_defects", rejections_json(split.known_defects)}};
 }
 
-Json json_of(const MapDescription& map) {
+Json json_of(const MapOfRun& map) {
   return {{"name", map.name},
           {"file", map.source},
           {"width", map.extent.width},

@@ -10,7 +10,7 @@
 namespace lightproof {
 
 /// A map as it was read.
-struct MapDescription {
+struct MapOfRun {
   std::string name;                   ///< unique in the run
   std::string source;                 ///< the path, or the name of a built-in map
   Extent extent;                      ///< in texels, after it was brought into latitude-longitude
@@ -22,7 +22,7 @@ struct RunDescription {
   std::string version;  ///< of Lightproof
   std::string commit;   ///< that it was built from; empty if it is not known
   std::string command;  ///< the command line, quoted for a shell
-  std::vector<MapDescription> maps = {};
+  std::vector<MapOfRun> maps = {};
 };
 
 }  // namespace lightproof
