@@ -157,7 +157,8 @@ INSTANTIATE_TEST_SUITE_P(Errors, BadSize,
 
 TEST(SizeOfBuiltInMaps, OfTheSmallestMapsIsAccepted) {
   for (const char* size : {"1x1", "2x1", "1x2", "3x2"}) {
-    const Finished finished = lightproof({"gate", "constant", "-n", "1024", "--size", size});
+    const Finished finished =
+        lightproof({"gate", "constant", "-n", "1024", "--must-detect", "10", "--size", size});
     EXPECT_EQ(finished.exit_code, 0) << size << "\n" << finished.out << finished.err;
   }
 }

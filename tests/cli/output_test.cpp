@@ -64,7 +64,8 @@ TEST_F(Output, IntoAPipeDoesNotReplaceIt) {
   const char* const script =
       R"(mkfifo pipe; cat pipe > copy & "$@"; test -p pipe || { kill $!; exit 9; }; wait)";
   Command command{.words = {"sh", "-c", script, "sh", program()}, .folder = path("")};
-  for (const char* word : {"gate", "constant", "-n", "1024", "--size", "8x4", "--json", "pipe"}) {
+  for (const char* word : {"gate", "constant", "-n", "1024", "--must-detect", "10", "--must-detect",
+                           "10", "--size", "8x4", "--json", "pipe"}) {
     command.words.emplace_back(word);
   }
   EXPECT_EQ(run(command).exit_code, 0);
@@ -73,8 +74,8 @@ TEST_F(Output, IntoAPipeDoesNotReplaceIt) {
 
 TEST_F(Output, OnStdoutThatCannotBeWrittenIsNotAPass) {
   // The last one is more than is kept back until the end.
-  for (const std::string words :
-       {"gate constant -n 1024 --size 8x4", "list samplers", "gate -n 1024 --size 8x4"}) {
+  for (const std::string words : {"gate constant -n 1024 --must-detect 10 --size 8x4",
+                                  "list samplers", "gate -n 1024 --must-detect 10 --size 8x4"}) {
     const Finished finished =
         run({.words = {"sh", "-c", "exec \"$0\" " + words + " > /dev/full", program()}});
     EXPECT_EQ(finished.exit_code, 2) << words;
@@ -131,8 +132,8 @@ TEST_F(FullDisk, NamesFileAndReasonAndKeepsTheEarlierFile) {
   const std::string script =
       "mount -t tmpfs -o size=64k none . && cd \"$PWD\" && echo earlier > g.json && "
       "\"$@\" --json g.json; code=$?; ls -A; cat g.json; exit $code";
-  const Finished gate =
-      run(in_mount_namespace(script, {"gate", "-q", "-n", "1024", "--size", "8x4"}, folder / ""));
+  const Finished gate = run(in_mount_namespace(
+      script, {"gate", "-q", "-n", "1024", "--must-detect", "10", "--size", "8x4"}, folder / ""));
   EXPECT_EQ(gate.exit_code, 2);
   EXPECT_THAT(gate.err, AllOf(StartsWith("lightproof: "), HasSubstr("g.json"),
                               HasSubstr("No space left on device")));

@@ -25,7 +25,7 @@ Finished lightproof(const Words& arguments, const fs::path& folder) {
 }
 
 Finished quick_gate(const Words& arguments, const fs::path& folder) {
-  Words all = {"gate", "-n", "1024", "--size", "8x4"};
+  Words all = {"gate", "-n", "1024", "--must-detect", "10", "--size", "8x4"};
   all.insert(all.end(), arguments.begin(), arguments.end());
   return lightproof(all, folder);
 }

@@ -57,9 +57,9 @@ TEST(GateJson, SaysWhatItWasMadeWith) {
              folder / "");
   const nlohmann::json gate = json_of(folder / "g.json");
   const std::string command = gate.at("command");
-  EXPECT_TRUE(
-      command.ends_with("lightproof gate -n 1024 --size 8x4 cold.exr constant --repair "
-                        "--preset mitsuba -q --json g.json"))
+  EXPECT_TRUE(command.ends_with(
+      "lightproof gate -n 1024 --must-detect 10 --size 8x4 cold.exr constant --repair "
+      "--preset mitsuba -q --json g.json"))
       << command;
   EXPECT_EQ(lightproof({"--version"}).out, "lightproof " + std::string(gate.at("version")) + "\n");
   ASSERT_EQ(gate.at("maps").size(), 2U);

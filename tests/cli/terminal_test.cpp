@@ -29,7 +29,7 @@ struct ColourCase {
 class Colour : public testing::TestWithParam<ColourCase> {};
 
 TEST_P(Colour, IsUsedWhereItIsWanted) {
-  Words words = {"gate", "constant", "-n", "1024", "--size", "8x4"};
+  Words words = {"gate", "constant", "-n", "1024", "--must-detect", "10", "--size", "8x4"};
   words.insert(words.end(), GetParam().words.begin(), GetParam().words.end());
   Command command = lightproof_command(words);
   command.environment = GetParam().environment;
