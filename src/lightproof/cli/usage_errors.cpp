@@ -95,7 +95,7 @@ std::string usage_error(const CLI::App& app, const CommandLine& line,
   std::ostringstream out;
   std::ostringstream err;
   app.exit(error, out, err);
-  return for_terminal(err.str());
+  return "lightproof: " + for_terminal(err.str());
 }
 
 }  // namespace lightproof::cli
