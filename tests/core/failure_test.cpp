@@ -27,7 +27,7 @@ Failure failure_in(const Work& work) {
   } catch (...) {
     return failure_of(std::current_exception());
   }
-  return {};
+  return {kProgramFailed, "nothing was thrown"};
 }
 
 /// More than any address space has.

@@ -84,6 +84,25 @@ std::vector<TexelSample> samples_at(const BoundSampler& sampler,
   return samples;
 }
 
+/// A rectangle of the square.
+struct Piece {
+  double s;
+  double t;
+  double width;
+  double height;
+};
+
+double integral_over(const Piece& piece, const BoundSampler& sampler) {
+  double mean = 0.0;
+  for (const Node& t : kAlong) {
+    for (const Node& s : kAcross) {
+      const SquarePoint at = {piece.s + s.at * piece.width, piece.t + t.at * piece.height};
+      mean += s.weight * t.weight * sampler.pdf(at).value;
+    }
+  }
+  return mean * piece.width * piece.height;
+}
+
 }  // namespace
 
 OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells) {
@@ -92,20 +111,12 @@ OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells) {
   const std::vector<double> along = edges(cells.height * pieces, kGateBins.height);
   OwnDensity own{0.0, Grid<double>(kGateBins)};
   for (std::size_t j = 0; j + 1 < along.size(); ++j) {
-    const double height = along[j + 1] - along[j];
     for (std::size_t i = 0; i + 1 < across.size(); ++i) {
-      const double width = across[i + 1] - across[i];
-      double mean = 0.0;
-      for (const Node& t : kAlong) {
-        for (const Node& s : kAcross) {
-          const SquarePoint at = {across[i] + s.at * width, along[j] + t.at * height};
-          mean += s.weight * t.weight * sampler.pdf(at).value;
-        }
-      }
-      const double mass = mean * width * height;
+      const Piece piece = {across[i], along[j], across[i + 1] - across[i], along[j + 1] - along[j]};
+      const double mass = integral_over(piece, sampler);
       own.integral += mass;
-      own.bins(cell_of(across[i] + 0.5 * width, kGateBins.width),
-               cell_of(along[j] + 0.5 * height, kGateBins.height)) += mass;
+      own.bins(cell_of(piece.s + 0.5 * piece.width, kGateBins.width),
+               cell_of(piece.t + 0.5 * piece.height, kGateBins.height)) += mass;
     }
   }
   for (double& mass : own.bins.values()) mass /= own.integral;

@@ -185,9 +185,9 @@ Draws draw_samples_of(const Configuration& configuration, const Expectation& exp
     if (expectation.bands[band].mass <= 0.0) continue;
     // Sums that are rounded to the nearest step are off by half of it; twice that is no risk.
     const double margin = std::max(0x1p-50, configuration.candidate->resolution);
-    const RandomStream stream =
-        configuration.stream(fmt::format("{}, directed at band {}", purpose, band));
-    add_directed_positions(draws, sampler, expectation, band, margin, stream, samples / kDirected);
+    const std::string name = fmt::format("{}, directed at band {}", purpose, band);
+    add_directed_positions(draws, sampler, expectation,
+                           {band, margin, configuration.stream(name), samples / kDirected});
   }
   return draws;
 }

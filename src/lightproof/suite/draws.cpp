@@ -269,20 +269,19 @@ Draws draw_samples(const BoundSampler& sampler, const Expectation& expectation,
 }
 
 void add_directed_positions(Draws& draws, const BoundSampler& sampler,
-                            const Expectation& expectation, std::size_t band, double margin,
-                            const RandomStream& stream, std::uint64_t count) {
-  const RowBand& rows = expectation.bands[band];
-  const double low = std::max(0.0, rows.below - margin);
-  const double high = std::min(1.0 - 0x1p-53, rows.below + rows.mass + margin);
-  std::vector<SquarePoint> points(static_cast<std::size_t>(count));
+                            const Expectation& expectation, const DirectedPoints& directed) {
+  const RowBand& rows = expectation.bands[directed.band];
+  const double low = std::max(0.0, rows.below - directed.margin);
+  const double high = std::min(1.0 - 0x1p-53, rows.below + rows.mass + directed.margin);
+  std::vector<SquarePoint> points(static_cast<std::size_t>(directed.count));
   std::vector<TexelSample> samples(points.size());
-  fill_points(stream, 0, points);
+  fill_points(directed.stream, 0, points);
   for (SquarePoint& u : points) u.t = low + u.t * (high - low);
   sampler.sample(points, samples);
   for (const TexelSample& sample : samples) {
     if (!is_on_map(sample, expectation.masses.extent())) continue;
     const reference::UnitPoint unit = expectation.transform(sample.at, sample.x, sample.y);
-    if (expectation.band_of_row[static_cast<std::size_t>(unit.row)] != band) continue;
+    if (expectation.band_of_row[static_cast<std::size_t>(unit.row)] != directed.band) continue;
     count_position(draws, unit, expectation);
   }
 }

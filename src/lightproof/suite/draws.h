@@ -83,13 +83,20 @@ struct Range {
 Draws draw_samples(const BoundSampler& sampler, const Expectation& expectation,
                    const RandomStream& stream, Range range);
 
-/// Adds the positions of samples whose points are directed at a band of rows, for a sampler that
-/// inverts the marginal of the rows by u.t: uniform over the band's share of u.t and `margin` on
-/// either side of it, by which the sampler's own sums may be off. What lands in another band is
-/// left out: given the row, its share below the sample is uniform all the same.
+/// Points that a sampler that inverts the marginal of the rows by u.t takes to a band of rows:
+/// uniform over the band's share of u.t and `margin` on either side of it, by which the sampler's
+/// own sums may be off.
+struct DirectedPoints {
+  std::size_t band;
+  double margin;
+  RandomStream stream;
+  std::uint64_t count;
+};
+
+/// Adds the positions of samples at such points. What lands in another band is left out: given the
+/// row, its share below the sample is uniform all the same.
 void add_directed_positions(Draws& draws, const BoundSampler& sampler,
-                            const Expectation& expectation, std::size_t band, double margin,
-                            const RandomStream& stream, std::uint64_t count);
+                            const Expectation& expectation, const DirectedPoints& directed);
 
 std::vector<std::uint64_t> row_counts(const Grid<std::uint64_t>& texels);
 std::vector<std::uint64_t> column_counts(const Grid<std::uint64_t>& texels);

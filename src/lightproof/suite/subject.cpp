@@ -63,6 +63,20 @@ std::vector<TargetDensity> targets_of(std::span<const Subject> subjects,
   return targets;
 }
 
+/// What all subjects of one target density on a map are held against.
+Problem problem_of(const EnvironmentMap& map, TargetDensity target) {
+  return {map.name,
+          to_string(target.weighting),
+          map.source,
+          [&map, target] {
+            return on(map, "the exact law of", [&] { return expectation_of(map, target); });
+          },
+          [&map, target] {
+            return on(map, "other laws of", [&] { return alternatives_on(map, target); });
+          },
+          {}};
+}
+
 }  // namespace
 
 Subject subject_of(const SamplerInfo& sampler, Weighting weighting) {
@@ -94,17 +108,7 @@ std::vector<Problem> problems_of(std::span<const EnvironmentMap> maps,
   std::vector<Problem> problems;
   for (const EnvironmentMap& map : maps) {
     for (const TargetDensity target : targets_of(subjects, map)) {
-      Problem problem{
-          map.name,
-          to_string(target.weighting),
-          map.source,
-          [&map, target] {
-            return on(map, "the exact law of", [&] { return expectation_of(map, target); });
-          },
-          [&map, target] {
-            return on(map, "other laws of", [&] { return alternatives_on(map, target); });
-          },
-          {}};
+      Problem problem = problem_of(map, target);
       for (const Subject& subject : subjects) {
         if (!(on_map(subject.target, map) == target)) continue;
         problem.candidates.push_back(candidate_of(subject, map));
