@@ -64,8 +64,8 @@ TEST_F(Output, IntoAPipeDoesNotReplaceIt) {
   const char* const script =
       R"(mkfifo pipe; cat pipe > copy & "$@"; test -p pipe || { kill $!; exit 9; }; wait)";
   Command command{.words = {"sh", "-c", script, "sh", program()}, .folder = path("")};
-  for (const char* word : {"gate", "constant", "-n", "1024", "--must-detect", "10", "--must-detect",
-                           "10", "--size", "8x4", "--json", "pipe"}) {
+  for (const char* word : {"gate", "constant", "-n", "1024", "--must-detect", "10", "--size", "8x4",
+                           "--json", "pipe"}) {
     command.words.emplace_back(word);
   }
   EXPECT_EQ(run(command).exit_code, 0);
