@@ -21,9 +21,10 @@ std::string text_of(const EnvironmentMap& map) {
 
 template <class Sampler, const LuminanceWeights& kGrey, Lookup kLookup = Lookup::nearest>
 AnySampler make(const EnvironmentMap& map, Weighting weighting) {
-  return with_memory_for(
-      [&] { return "the table of a sampler of " + text_of(map); },
-      [&]() -> AnySampler { return Sampler(map, on_map({weighting, kGrey, kLookup}, map)); });
+  return with_memory_for([&] { return "the table of a sampler of " + text_of(map); },
+                         [&]() -> AnySampler {
+                           return Sampler(map, on_map({weighting, kGrey, kLookup}, map));
+                         });
 }
 
 double scanned(Extent map) { return map.width + map.height; }
