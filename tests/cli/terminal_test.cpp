@@ -92,7 +92,7 @@ TEST(ProgressBar, IsWipedBeforeTheTable) {
 }
 
 TEST(ProgressLines, ArePrintedWhereNobodySeesABar) {
-  Words words = {"gate", "-n", "2^22", "--size", "32x16", "--progress", "1"};
+  Words words = {"gate", "sun-sky", "--size", "64x32", "-n", "2^21", "--progress", "1"};
   const Finished gate = Process(lightproof_command(words)).wait(std::chrono::seconds(600));
   EXPECT_EQ(gate.exit_code, 0);
   EXPECT_THAT(gate.err, testing::ContainsRegex("(^|\n)gate: [0-9]+ %(, [0-9hmins ]+ left)?\n"));
@@ -104,8 +104,8 @@ TEST(ProgressLines, ArePrintedWhereNobodySeesABar) {
 }
 
 TEST(ProgressLines, AreNotPrintedIfQuiet) {
-  const Finished gate = Process(lightproof_command({"gate", "-n", "2^22", "--size", "32x16",
-                                                    "--progress", "1", "-q"}))
+  const Finished gate = Process(lightproof_command({"gate", "sun-sky", "--size", "64x32", "-n",
+                                                    "2^21", "--progress", "1", "-q"}))
                             .wait(std::chrono::seconds(600));
   EXPECT_THAT(gate.err, IsEmpty());
 }
