@@ -25,6 +25,8 @@ namespace {
 struct Entry {
   std::string name;
   std::string description;
+  std::string_view over = {};       ///< of a mutant: what it draws from
+  std::string_view diagnosis = {};  ///< of a mutant: the name that a diagnosis should give
 };
 
 template <class Range>
@@ -55,10 +57,12 @@ std::vector<Entry> mutant_entries() {
   for (const Mutant& mutant : mutants()) {
     const std::string needs =
         mutant.needs.empty() ? "" : fmt::format(" (shows on maps with {})", mutant.needs);
-    entries.push_back({std::string(mutant.name), std::string(mutant.defect) + needs});
+    entries.push_back(
+        {std::string(mutant.name), std::string(mutant.defect) + needs, "map", mutant.diagnosis});
   }
   for (const DirectionMutant& mutant : direction_mutants()) {
-    entries.push_back({mutant.sampler.name, mutant.sampler.description});
+    entries.push_back(
+        {mutant.sampler.name, mutant.sampler.description, "directions", mutant.diagnosis});
   }
   return entries;
 }
@@ -82,6 +86,9 @@ int run(const std::string& registry, bool json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Entry& entry : entries) {
       list.push_back({{"name", entry.name}, {"description", entry.description}});
+      if (entry.over.empty()) continue;
+      list.back()["over"] = entry.over;
+      list.back()["diagnosis"] = entry.diagnosis;
     }
     fmt::print("{}\n", list.dump(2));
     return kPassed;
