@@ -69,7 +69,19 @@ TEST(GateJson, SaysWhatItWasMadeWith) {
   EXPECT_EQ(file.at("height"), 4);
   EXPECT_EQ(file.at("preset"), "mitsuba");
   EXPECT_THAT(file.at("notes").dump(), HasSubstr("Set to 0"));
-  EXPECT_TRUE(gate.at("maps")[1].at("preset").is_null());
+  EXPECT_EQ(file.at("faults")[0].at("kind"), "negative values");
+  EXPECT_EQ(gate.at("maps")[1].at("file"), "constant");
+}
+
+TEST(InfoSchema, DescribesOneFileAndSeveral) {
+  const TemporaryFolder folder;
+  write_map(folder / "cold.exr", {8, 4}, [](Grid<Rgb>& picture) { picture(3, 1).b = -1.0F; });
+  for (const Words& files : {Words{"cold.exr"}, Words{"cold.exr", "sun-sky"}}) {
+    Words words = {"info", "--json"};
+    words.insert(words.end(), files.begin(), files.end());
+    write_bytes(folder / "i.json", lightproof(words, folder / "").out);
+    expect_valid("info.schema.json", folder / "i.json");
+  }
 }
 
 TEST(ListSchema, DescribesRegistries) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <set>
 #include <string>
 
@@ -15,12 +16,15 @@
 #include "lightproof/mutants/kill_matrix.h"
 #include "lightproof/mutants/mutant.h"
 #include "lightproof/suite/gate.h"
+#include "lightproof/suite/law_sampler.h"
+#include "reference/texel_masses.h"
 
 namespace lightproof {
 namespace {
 
 using testing::Contains;
 using testing::Field;
+using testing::StartsWith;
 
 struct Kill {
   std::string_view oracle;
@@ -187,6 +191,102 @@ TEST(Mutants, AreNamedRightlyOnOtherMapsToo) {
     right += mutant->diagnosis == rejection.looks_like ? 1 : 0;
   }
   EXPECT_GE(10 * right, 8 * result.rejections.size());
+}
+
+using ChangeMasses = void (*)(Grid<double>&, const EnvironmentMap&);
+
+/// Draws other masses than the declared ones, without an alternative that explains them.
+Subject subject_of_masses(std::string name, Weighting weighting, ChangeMasses change) {
+  Subject subject;
+  subject.name = std::move(name);
+  subject.target = {weighting, kRec709};
+  subject.bind = [target = subject.target, change](const EnvironmentMap& map) {
+    Grid<double> masses = reference::texel_masses(map, target);
+    change(masses, map);
+    const double sum = std::accumulate(masses.values().begin(), masses.values().end(), 0.0);
+    for (double& mass : masses.values()) mass /= sum;
+    return bound(LawSampler(std::move(masses), target.weighting));
+  };
+  return subject;
+}
+
+void weigh_rows_by_their_maximum(Grid<double>& masses, const EnvironmentMap& /*map*/) {
+  for (int y = 0; y < masses.extent().height; ++y) {
+    const auto row = masses.row(y);
+    const double sum = std::accumulate(row.begin(), row.end(), 0.0);
+    const double most = *std::max_element(row.begin(), row.end());
+    if (sum <= 0.0) continue;
+    for (double& mass : row) mass *= most / sum;
+  }
+}
+
+void brighten_upper_half(Grid<double>& masses, const EnvironmentMap& /*map*/) {
+  for (int y = 0; 2 * y < masses.extent().height; ++y) {
+    for (double& mass : masses.row(y)) mass *= 1.01;
+  }
+}
+
+/// All below the first quartile.
+void drop_faint_texels(Grid<double>& masses, const EnvironmentMap& map) {
+  std::vector<float> greens;
+  for (const Rgb& rgb : map.radiance.values()) greens.push_back(rgb.g);
+  const auto quartile = greens.begin() + static_cast<std::ptrdiff_t>(greens.size() / 4);
+  std::nth_element(greens.begin(), quartile, greens.end());
+  for (std::size_t i = 0; i < masses.values().size(); ++i) {
+    if (map.radiance.values()[i].g < *quartile) masses.values()[i] = 0.0;
+  }
+}
+
+/// s times (W-1)/W: as if the last column were the edge of the map.
+Subject narrowed_subject(Weighting weighting) {
+  Subject subject;
+  subject.name = "narrowed";
+  subject.target = {weighting, kRec709};
+  subject.bind = [target = subject.target](const EnvironmentMap& map) {
+    const BoundSampler sound =
+        bound(LawSampler(reference::texel_masses(map, target), target.weighting));
+    const Extent extent = map.radiance.extent();
+    return BoundSampler{
+        [sound, extent](std::span<const SquarePoint> points, std::span<TexelSample> samples) {
+          sound.sample(points, samples);
+          for (TexelSample& sample : samples.first(points.size())) {
+            sample.at.s *= (extent.width - 1.0) / extent.width;
+            sample.x = cell_of(sample.at.s, extent.width);
+            sample.pdf = sound.pdf(sample.at);
+          }
+        },
+        sound.pdf};
+  };
+  return subject;
+}
+
+// A wrong name is worse than none: what no known defect explains is called unknown, and described.
+TEST(Diagnosis, OfDefectsOutsideTheListGivesNoNameFromIt) {
+  std::vector<EnvironmentMap> maps;
+  for (const char* name : {"sun-sky", "gradient"}) {
+    maps.push_back(make_synthetic_map(name, {128, 64}));
+  }
+  std::vector<Subject> subjects;
+  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+    subjects.push_back(
+        subject_of_masses("rows by maximum", weighting, weigh_rows_by_their_maximum));
+    subjects.push_back(subject_of_masses("bright upper half", weighting, brighten_upper_half));
+    subjects.push_back(subject_of_masses("no faint texels", weighting, drop_faint_texels));
+    subjects.push_back(narrowed_subject(weighting));
+  }
+  const GateResult result = run_gate(maps, subjects, {.samples = 1U << 20U});
+  EXPECT_GE(result.rejections.size(), 2 * subjects.size() - 2);
+  for (const Rejection& rejection : result.rejections) {
+    // Where all columns are alike this is the law that lacks the last one.
+    if (rejection.sampler == "narrowed" && rejection.map == "gradient") {
+      EXPECT_EQ(rejection.looks_like, "no-last-column");
+      continue;
+    }
+    EXPECT_EQ(rejection.looks_like, "unknown")
+        << rejection.sampler << " " << rejection.weighting << " on " << rejection.map << ": "
+        << rejection.diagnosis << " (" << rejection.confidence << ")";
+    EXPECT_THAT(rejection.diagnosis, StartsWith("no known defect explains the samples: "));
+  }
 }
 
 TEST(Mutants, HaveNamesOfTheirOwn) {

@@ -54,7 +54,7 @@ StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
   StudyResult result = run_study(std::move(maps), options.study, progress_of(options));
   result.gate.input_options = input_options(options);
   if (!options.no_self_test) {
-    result.self_test = run_self_test(options.seed, progress_of(options));
+    result.self_test = run_self_test(result.maps, options.seed, progress_of(options));
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/out_of_memory.h"
 #include "lightproof/image/file_format.h"
 #include "lightproof/image/open_image_io_file.h"
 #include "lightproof/image/radiance_file.h"
@@ -13,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Runs `work` and turns whatever a decoder throws into an InputError.
+/// Runs `work` and turns whatever a decoder throws into an InputError. Headers that ask for more
+/// than their files can hold are refused before, so that lack of memory is the machine's.
 template <class Work>
 auto guarded(const fs::path& file, const Work& work) {
   try {
@@ -22,8 +24,8 @@ auto guarded(const fs::path& file, const Work& work) {
     throw;
   } catch (const Interrupted&) {
     throw;
-  } catch (const std::bad_alloc&) {
-    refuse(file, "cannot be read: not enough memory for what the header asks");
+  } catch (const std::bad_alloc& error) {
+    throw out_of_memory("the picture " + file.string(), error);
   } catch (const std::exception& error) {
     refuse(file, "cannot be read: " + first_line(error.what()));
   } catch (...) {

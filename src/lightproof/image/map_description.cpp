@@ -31,7 +31,8 @@ Json object_of(const MapDescription& map) {
   const PictureHeader& picture = map.origin.picture;
   Json faults = Json::array();
   for (const MapFault& fault : map.origin.faults) faults.push_back(fault_json(fault));
-  return {{"file", map.file},
+  return {{"name", map.name},
+          {"file", map.file},
           {"format", picture.format},
           {"width", picture.extent.width},
           {"height", picture.extent.height},

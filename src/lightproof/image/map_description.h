@@ -24,7 +24,7 @@ struct MapDescription {
 
 MapDescription describe(const EnvironmentMap& map);
 
-/// One JSON object. Keys: file, format, width and height (in pixels of the file), preset,
+/// One JSON object. Keys: name, file, format, width and height (in pixels of the file), preset,
 /// preset_reason, parts, part, channels, layers, read, left_out, orientation, primaries, exposure,
 /// luminance_weights, mean_luminance (over solid angle), peak_luminance, peak_texel (column and row
 /// of the file), peak_direction, effective_fraction (null if black), faults: [kind, count, column,

@@ -193,7 +193,7 @@ void add_materials(std::vector<DirectionMutant>& all) {
           [lobes](SquarePoint u) { return u.s < lobes.share ? lobes.diffuse(u) : lobes.glossy(u); },
           lobes.sampler.pdf)));
   all.push_back(mutant({"density-of-one-lobe", "the density of the chosen lobe alone is returned",
-                        "phong_45", "pdf-of-another-place", "check"},
+                        "phong_45", "pdf-mismatch", "check"},
                        [lobes](SquarePoint u) {
                          const DrawnDirection drawn = lobes.sampler.sample(u);
                          const double cosine = glm::dot(lobes.mirrored.normal, drawn.direction);

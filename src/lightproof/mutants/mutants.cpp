@@ -368,7 +368,7 @@ constexpr std::array kMutants = {
            .pdf = [](const LawSampler& law, SquarePoint at) { return law.pdf(upside_down(at)); }},
     Mutant{.name = "noisy-weights",
            .defect = "densities 10 % too small and too large by turns",
-           .diagnosis = "noisy-pdf",
+           .diagnosis = "pdf-mismatch",
            .oracle = "check",
            .sample =
                [](TexelSample& s, const LawSampler&) {

@@ -1,12 +1,17 @@
 // Everything that shows whether the gate can be trusted, at once.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "lightproof/core/progress.h"
 #include "lightproof/suite/results.h"
 
 namespace lightproof {
 
-/// Mutants, calibration and power, as the report shows them: about a minute on two cores.
-SelfTestResult run_self_test(std::uint64_t seed, const Progress& progress = {});
+/// Mutants, calibration and power, and the names that the gate gives to mutants on these maps, as
+/// the report shows them: about a minute on two cores, and some twenty seconds a map.
+SelfTestResult run_self_test(std::span<const MapRecord> maps, std::uint64_t seed,
+                             const Progress& progress = {});
 
 }  // namespace lightproof

@@ -70,12 +70,12 @@ Json json_of(const TableRecord& r);
 Json json_of(const GrowthFit& fit);
 Json json_of(const StepTime& step);
 Json json_of(const MapRecord& r);
-Json json_of(const MapOfRun& map);
 Json json_of(const RenderRecord& r);
 Json json_of(const CalibrationRecord& r);
 Json json_of(const FamilyRecord& r);
 Json json_of(const PowerRecord& r);
 Json json_of(const KillRecord& r);
+Json json_of(const NamingRecord& r);
 
 template <class Record>
 Json list_of(const std::vector<Record>& records) {
@@ -102,13 +102,11 @@ Json json_of(const GateResult& gate, GateVerdict verdict) {
           {"known_defects", rejections_json(split.known_defects)}};
 }
 
-Json json_of(const MapOfRun& map) {
-  return {{"name", map.name},
-          {"file", map.source},
-          {"width", map.extent.width},
-          {"height", map.extent.height},
-          {"preset", map.preset ? Json(*map.preset) : Json(nullptr)},
-          {"notes", map.notes}};
+/// Documents that others have written already.
+Json parsed(const std::vector<std::string>& documents) {
+  Json list = Json::array();
+  for (const std::string& document : documents) list.push_back(Json::parse(document));
+  return list;
 }
 
 Json commit_of(const RunDescription& run) {
@@ -125,6 +123,7 @@ Json json_of(const GateResult& gate, const Rejection& r) {
           {"map", r.map},
           {"looks_like", r.looks_like},
           {"diagnosis", r.diagnosis},
+          {"confidence", r.confidence},
           {"worst_bins", worst},
           {"cumulative_row_divergence", r.row_divergence},
           {"replay", replay_command(gate, r)}};
@@ -269,12 +268,20 @@ Json json_of(const KillRecord& r) {
           {"sequential", r.sequential ? Json(*r.sequential) : Json(nullptr)}};
 }
 
+Json json_of(const NamingRecord& r) {
+  return {{"mutant", r.mutant}, {"expected", r.expected},
+          {"runs", r.runs},     {"rejected", r.rejected},
+          {"right", r.right},   {"unknown", r.unknown},
+          {"wrong", r.wrong},   {"wrong_names", r.wrong_names}};
+}
+
 Json self_test_json(const std::optional<SelfTestResult>& self_test) {
   if (!self_test) return nullptr;
   return {{"calibration", list_of(self_test->calibration.tests)},
           {"families", list_of(self_test->calibration.families)},
           {"power", list_of(self_test->power)},
-          {"mutants", list_of(self_test->mutants)}};
+          {"mutants", list_of(self_test->mutants)},
+          {"naming", list_of(self_test->naming)}};
 }
 
 std::string text_of(const Json& json) {
@@ -288,7 +295,7 @@ std::string gate_json(const GateResult& gate, GateVerdict verdict, const RunDesc
                    {"version", run.version},
                    {"commit", commit_of(run)},
                    {"command", run.command},
-                   {"maps", list_of(run.maps)}};
+                   {"maps", parsed(run.maps)}};
   document.update(json_of(gate, verdict));
   return text_of(document);
 }

@@ -57,6 +57,50 @@ std::string kill_table(const std::vector<KillRecord>& mutants) {
   return table.html();
 }
 
+/// Sums over all mutants.
+NamingRecord total_of(const std::vector<NamingRecord>& naming) {
+  NamingRecord total;
+  for (const NamingRecord& r : naming) {
+    total.runs += r.runs;
+    total.rejected += r.rejected;
+    total.right += r.right;
+    total.unknown += r.unknown;
+    total.wrong += r.wrong;
+  }
+  return total;
+}
+
+std::string naming_finding(const std::vector<NamingRecord>& naming) {
+  const NamingRecord total = total_of(naming);
+  const auto share = [&](std::uint64_t count) {
+    return percent(static_cast<double>(count) /
+                   static_cast<double>(std::max<std::uint64_t>(1, total.rejected)));
+  };
+  return fmt::format(
+      "Of {} rejections of planted defects on the maps of this study, {} are called by their right "
+      "name, {} by a wrong one, and of {} the diagnosis says that no known defect explains the "
+      "samples.",
+      with_thousands(total.rejected), share(total.right), share(total.wrong), share(total.unknown));
+}
+
+std::string naming_table(const std::vector<NamingRecord>& naming) {
+  Table table("Names of planted defects",
+              {"Mutant", "Its name", "Runs", "Rejected", "Right", "Unknown", "Wrong"});
+  const auto number = [](std::uint64_t count) { return Cell{with_thousands(count), "number", ""}; };
+  for (const NamingRecord& r : naming) {
+    const std::string names =
+        r.wrong == 0 ? "" : fmt::format(" ({})", fmt::join(r.wrong_names, ", "));
+    table.add({text_cell(r.mutant),
+               text_cell(r.expected),
+               number(r.runs),
+               number(r.rejected),
+               number(r.right),
+               number(r.unknown),
+               {with_thousands(r.wrong) + names, r.wrong == 0 ? "number" : "reject", ""}});
+  }
+  return table.html();
+}
+
 const CalibrationRecord& worst_of(const std::vector<CalibrationRecord>& tests) {
   return *std::max_element(tests.begin(), tests.end(), [](const auto& a, const auto& b) {
     return a.ks_distance < b.ks_distance;
@@ -156,13 +200,17 @@ std::string self_test_section(const std::optional<SelfTestResult>& self_test) {
                "empty") +
            "</section>\n";
   }
-  const auto& [calibration, power, mutants] = *self_test;
+  const auto& [calibration, power, mutants, naming] = *self_test;
   html += paragraph(kIntroduction, "note");
   html += chart_figure({"kill-chart", kill_finding(mutants),
                         "Fewest samples with which each test rejects each planted defect",
                         std::string(kKillNote), kill_chart(mutants)},
                        collapsible("Planted defects as a table", kill_table(mutants)) +
                            download_link("mutants.csv", mutants_csv(mutants)));
+  if (!naming.empty()) {
+    html += paragraph(naming_finding(naming), "note") +
+            collapsible("Names of planted defects as a table", naming_table(naming));
+  }
   html += chart_figure({"calibration-chart", calibration_finding(calibration.tests),
                         "Deviation of p-values from uniform", std::string(kCalibrationNote),
                         calibration_chart(calibration.tests)},

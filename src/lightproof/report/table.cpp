@@ -75,6 +75,7 @@ std::string diagnosis_lines(const GateResult& gate) {
   for (const Rejection& r : gate.rejections) {
     text += terminal_text(fmt::format("{} {} on {} looks like: {} ({})", r.sampler, r.weighting,
                                       r.map, r.diagnosis, r.looks_like));
+    if (!r.confidence.empty()) text += "\n    " + terminal_text(r.confidence);
     text += "\n    again: " + replay_command(gate, r) + "\n";
   }
   return text.empty() ? "" : "\nDiagnosis\n" + text;
@@ -110,6 +111,22 @@ std::string demonstration_lines(const GateResult& known_defects) {
 
 }  // namespace
 
+/// What an accepting run could have seen, by the weakest of its tests of the bins.
+std::string power_text(const GateResult& gate) {
+  double weakest = 0.0;
+  for (const TestRecord& test : gate.tests) {
+    const bool judges_all = test.test == kBinsTest || test.test == kSequentialTest;
+    if (judges_all && test.oracle == "reference") {
+      weakest = std::max(weakest, test.detectable_effect.value_or(0.0));
+    }
+  }
+  if (weakest <= 0.0) return "";
+  return fmt::format(
+      "\nwould have seen, with {:.0f} % probability, bins that are off by {} % (root mean square) "
+      "or more",
+      100.0 * kDetectablePower, significant(100.0 * weakest));
+}
+
 std::string gate_table(const GateResult& gate, bool count_known_defects, Colour colour) {
   const SplitGate split = split_gate(gate, count_known_defects);
   const Tally all = tally_of(split.deciding, [](const TestRecord&) { return true; });
@@ -119,7 +136,7 @@ std::string gate_table(const GateResult& gate, bool count_known_defects, Colour 
       outcome_text(all.outcome()), counted(all.tests, "test"), all.rejected, all.inconclusive,
       limited_text(all), significant(gate.family_alpha), with_thousands(gate.samples), gate.seed);
   return all_lines(split.deciding, colour) + demonstration_lines(split.known_defects) + "\n" +
-         painted(total, all.outcome(), colour) + "\n";
+         painted(total, all.outcome(), colour) + power_text(split.deciding) + "\n";
 }
 
 }  // namespace lightproof

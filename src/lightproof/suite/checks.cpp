@@ -27,6 +27,41 @@ constexpr std::array<Node, 3> kAlong = {
 /// is a = 0 at a pole, f^(6) = 6 b: of its integral b h^3/3 that is 9 h^4/10^6 = 5e-11 at
 /// h = pi/64, whatever the height of the map and wherever its light is.
 constexpr int kFewestPieces = 64;
+/// Relative difference of two pdfs that are meant to be one.
+constexpr double kSamePdf = 1e-5;
+
+/// A place, seen from a sample's on a map of this size, whose pdf may be taken for its own.
+struct OtherPlace {
+  std::string_view name;
+  SquarePoint (*of)(SquarePoint at, Extent map);
+};
+constexpr std::array<OtherPlace, 6> kOtherPlaces = {{
+    {"one column to the right",
+     [](SquarePoint at, Extent map) {
+       return SquarePoint{std::fmod(at.s + 1.0 / map.width, 1.0), at.t};
+     }},
+    {"one column to the left",
+     [](SquarePoint at, Extent map) {
+       return SquarePoint{std::fmod(at.s + 1.0 - 1.0 / map.width, 1.0), at.t};
+     }},
+    {"one row below",
+     [](SquarePoint at, Extent map) {
+       return SquarePoint{at.s, std::min(at.t + 1.0 / map.height, 1.0 - 0x1p-53)};
+     }},
+    {"one row above",
+     [](SquarePoint at, Extent map) {
+       return SquarePoint{at.s, std::max(at.t - 1.0 / map.height, 0.0)};
+     }},
+    {"mirrored in s",
+     [](SquarePoint at, Extent /*map*/) {
+       return SquarePoint{std::max(0.0, 1.0 - 0x1p-53 - at.s), at.t};
+     }},
+    {"mirrored in t",
+     [](SquarePoint at, Extent /*map*/) {
+       return SquarePoint{at.s, std::max(0.0, 1.0 - 0x1p-53 - at.t)};
+     }},
+}};
+
 constexpr std::array<double, 5> kCorners = {0.0, 0x1p-24, 0.5, 1.0 - 0x1p-24, 1.0 - 0x1p-53};
 
 /// The cumulative sums of `masses`, normalised, each with its neighbours on either side, in double
@@ -82,6 +117,36 @@ std::vector<TexelSample> samples_at(const BoundSampler& sampler,
   std::vector<TexelSample> samples(points.size());
   sampler.sample(points, samples);
   return samples;
+}
+
+bool is_same_pdf(PerSquare a, PerSquare b) {
+  return std::abs(a.value - b.value) <= kSamePdf * std::abs(b.value);
+}
+
+/// Fewer points than these that differ say nothing of where their pdf comes from.
+constexpr std::size_t kFewestThatDiffer = 8;
+
+std::optional<std::string_view> place_of_returned_pdf(const BoundSampler& sampler, Extent map) {
+  // The plane's R2 sequence: points that lie evenly, and on no texel's edge.
+  constexpr int kPoints = 1 << 12;
+  std::vector<SquarePoint> points;
+  for (int i = 1; i <= kPoints; ++i) {
+    points.push_back(
+        {std::fmod(i * 0.75487766624669276, 1.0), std::fmod(i * 0.56984029099805327, 1.0)});
+  }
+  std::vector<TexelSample> differ;
+  for (const TexelSample& sample : samples_at(sampler, points)) {
+    if (!is_on_map(sample, map)) continue;
+    if (!is_same_pdf(sampler.pdf(sample.at), sample.pdf)) differ.push_back(sample);
+  }
+  if (differ.size() < kFewestThatDiffer) return std::nullopt;
+  for (const OtherPlace& other : kOtherPlaces) {
+    const bool all = std::all_of(differ.begin(), differ.end(), [&](const TexelSample& sample) {
+      return is_same_pdf(sampler.pdf(other.of(sample.at, map)), sample.pdf);
+    });
+    if (all) return other.name;
+  }
+  return std::nullopt;
 }
 
 /// A rectangle of the square.
@@ -142,7 +207,7 @@ CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& 
     const double error = std::abs(sampler.pdf(sample.at).value / sample.pdf.value - 1.0);
     if (error <= result.worst) continue;
     result.worst = error;
-    if (error <= 1e-5) continue;
+    if (error <= kSamePdf) continue;
     result.passed = false;
     result.detail = fmt::format(
         "at u = ({:.17g}, {:.17g}) pdf() differs from the returned pdf by {:.3g}", u.s, u.t, error);
@@ -228,7 +293,8 @@ CheckResult check_declared_density(const DensityComparison& density) {
 Inspection inspect(const BoundSampler& sampler, const Expectation& expectation,
                    const MassRounding& rounding) {
   return {integrate_pdf(sampler, expectation.smooth_cells()),
-          compare_density(sampler, expectation, rounding), check_edges(sampler, expectation)};
+          compare_density(sampler, expectation, rounding), check_edges(sampler, expectation),
+          place_of_returned_pdf(sampler, expectation.masses.extent())};
 }
 
 CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,

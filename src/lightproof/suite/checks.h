@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lightproof/core/random.h"
@@ -60,6 +62,9 @@ struct Inspection {
   OwnDensity own;
   DensityComparison density;
   std::array<CheckResult, 2> edges;
+  /// "one column to the right": where pdf() is what sample() returns, at every point where that is
+  /// not the pdf of the sample's own place; none if there is no such point or no such place.
+  std::optional<std::string_view> returned_pdf_of;
 };
 Inspection inspect(const BoundSampler& sampler, const Expectation& expectation,
                    const MassRounding& rounding);

@@ -47,7 +47,7 @@ Draws draw_samples_of(const Configuration& configuration, const Expectation& exp
 
 /// The tests of drawn samples; their p-values are not judged yet.
 std::vector<Measured> test_draws(const Configuration& configuration, const Expectation& expectation,
-                                 const OwnDensity& own, const Draws& draws,
+                                 const Inspection& inspection, const Draws& draws,
                                  const UniformEstimates& uniform);
 
 /// The sampler that others of the same law claim to equal, and the bins of what it drew.

@@ -56,7 +56,8 @@ struct RowComparison {
   DensityComparison found;
   double excess = 0.0;  ///< error of the worst cell over its bound
 
-  void add(const ComparedCell& cell, double area, double bound) {
+  /// A cell of this probability, whose error in probability may be as large as the bound.
+  void add(const ComparedCell& cell, double mass, double bound) {
     if (!(cell.declared > kNoDensity)) {
       if (cell.pdf <= kNoDensity) return;  // false for NaN
       if (found.unlit_cells++ == 0) found.first_unlit = cell;
@@ -68,12 +69,15 @@ struct RowComparison {
     found.times_jacobian.add(ratio * jacobian);
     found.over_jacobian.add(ratio / jacobian);
     if (cell.pdf <= 0.0) {
-      found.unreachable_mass += cell.declared * area;
+      found.unreachable_mass += mass;
       if (found.unreachable_cells++ == 0) found.first_unreachable = cell;
     } else {
+      const double weight_error = std::abs(1.0 / ratio - 1.0);
       found.largest_error = std::max(found.largest_error, std::abs(ratio - 1.0));
+      found.largest_weight_error = std::max(found.largest_weight_error, weight_error);
+      found.rounding_variance += weight_error * weight_error * ratio * mass;
     }
-    const double over = std::abs(cell.pdf - cell.declared) * area / bound;
+    const double over = std::abs(ratio - 1.0) * mass / bound;
     if (over <= 1.0) return;  // false for NaN
     ++found.cells_off;
     if (cell.pdf <= 0.0) ++found.lost_cells;
@@ -92,11 +96,13 @@ RowComparison compare_row(const Row& row, const BoundSampler& sampler,
   RowComparison result;
   for (int x = 0; x < row.cells.width; ++x) {
     const ComparedCell cell = row.cell(x, sampler);
-    const double mass = cell.declared * area;
+    // A cell of a texel is all of it, whatever the density does inside.
+    const double mass =
+        expectation.density ? cell.declared * area : expectation.masses(cell.x, cell.y);
     const double run = runs[static_cast<std::size_t>(cell.x / kRunTexels)];
     const double bound = kRelative * mass +
                          rounding.bound({mass, run, row_mass, expectation.masses.extent().count()});
-    result.add(cell, area, bound);
+    result.add(cell, mass, bound);
   }
   return result;
 }
@@ -110,6 +116,8 @@ void merge(DensityComparison& all, double& excess, const RowComparison& row) {
   all.lost_cells += found.lost_cells;
   all.unlit_cells += found.unlit_cells;
   all.largest_error = std::max(all.largest_error, found.largest_error);
+  all.rounding_variance += found.rounding_variance;
+  all.largest_weight_error = std::max(all.largest_weight_error, found.largest_weight_error);
   all.ratio.merge(found.ratio);
   all.times_jacobian.merge(found.times_jacobian);
   all.over_jacobian.merge(found.over_jacobian);

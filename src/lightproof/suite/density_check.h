@@ -46,8 +46,12 @@ struct DensityComparison {
   double largest_error = 0.0;         ///< relative, of cells that the declaration lets be reached
   std::size_t cells_off = 0;          ///< beyond what the sampler's rounding is declared to make
   std::optional<ComparedCell> worst;  ///< farthest beyond
-  RatioRange ratio;                   ///< pdf over declared density, of lit cells
-  RatioRange times_jacobian;          ///< the same times 2 pi^2 sin(theta), and divided by it
+  /// What the sampler's rounding does to an estimator of one value everywhere: the variance of
+  /// declared density over pdf, relative to their square, and the largest deviation.
+  double rounding_variance = 0.0;
+  double largest_weight_error = 0.0;
+  RatioRange ratio;           ///< pdf over declared density, of lit cells
+  RatioRange times_jacobian;  ///< the same times 2 pi^2 sin(theta), and divided by it
   RatioRange over_jacobian;
 };
 

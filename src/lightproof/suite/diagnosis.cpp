@@ -16,6 +16,8 @@
 namespace lightproof {
 namespace {
 
+constexpr std::string_view kOwnBinsTest = "bins 16x32 of its own pdf";
+
 constexpr std::array<Signature, 14> kSignatures = {{
     {"off-the-map", "samples beside the map or without a density: a sum that ends below 1, a 0/0"},
     {"wrong-at-knots", "wrong only where the random number meets a knot: lower for upper bound"},
@@ -28,13 +30,10 @@ constexpr std::array<Signature, 14> kSignatures = {{
     {"pdf-scaled", "the pdf is off by a constant factor"},
     {"pdf-of-another-measure", "the pdf is one over another measure: the Jacobian is missing"},
     {"pdf-of-another-place", "the pdf is that of another place than the sample's"},
-    {"noisy-pdf", "the pdf is a little off from place to place"},
+    {"pdf-mismatch", "sample() returns a pdf that pdf() does not confirm"},
     {"dependent-samples", "each sample right, but samples depend on those before them"},
     {"unknown", "no known defect explains the samples"},
 }};
-
-/// Beyond this relative error a returned pdf is no rounded one, but that of another place.
-constexpr double kNoise = 0.5;
 
 /// What the judged records say.
 class Verdicts {
@@ -77,25 +76,29 @@ class Verdicts {
   std::span<const TestRecord> records_;
 };
 
+/// Bins that differ by less are the same, to what quadrature and floats leave.
+constexpr double kIntegrated = 1e-6;
+
+/// The sum of the differences of all bins.
+double distance(const Grid<double>& a, const Grid<double>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.values().size(); ++i) {
+    sum += std::abs(a.values()[i] - b.values()[i]);
+  }
+  return sum;
+}
+
 /// The law that the sampler's own pdf integrates to: the only one that takes away 99 % of what
 /// separates the bins of the pdf from the declared ones.
 std::string_view law_of_pdf(const Problem& problem, const Expectation& expectation,
                             const OwnDensity& own) {
-  const auto distance = [&](const Grid<double>& bins) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < bins.values().size(); ++i) {
-      sum += std::abs(bins.values()[i] - own.bins.values()[i]);
-    }
-    return sum;
-  };
-  const double declared = distance(expectation.bins);
-  constexpr double kIntegrated = 1e-6;  // to what quadrature and floats leave
+  const double declared = distance(expectation.bins, own.bins);
   if (!(declared > kIntegrated)) return {};
   std::string_view best;
   double least = 0.01 * declared;
   for (const Alternative& law : problem.alternatives()) {
     const double d =
-        distance(reference::bin_masses(law.masses(), expectation.weighting, kGateBins));
+        distance(reference::bin_masses(law.masses(), expectation.weighting, kGateBins), own.bins);
     if (!(d < least * (1.0 - 1e-9))) continue;  // of equals, the first
     least = d;
     best = law.name;
@@ -117,37 +120,60 @@ bool fits_declared(const Expectation& expectation, const Draws& draws) {
   return log10_fit(draws, expectation.masses, expectation) >= std::log10(kFitLevel);
 }
 
-/// Whether the counts fit once the two texels that are farthest off are left out of them.
+/// Whether the farthest texel is no chance, and counts of texels, rows and columns fit once it and
+/// the next are left out of them.
 bool is_in_one_place(const Expectation& expectation, const Draws& draws) {
-  Draws rest = draws;
+  /// Level at which a texel is known to be off: that of a whole run.
+  constexpr double kKnown = 1e-6;
+  Grid<std::uint64_t> counts = draws.texels;
   Grid<double> masses = expectation.masses;
+  std::uint64_t samples = draws.samples - draws.lost.count;
   for (int i = 0; i < 2; ++i) {
-    const WorstCell worst = worst_cell(rest.texels.values(), masses.values(), rest.samples);
+    const WorstCell worst = worst_cell(counts.values(), masses.values(), samples);
     if (worst.cells < 3) return false;
+    if (i == 0 && worst.log10_p > std::log10(kKnown)) return false;
     const double left = 1.0 - masses.values()[worst.cell];
-    rest.samples -= rest.texels.values()[worst.cell];
-    rest.texels.values()[worst.cell] = 0;
+    samples -= counts.values()[worst.cell];
+    counts.values()[worst.cell] = 0;
     masses.values()[worst.cell] = 0.0;
     for (double& mass : masses.values()) mass /= left;
   }
-  const auto p = cressie_read(serpentine(rest.texels), serpentine(masses), rest.samples).log10_p;
-  return p >= std::log10(kFitLevel);
+  return log10_fit_of_counts(counts, masses, samples) >= std::log10(kFitLevel);
 }
 
 /// A name, and how sure it is.
 struct Name {
   std::string_view defect;
-  double log10_odds = 0.0;
-  double log10_p = 0.0;
+  std::string confidence = {};
 };
 
-Name name_of_law(const Problem& problem, const Expectation& expectation, const Evidence& evidence) {
-  const LawFit fit = likeliest_law(problem, expectation, *evidence.draws);
-  if (fit.named()) return {fit.law, fit.log10_odds, fit.log10_p};
-  // Too few samples to tell laws apart: the pdf may say which one was meant.
+std::string confidence_of(const LawFit& fit) {
+  return fmt::format(
+      "the samples are 10^{:.3g} times as likely under it as under the next law ({}), and fit it "
+      "with p = {:.2g}",
+      fit.log10_odds, fit.next.empty() ? "the declared one" : fit.next,
+      std::pow(10.0, fit.log10_p));
+}
+
+/// Whether the sampler's own pdf is not the declared density, and the samples do not contradict it:
+/// what is drawn is then known exactly.
+bool draws_its_own_law(const Expectation& expectation, const Evidence& evidence,
+                       const Verdicts& verdicts) {
+  const OwnDensity& own = evidence.inspection->own;
+  return distance(expectation.bins, own.bins) > kIntegrated &&
+         verdicts.find("self", kOwnBinsTest) != nullptr && !verdicts.rejected("self", kOwnBinsTest);
+}
+
+Name name_of_law(const Problem& problem, const Expectation& expectation, const Evidence& evidence,
+                 const Verdicts& verdicts, const LawFit& likeliest) {
   const std::string_view own = law_of_pdf(problem, expectation, evidence.inspection->own);
+  const bool is_own = draws_its_own_law(expectation, evidence, verdicts);
+  // Laws that few samples cannot tell apart are told apart by a pdf that is what is drawn.
+  if (likeliest.named() && (!is_own || own == likeliest.law)) {
+    return {likeliest.law, confidence_of(likeliest)};
+  }
   if (!own.empty() && fits(problem, expectation, *evidence.draws, own)) {
-    return {own, std::log10(kNamingOdds), std::log10(kFitLevel)};
+    return {own, "the sampler's own pdf is this law, and the samples do not reject it"};
   }
   return {};
 }
@@ -170,47 +196,67 @@ bool samples_depend(const Verdicts& verdicts) {
 }
 
 /// Of a pdf that is not the density that is drawn, which is the declared one.
-std::string_view name_of_wrong_pdf(const Problem& problem, const Expectation& expectation,
-                                   const Evidence& evidence, const Verdicts& verdicts) {
+Name name_of_wrong_pdf(const Problem& problem, const Expectation& expectation,
+                       const Evidence& evidence, const Verdicts& verdicts) {
   const Inspection& inspection = *evidence.inspection;
   const bool returned = verdicts.rejected("check", "pdf of the sample");
+  const std::string whole = "pdf() shows it all over the map, and the samples fit the declared law";
   if (verdicts.rejected("check", "pdf is the declared density")) {
-    if (!returned && inspection.density.ratio.is_constant()) return "pdf-scaled";
+    if (!returned && inspection.density.ratio.is_constant()) return {"pdf-scaled", whole};
     if (!returned && (inspection.density.times_jacobian.is_constant() ||
                       inspection.density.over_jacobian.is_constant())) {
-      return "pdf-of-another-measure";
+      return {"pdf-of-another-measure", whole};
     }
     const std::string_view law = law_of_pdf(problem, expectation, inspection.own);
     // Of a law's shape, but no probability: a density over something else.
-    if (!law.empty())
-      return check_pdf_integral(inspection.own).passed ? law : "pdf-of-another-measure";
+    if (!law.empty()) {
+      const bool is_density = check_pdf_integral(inspection.own).passed;
+      return {is_density ? law : "pdf-of-another-measure", whole};
+    }
   }
   if (!returned) return {};
-  return verdicts.find("check", "pdf of the sample")->effect > kNoise ? "pdf-of-another-place"
-                                                                      : "noisy-pdf";
+  if (const auto place = inspection.returned_pdf_of) {
+    return {"pdf-of-another-place",
+            fmt::format("wherever the two differ, the returned pdf is pdf() {}", *place)};
+  }
+  return {"pdf-mismatch", "the two differ, and the samples fit the declared law"};
 }
 
 Name name_of(const Problem& problem, const Expectation& expectation, const Evidence& evidence) {
   const Verdicts verdicts(evidence.records);
   const Draws& draws = *evidence.draws;
   if (draws.lost.count > 0 || verdicts.rejected("check", "samples stay on the map")) {
-    return {"off-the-map"};
+    return {"off-the-map", "certain: such samples were drawn"};
   }
   if (const auto defect = name_of_number_defect(expectation, draws); !defect.empty()) {
-    return {defect};
+    return {defect, "the samples fit what it predicts"};
   }
   const bool declared = fits_declared(expectation, draws);
-  if (declared && samples_depend(verdicts)) return {"dependent-samples"};
-  const bool only_edges = verdicts.only_rejected({"u next to 1", "edges of u"});
-  if (only_edges) return {verdicts.leaves_map() ? "off-the-map" : "wrong-at-knots"};
-  if (declared) {
-    if (positions_are_wrong(verdicts)) return {"uneven-in-texel"};
-    const std::string_view pdf = name_of_wrong_pdf(problem, expectation, evidence, verdicts);
-    if (!pdf.empty()) return {pdf};
+  if (declared && samples_depend(verdicts)) {
+    return {"dependent-samples", "pairs of samples show it, whose counts fit the declared law"};
   }
-  if (const Name law = name_of_law(problem, expectation, evidence); !law.defect.empty()) return law;
-  if (!declared && is_in_one_place(expectation, draws)) return {"one-place"};
-  if (verdicts.leaves_map()) return {"off-the-map"};
+  const bool only_edges = verdicts.only_rejected({"u next to 1", "edges of u"});
+  if (only_edges) {
+    return {verdicts.leaves_map() ? "off-the-map" : "wrong-at-knots",
+            "certain: the random numbers that do it are named"};
+  }
+  // A law that is near the declared one may be likelier by far while both fit; it comes first, as
+  // does a pdf that says so: points directed at a row miss some of it if the row sums are another
+  // law's.
+  const LawFit likeliest = likeliest_law(problem, expectation, draws);
+  if (declared && !likeliest.named()) {
+    Name pdf = name_of_wrong_pdf(problem, expectation, evidence, verdicts);
+    if (!pdf.defect.empty()) return pdf;
+    if (positions_are_wrong(verdicts)) {
+      return {"uneven-in-texel", "positions show it, and counts of texels fit the declared law"};
+    }
+  }
+  const Name law = name_of_law(problem, expectation, evidence, verdicts, likeliest);
+  if (!law.defect.empty()) return law;
+  if (!declared && is_in_one_place(expectation, draws)) {
+    return {"one-place", "all other texels fit the declared law"};
+  }
+  if (verdicts.leaves_map()) return {"off-the-map", "edges of the random numbers do it"};
   return {"unknown"};
 }
 
@@ -269,7 +315,8 @@ Rejection diagnose(const Problem& problem, const Expectation& expectation,
           std::string(name.defect),
           words_of(problem, name, expectation, evidence),
           residuals(expectation, *evidence.draws),
-          cumulative_divergence(expectation, *evidence.draws)};
+          cumulative_divergence(expectation, *evidence.draws),
+          name.confidence};
 }
 
 }  // namespace lightproof

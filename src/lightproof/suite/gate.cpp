@@ -69,7 +69,7 @@ Slot run_first(const Configuration& configuration, const Yardstick& yardstick, d
   const Inspection inspection =
       configuration.candidate->inspect(sampler, expectation, configuration.candidate->rounding);
   Draws draws = draw_samples_of(configuration, expectation, sampler, "draws", yardstick.samples);
-  Slot slot{test_draws(configuration, expectation, inspection.own, draws, yardstick.uniform),
+  Slot slot{test_draws(configuration, expectation, inspection, draws, yardstick.uniform),
             std::nullopt, inspection};
   append(slot.tests, test_against_twin(configuration, draws, yardstick.twin));
   append(slot.tests, test_strays(configuration, draws));
@@ -102,8 +102,7 @@ void run_again(const Configuration& configuration, const Yardstick& yardstick,
   const BoundSampler sampler = configuration.candidate->bind();
   Draws draws =
       draw_samples_of(configuration, expectation, sampler, "draws again", yardstick.samples);
-  auto again =
-      test_draws(configuration, expectation, slot.inspection.own, draws, yardstick.uniform);
+  auto again = test_draws(configuration, expectation, slot.inspection, draws, yardstick.uniform);
   append(again, test_against_twin(configuration, draws, yardstick.twin));
   append(again, test_strays(configuration, draws));
   for (Measured& test : slot.tests) {

@@ -31,27 +31,42 @@ double log10_p(std::span<const std::uint64_t> counts, std::span<const double> ma
   return cressie_read(counts, masses, samples).log10_p;
 }
 
+/// Of texels, rows, columns and the worst texel.
+std::vector<double> log10_ps(const Grid<std::uint64_t>& texels, const Grid<double>& masses,
+                             std::uint64_t samples) {
+  return {log10_p(serpentine(texels), serpentine(masses), samples),
+          log10_p(row_counts(texels), reference::row_marginal(masses), samples),
+          log10_p(column_counts(texels), reference::column_marginal(masses), samples),
+          worst_cell(texels.values(), masses.values(), samples).log10_p};
+}
+
+/// The least of several p-values, by Bonferroni.
+double of_several(std::span<const double> log10_ps) {
+  const double least = *std::min_element(log10_ps.begin(), log10_ps.end());
+  return std::min(0.0, least + std::log10(static_cast<double>(log10_ps.size())));
+}
+
 }  // namespace
 
 bool LawFit::named() const {
   return !law.empty() && log10_odds >= std::log10(kNamingOdds) && log10_p >= std::log10(kFitLevel);
 }
 
+double log10_fit_of_counts(const Grid<std::uint64_t>& texels, const Grid<double>& masses,
+                           std::uint64_t samples) {
+  const std::vector<double> all = log10_ps(texels, masses, samples);
+  return of_several(all);
+}
+
 double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectation& expectation) {
-  const std::vector<std::uint64_t> rows = row_counts(draws.texels);
-  const std::vector<std::uint64_t> columns = column_counts(draws.texels);
   const std::uint64_t samples = draws.samples - draws.lost.count;
-  std::vector<double> all = {log10_p(serpentine(draws.texels), serpentine(masses), samples),
-                             log10_p(rows, reference::row_marginal(masses), samples),
-                             log10_p(columns, reference::column_marginal(masses), samples),
-                             worst_cell(draws.texels.values(), masses.values(), samples).log10_p};
+  std::vector<double> all = log10_ps(draws.texels, masses, samples);
   // The masses of an interpolated law say nothing of the bins that divide texels.
   if (expectation.lookup == Lookup::nearest) {
     const Grid<double> bins = reference::bin_masses(masses, expectation.weighting, kGateBins);
     all.push_back(log10_p(serpentine(draws.bins), serpentine(bins), samples));
   }
-  const double least = *std::min_element(all.begin(), all.end());
-  return std::min(0.0, least + std::log10(static_cast<double>(all.size())));
+  return of_several(all);
 }
 
 LawFit likeliest_law(const Problem& problem, const Expectation& expectation, const Draws& draws) {

@@ -60,6 +60,8 @@ struct Rejection {
   std::string diagnosis;               ///< the same in words
   Grid<double> residual;               ///< (O - E) / sqrt(E) of the 16x32 bins
   std::vector<double> row_divergence;  ///< of the marginal of rows, cumulative from t = 0
+  /// How sure the name is, in words; empty where nothing is named.
+  std::string confidence = {};
 };
 
 struct GateResult {
@@ -248,11 +250,24 @@ struct KillRecord {
   std::optional<std::uint64_t> sequential;  ///< that the sequential gate took; none: accepted
 };
 
+/// What the gate calls one mutant on the maps of a study, under both weightings.
+struct NamingRecord {
+  std::string mutant;
+  std::string expected;        ///< its name
+  std::uint64_t runs = 0;      ///< maps and weightings
+  std::uint64_t rejected = 0;  ///< runs in which it was; the others are in no other count
+  std::uint64_t right = 0;
+  std::uint64_t unknown = 0;  ///< no known defect explains the samples
+  std::uint64_t wrong = 0;
+  std::vector<std::string> wrong_names = {};  ///< each once
+};
+
 /// The gate tested on itself.
 struct SelfTestResult {
   CalibrationResult calibration;
   std::vector<PowerRecord> power;
   std::vector<KillRecord> mutants;
+  std::vector<NamingRecord> naming = {};
 };
 
 /// Everything that one study found.

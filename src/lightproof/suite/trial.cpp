@@ -10,7 +10,8 @@ Trial::Trial(const EnvironmentMap& map, Grid<double> masses)
     : expectation(std::make_shared<const Expectation>(expectation_of(map, kTrialTarget))),
       drawn(std::move(masses)) {
   const auto sampler = std::make_shared<const BoundSampler>(bound(LawSampler(drawn, Weighting::B)));
-  own = integrate_pdf(*sampler, drawn.extent());
+  inspection.own = integrate_pdf(*sampler, drawn.extent());
+  inspection.density = compare_density(*sampler, *expectation, {});
   problem = {map.name,
              to_string(kTrialTarget.weighting),
              "",
@@ -41,7 +42,7 @@ std::vector<Measured> run_once(const Trial& trial, std::uint64_t samples, std::u
   const Draws draws = draw_samples_of(configuration, *trial.expectation, sampler, "draws", samples);
   const UniformEstimates uniform =
       draw_uniformly(*trial.expectation, RandomStream("self-test/uniform", seed), samples);
-  return test_draws(configuration, *trial.expectation, trial.own, draws, uniform);
+  return test_draws(configuration, *trial.expectation, trial.inspection, draws, uniform);
 }
 
 std::string name_of(const TestRecord& record) { return record.oracle + "/" + record.test; }

@@ -21,7 +21,7 @@ inline constexpr TargetDensity kTrialTarget = {Weighting::B, kRec709};
 struct Trial {
   std::shared_ptr<const Expectation> expectation;
   Grid<double> drawn;  ///< masses of texels
-  OwnDensity own;
+  Inspection inspection;
   Problem problem;
 
   /// Draws `masses` of texels where those of the map are declared.

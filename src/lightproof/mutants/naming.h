@@ -1,0 +1,24 @@
+// How often the gate calls a planted defect by its name: on the maps of a study, not on the one
+// that was made for it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lightproof/core/progress.h"
+#include "lightproof/suite/results.h"
+
+namespace lightproof {
+
+struct NamingOptions {
+  std::uint64_t seed = 1;
+  std::uint64_t samples = std::uint64_t{1} << 18U;
+};
+
+/// Every mutant of maps under both weightings on every map; those that the gate accepts there are
+/// in no count: the samples were too few, or the map lacks what the defect needs.
+std::vector<NamingRecord> measure_naming(std::span<const MapRecord> maps,
+                                         const NamingOptions& options,
+                                         const Progress& progress = {});
+
+}  // namespace lightproof
