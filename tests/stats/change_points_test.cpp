@@ -63,6 +63,18 @@ TEST(ChangePoints, OfMoreThanTwoAreFoundOneInsideTheOther) {
   }
 }
 
+// On either side of either step most values are alike: only the levels beside it tell.
+TEST(ChangePoints, OfASlowSpellBetweenEqualLevelsAreFound) {
+  const auto series = joined(joined(level(21, 40, 1.0, 0.005), level(22, 6, 1.2, 0.005)),
+                             level(23, 40, 1.0, 0.005));
+  const auto changes = changes_of(series);
+  ASSERT_EQ(changes.size(), 2U);
+  EXPECT_EQ(changes[0].first, 40U);
+  EXPECT_EQ(changes[1].first, 46U);
+  EXPECT_NEAR(changes[0].ratio, 1.2, 0.02);
+  EXPECT_NEAR(changes[1].ratio, 1.0 / 1.2, 0.02);
+}
+
 TEST(ChangePoints, OfWhatDoesNotScatterAreFound) {
   const auto series = joined(std::vector<double>(6, 100.0), std::vector<double>(6, 110.0));
   ASSERT_EQ(changes_of(series).size(), 1U);

@@ -58,6 +58,21 @@ constexpr std::array<Paint, 6> kPaints = {
       std::ranges::fill(picture.values(), Rgb(1.0F, 0.0F, 0.0F));
     }};
 
+// Points are directed at the rows of the poles, however faint: the sampler's own sums, rounded to
+// 2^-31, put such a row elsewhere than the exact ones.
+TEST(Positions, OfAFaintRowAtThePoleAreAccepted) {
+  EnvironmentMap map = {"faint pole", Grid<Rgb>({64, 32}, Rgb(1.0F)), {}};
+  std::ranges::fill(map.radiance.row(31), Rgb(1e-5F));
+  std::vector<Subject> subjects;
+  for (const char* name : {"guide_lines", "linear_scan"}) {
+    subjects.push_back(subject_of(sampler_by_name(name), Weighting::B));
+  }
+  const GateResult result = run_gate({&map, 1}, subjects, {.samples = 1U << 22U});
+  for (const TestRecord& test : result.tests) {
+    EXPECT_NE(test.outcome, Outcome::reject) << test.sampler << ": " << test.test;
+  }
+}
+
 class Robustness : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Robustness, NoSoundSamplerIsRejectedOnSmallMaps) {

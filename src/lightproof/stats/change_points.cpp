@@ -102,15 +102,28 @@ class Search {
 
   std::vector<ChangePoint> operator()(std::span<const double> logarithms) {
     search(logarithms, 0);
-    for (std::size_t i = 0; i < changes_.size(); ++i) {
-      const std::size_t from = i == 0 ? 0 : changes_[i - 1].first;
-      const std::size_t to = i + 1 == changes_.size() ? values_.size() : changes_[i + 1].first;
-      changes_[i].ratio = ratio_at(changes_[i].first, from, to);
+    // The smallest step goes first: its levels become one, which may make those beside it larger.
+    for (;;) {
+      set_ratios();
+      const auto smallest = std::ranges::min_element(changes_, {}, size_of);
+      if (smallest == changes_.end() || size_of(*smallest) > std::log(least_ratio_)) break;
+      changes_.erase(smallest);
     }
     return std::move(changes_);
   }
 
  private:
+  static double size_of(const ChangePoint& change) { return std::abs(std::log(change.ratio)); }
+
+  /// Of the medians of the levels on both sides.
+  void set_ratios() {
+    for (std::size_t i = 0; i < changes_.size(); ++i) {
+      const std::size_t from = i == 0 ? 0 : changes_[i - 1].first;
+      const std::size_t to = i + 1 == changes_.size() ? values_.size() : changes_[i + 1].first;
+      changes_[i].ratio = ratio_at(changes_[i].first, from, to);
+    }
+  }
+
   double ratio_at(std::size_t at, std::size_t from, std::size_t to) const {
     return median_of(values_.subspan(at, to - at)) / median_of(values_.subspan(from, at - from));
   }
@@ -121,10 +134,8 @@ class Search {
     const Step step = step_of(part, one_level_);
     if (step.log10_p > log10_level_) return;
     const std::size_t at = from + step.first;
-    const double ratio = ratio_at(at, from, from + part.size());
-    if (std::max(ratio, 1.0 / ratio) <= least_ratio_) return;
     search(part.first(step.first), from);
-    changes_.push_back({at, ratio, step.log10_p});
+    changes_.push_back({at, 1.0, step.log10_p});
     search(part.subspan(step.first), at);
   }
 

@@ -51,7 +51,7 @@ double power_divergence(double observed, double expected) {
   const double ratio = observed / expected;
   const double divergence =
       1.8 * observed * (std::cbrt(ratio * ratio) - 1.0) + 1.2 * (expected - observed);
-  return std::max(0.0, divergence);  // convex with its least value 0; rounding may leave less
+  return divergence < 0.0 ? 0.0 : divergence;  // its least value; rounding may leave less
 }
 
 void judge_fit(GoodnessOfFit& fit) {
@@ -60,7 +60,8 @@ void judge_fit(GoodnessOfFit& fit) {
   if (fit.dof < kLeastDofForLowerTail) return;
   const double lower = log10_chi_square_lower(fit.statistic, fit.dof);
   fit.too_even = lower < fit.log10_p;
-  fit.log10_p = std::min(0.0, std::min(fit.log10_p, lower) + std::log10(2.0));
+  const double both = std::min(fit.log10_p, lower) + std::log10(2.0);
+  fit.log10_p = both > 0.0 ? 0.0 : both;  // not a number stays so
 }
 
 GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
@@ -93,6 +94,7 @@ GoodnessOfFit two_sample_fit(std::span<const std::uint64_t> first,
   assert(first.size() == second.size());
   const double n1 = sum_of(first);
   const double n2 = sum_of(second);
+  if (n1 == 0.0 || n2 == 0.0) return {};
   std::vector<double> share;
   for (std::size_t i = 0; i < first.size(); ++i) {
     share.push_back(static_cast<double>(first[i] + second[i]) / (n1 + n2));

@@ -59,7 +59,7 @@ struct RowComparison {
   /// A cell of this probability, whose error in probability may be as large as the bound.
   void add(const ComparedCell& cell, double mass, double bound) {
     if (!(cell.declared > kNoDensity)) {
-      if (cell.pdf <= kNoDensity) return;  // false for NaN
+      if (std::abs(cell.pdf) <= kNoDensity) return;  // false for NaN
       if (found.unlit_cells++ == 0) found.first_unlit = cell;
       return;
     }

@@ -26,10 +26,24 @@ GoodnessOfFit fit_of_bins(const Expectation& expectation, const Draws& draws) {
   return cressie_read(serpentine(draws.bins), serpentine(expectation.bins), draws.samples);
 }
 
+/// Whether nearly all samples lie at one position inside their texels: a lattice that has nothing
+/// to do with the random numbers.
+bool is_one_position(const Draws& draws) {
+  std::vector<std::uint64_t> counts(static_cast<std::size_t>(draws.positions.extent().width));
+  for (int band = 0; band < draws.positions.extent().height; ++band) {
+    const auto row = draws.positions.row(band);
+    std::transform(row.begin(), row.end(), counts.begin(), counts.begin(), std::plus<>());
+  }
+  const std::uint64_t all = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+  const std::uint64_t most = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
+  return 1000 * (all - most) < all;
+}
+
 /// Of the transformed coordinates one has few values: half of the samples lie on a lattice where
 /// one in 128 should.
 bool is_coarse(const Draws& draws) {
-  return 2 * std::max(draws.along_on_lattice, draws.across_on_lattice) > draws.samples;
+  return 2 * std::max(draws.along_on_lattice, draws.across_on_lattice) > draws.samples &&
+         !is_one_position(draws);
 }
 
 /// One coordinate follows from the other: in every row of the pairs' table all but a thousandth of
@@ -65,9 +79,12 @@ bool is_repeated(const Expectation& expectation, const Draws& draws) {
   const GoodnessOfFit bins = fit_of_bins(expectation, draws);
   const std::vector<double> even(kPairBins.count(), 1.0 / static_cast<double>(kPairBins.count()));
   const GoodnessOfFit pairs = cressie_read(serpentine(draws.pairs), even, draws.samples);
+  const bool pairs_fit =
+      !expectation.transform || pairs.dof <= 0.0 ||
+      chi_square_log10_p(pairs.statistic / times, pairs.dof) > std::log10(0.5 * kFitLevel);
   const double level = std::log10(0.5 * kFitLevel);
   return (bins.dof <= 0.0 || chi_square_log10_p(bins.statistic / times, bins.dof) > level) &&
-         (pairs.dof <= 0.0 || chi_square_log10_p(pairs.statistic / times, pairs.dof) > level);
+         pairs_fit;
 }
 
 bool is_stratified(const Expectation& expectation, const Draws& draws) {

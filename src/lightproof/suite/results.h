@@ -254,7 +254,7 @@ struct KillRecord {
 struct NamingRecord {
   std::string mutant;
   std::string expected;        ///< its name
-  std::uint64_t runs = 0;      ///< maps and weightings
+  std::uint64_t runs = 0;      ///< maps, weightings and seeds
   std::uint64_t rejected = 0;  ///< runs in which it was; the others are in no other count
   std::uint64_t right = 0;
   std::uint64_t unknown = 0;  ///< no known defect explains the samples

@@ -11,6 +11,7 @@
 #include "lightproof/stats/sequential.h"
 #include "lightproof/suite/configuration.h"
 #include "lightproof/suite/diagnosis.h"
+#include "lightproof/suite/records.h"
 
 namespace lightproof {
 namespace {
@@ -86,11 +87,14 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
   record.statistic = log10_e;
   record.log10_p = std::min(0.0, -log10_e);
   record.outcome = log10_e >= enough ? Outcome::reject : Outcome::accept;
-  const double detectable = evidence.detectable_effect(enough, options.samples);
-  if (std::isfinite(detectable)) record.detectable_effect = detectable;
+  const auto failure = failure_of([&] {
+    const double detectable = evidence.detectable_effect(enough, options.samples);
+    if (std::isfinite(detectable)) record.detectable_effect = detectable;
+    record.effect =
+        cressie_read(serpentine(draws.bins), serpentine(expectation.bins), draws.samples).effect;
+  });
   require_power(record, options.must_detect);
-  record.effect =
-      cressie_read(serpentine(draws.bins), serpentine(expectation.bins), draws.samples).effect;
+  if (failure) record.detail = "its power could not be computed: " + *failure;
   if (std::isinf(log10_e)) {
     record.detail = fmt::format("one of {} samples lies where none can", draws.samples);
   } else if (record.outcome == Outcome::reject) {
