@@ -48,4 +48,4 @@ const runs = 2 * names.size * maps.length * Number(seeds);
 const percent = (count) => `${((100 * count) / rejected).toFixed(1)} %`;
 console.log(`${runs} runs, ${rejected} rejected: ${percent(sum("right"))} by their right name, ` +
   `${percent(sum("unknown"))} unknown, ${percent(wrong)} by a wrong one`);
-process.exit(sum("right") >= kLeastRight * rejected && wrong <= kMostWrong * rejected ? 0 : 1);
+process.exit(rejected > 0 && sum("right") >= kLeastRight * rejected && wrong <= kMostWrong * rejected ? 0 : 1);

@@ -36,6 +36,15 @@ TEST(Csv, QuotesWhatWouldSplitAField) {
             "0.0157,0.0186,accept,no,\n");
 }
 
+TEST(Csv, LetsNoNameBeAFormula) {
+  GateResult gate;
+  for (const char* name : {"=1+1", "+a", "-b", "@c"}) {
+    gate.tests = {testing::accepted_test("alias", name)};
+    EXPECT_NE(gate_csv(gate).find(std::string("alias,B,'") + name + ","), std::string::npos)
+        << gate_csv(gate);
+  }
+}
+
 TEST(Csv, LeavesAFieldEmptyWhereThereIsNoKneeAndNoCache) {
   std::vector<GrowthFit> growth = testing::made_up_study().growth;
   EXPECT_NE(growth_csv(growth).find("binary_search,log2 S + log2 T,0.161,0.004,1,0.012,1024x512,"

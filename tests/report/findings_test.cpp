@@ -94,6 +94,8 @@ TEST(SamplerFindings, NameTheWorstTestAndKnownDefects) {
   EXPECT_EQ(findings[0].outcome, Outcome::accept);
   EXPECT_EQ(findings[0].sentence, "alias: 0 of 1 test rejected");
   EXPECT_EQ(findings[1].outcome, Outcome::reject);
+  EXPECT_FALSE(findings[0].is_demonstration);
+  EXPECT_TRUE(findings[1].is_demonstration);
   EXPECT_EQ(findings[1].sentence,
             "linear_scan_published: 2 of 2 tests rejected (kept as published, with its known "
             "defects); for example reference rows of linear_scan_published B on city (row 0 is "

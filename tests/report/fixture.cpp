@@ -230,6 +230,16 @@ SelfTestResult self_test() {
     result.power.push_back(
         {"reference/phi (Kuiper)", 0.1, 1e-3, samples, 1000, 1000, predicted, true});
   }
+  result.naming = {
+      {.mutant = "no-sine", .expected = "no-sine", .runs = 48, .rejected = 48, .right = 48},
+      {.mutant = "sine-at-edge",
+       .expected = "sine-at-edge",
+       .runs = 48,
+       .rejected = 40,
+       .right = 36,
+       .unknown = 2,
+       .wrong = 2,
+       .wrong_names = {"uneven-in-texel"}}};
   result.mutants = {{"no-sine",
                      "reference",
                      "other-weighting",

@@ -57,6 +57,18 @@ TEST(Page, ShowsKnownDefectsInASectionOfTheirOwn) {
   const std::size_t section = page.find("<summary>Kept as published, with known defects");
   ASSERT_NE(section, std::string::npos);
   EXPECT_GT(page.find("<h4>Rejected tests</h4>"), section);
+  EXPECT_NE(page.find("<strong class=\"demonstration\">as known</strong> "
+                      "<span>linear_scan_published"),
+            std::string::npos);
+}
+
+TEST(Page, SaysHowOftenADefectIsCalledByItsName) {
+  const std::string page = report_page(testing::made_up_study());
+  EXPECT_NE(
+      page.find("Of 88 rejections of planted defects on the maps of this study, 95\u00a0% are "
+                "called by their right name, 2.3\u00a0% by a wrong one, and of 2.3\u00a0% the"),
+      std::string::npos);
+  EXPECT_NE(page.find("2 (uneven-in-texel)"), std::string::npos);
 }
 
 TEST(Report, WritesAllItsFiles) {

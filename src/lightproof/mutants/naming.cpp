@@ -40,13 +40,15 @@ std::vector<NamingRecord> measure_naming(std::span<const MapRecord> maps,
   for (const Mutant& mutant : mutants()) {
     records.push_back({.mutant = std::string(mutant.name),
                        .expected = std::string(mutant.diagnosis),
-                       .runs = 2 * maps.size()});
+                       .runs = 2 * maps.size() * options.seeds});
   }
   const std::vector<Subject> subjects = all_mutants();
-  for (std::size_t i = 0; i < maps.size(); ++i) {
-    const auto parts = static_cast<double>(maps.size());
+  const std::size_t rounds = maps.size() * options.seeds;
+  for (std::size_t i = 0; i < rounds; ++i) {
+    const auto parts = static_cast<double>(rounds);
     const GateResult result = run_gate(
-        {&maps[i].map, 1}, subjects, {.samples = options.samples, .seed = options.seed},
+        {&maps[i / options.seeds].map, 1}, subjects,
+        {.samples = options.samples, .seed = options.seed + i % options.seeds},
         part_of(progress, static_cast<double>(i) / parts, static_cast<double>(i + 1) / parts));
     for (const Rejection& rejection : result.rejections) {
       const auto record = std::find_if(

@@ -11,12 +11,13 @@
 namespace lightproof {
 
 struct NamingOptions {
-  std::uint64_t seed = 1;
-  std::uint64_t samples = std::uint64_t{1} << 18U;
+  std::uint64_t seed = 1;  ///< the first of `seeds` in a row
+  std::uint64_t seeds = 3;
+  std::uint64_t samples = std::uint64_t{1} << 17U;
 };
 
-/// Every mutant of maps under both weightings on every map; those that the gate accepts there are
-/// in no count: the samples were too few, or the map lacks what the defect needs.
+/// Every mutant of maps under both weightings on every map, with every seed; those that the gate
+/// accepts there are in no count: the samples were too few, or the map lacks what the defect needs.
 std::vector<NamingRecord> measure_naming(std::span<const MapRecord> maps,
                                          const NamingOptions& options,
                                          const Progress& progress = {});

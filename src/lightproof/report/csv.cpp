@@ -10,7 +10,16 @@
 namespace lightproof {
 namespace {
 
+std::string field(const std::string& text);
+
+/// Whether a spreadsheet would take a text for a formula.
+bool looks_like_formula(std::string_view text) {
+  return !text.empty() && std::string_view("=+-@\t").find(text.front()) != std::string_view::npos;
+}
+
+/// A name that begins like a formula gets an apostrophe before it, which spreadsheets do not show.
 std::string field(std::string_view text) {
+  if (looks_like_formula(text)) return field("'" + std::string(text));
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";
   for (const char c : text) {

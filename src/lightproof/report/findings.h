@@ -17,6 +17,7 @@ std::string headline(const StudyResult& study);
 struct SamplerFinding {
   Outcome outcome = Outcome::inconclusive;
   std::string sentence;
+  bool is_demonstration = false;  ///< kept as published, with its known defects: decides nothing
 };
 
 /// One sentence per sampler, with the most suspicious test of those that are not accepted.

@@ -45,7 +45,8 @@ std::vector<std::string> samplers_with(const GateResult& gate, const Judged& jud
 SamplerFinding sampler_finding(const GateResult& gate, const std::string& sampler) {
   const Tally tally =
       tally_of(gate, [&](const TestRecord& test) { return test.sampler == sampler; });
-  SamplerFinding finding{tally.outcome(), ""};
+  SamplerFinding finding;
+  finding.outcome = tally.outcome();
   const bool open = finding.outcome == Outcome::inconclusive;
   finding.sentence =
       fmt::format("{}: {}", sampler, tests_of(tally, open ? "inconclusive" : "rejected"));
@@ -55,6 +56,7 @@ SamplerFinding sampler_finding(const GateResult& gate, const std::string& sample
   const bool known = std::any_of(gate.tests.begin(), gate.tests.end(), [&](const TestRecord& t) {
     return t.sampler == sampler && t.known_defect;
   });
+  finding.is_demonstration = known;
   if (known) {
     finding.sentence +=
         finding.outcome == Outcome::accept || finding.outcome == Outcome::resolution_limited

@@ -18,8 +18,11 @@ std::string finding(std::string_view link, std::string_view topic, std::string_v
 std::string sampler_list(const GateResult& gate) {
   std::string items;
   for (const SamplerFinding& f : sampler_findings(gate)) {
+    // A rejection that is expected, and decides nothing, is not shown as an alarm.
+    const bool expected = f.is_demonstration && f.outcome == Outcome::reject;
     items += fmt::format("<li><strong class=\"{}\">{}</strong> <span>{}</span></li>\n",
-                         to_string(f.outcome), outcome_text(f.outcome), escaped(f.sentence));
+                         expected ? "demonstration" : to_string(f.outcome),
+                         expected ? "as known" : outcome_text(f.outcome), escaped(f.sentence));
   }
   return items.empty() ? "" : "<ul class=\"verdicts\">\n" + items + "</ul>\n";
 }
