@@ -65,7 +65,7 @@ TEST(Page, ShowsKnownDefectsInASectionOfTheirOwn) {
 TEST(Page, SaysHowOftenADefectIsCalledByItsName) {
   const std::string page = report_page(testing::made_up_study());
   EXPECT_NE(
-      page.find("Of 88 rejections of planted defects on the maps of this study, 95\u00a0% are "
+      page.find("Of 88 rejections of injected defects on the maps of this study, 95\u00a0% are "
                 "called by their right name, 2.3\u00a0% by a wrong one, and of 2.3\u00a0% the"),
       std::string::npos);
   EXPECT_NE(page.find("2 (uneven-in-texel)"), std::string::npos);

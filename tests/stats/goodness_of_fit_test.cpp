@@ -379,5 +379,14 @@ TEST(Serpentine, TurnsEverySecondRow) {
   EXPECT_THAT(serpentine(grid), ElementsAre(0, 1, 2, 5, 4, 3, 6, 7, 8));
 }
 
+TEST(TwoSampleFit, OfNoSampleOnOneSideIsOpenAndIsANumber) {
+  const std::vector<std::uint64_t> some = {10, 20, 30};
+  const std::vector<std::uint64_t> none = {0, 0, 0};
+  const GoodnessOfFit fit = two_sample_fit(some, none);
+  EXPECT_EQ(fit.dof, 0.0);
+  EXPECT_EQ(fit.effect, 0.0);
+  EXPECT_GT(fit.possible_cells, 1U) << "it would count as accepted";
+}
+
 }  // namespace
 }  // namespace lightproof

@@ -1,4 +1,4 @@
-// How often the gate calls a planted defect by its name: on the maps of a study, not on the one
+// How often the gate calls an injected defect by its name: on the maps of a study, not on the one
 // that was made for it.
 #pragma once
 

@@ -77,14 +77,15 @@ std::string naming_finding(const std::vector<NamingRecord>& naming) {
                    static_cast<double>(std::max<std::uint64_t>(1, total.rejected)));
   };
   return fmt::format(
-      "Of {} rejections of planted defects on the maps of this study, {} are called by their right "
+      "Of {} rejections of injected defects on the maps of this study, {} are called by their "
+      "right "
       "name, {} by a wrong one, and of {} the diagnosis says that no known defect explains the "
       "samples.",
       with_thousands(total.rejected), share(total.right), share(total.wrong), share(total.unknown));
 }
 
 std::string naming_table(const std::vector<NamingRecord>& naming) {
-  Table table("Names of planted defects",
+  Table table("Diagnoses of injected defects",
               {"Mutant", "Its name", "Runs", "Rejected", "Right", "Unknown", "Wrong"});
   const auto number = [](std::uint64_t count) { return Cell{with_thousands(count), "number", ""}; };
   for (const NamingRecord& r : naming) {
@@ -209,7 +210,7 @@ std::string self_test_section(const std::optional<SelfTestResult>& self_test) {
                            download_link("mutants.csv", mutants_csv(mutants)));
   if (!naming.empty()) {
     html += paragraph(naming_finding(naming), "note") +
-            collapsible("Names of planted defects as a table", naming_table(naming));
+            collapsible("Diagnoses of injected defects as a table", naming_table(naming));
   }
   html += chart_figure({"calibration-chart", calibration_finding(calibration.tests),
                         "Deviation of p-values from uniform", std::string(kCalibrationNote),

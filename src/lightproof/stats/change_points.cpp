@@ -115,7 +115,7 @@ class Search {
  private:
   static double size_of(const ChangePoint& change) { return std::abs(std::log(change.ratio)); }
 
-  /// Of the medians of the levels on both sides.
+  /// Sets the ratio of each change: the median of the level after it over that of the one before.
   void set_ratios() {
     for (std::size_t i = 0; i < changes_.size(); ++i) {
       const std::size_t from = i == 0 ? 0 : changes_[i - 1].first;

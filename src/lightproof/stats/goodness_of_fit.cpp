@@ -94,7 +94,11 @@ GoodnessOfFit two_sample_fit(std::span<const std::uint64_t> first,
   assert(first.size() == second.size());
   const double n1 = sum_of(first);
   const double n2 = sum_of(second);
-  if (n1 == 0.0 || n2 == 0.0) return {};
+  if (n1 == 0.0 || n2 == 0.0) {
+    GoodnessOfFit nothing;  // no degree of freedom: it can neither accept nor reject
+    nothing.possible_cells = first.size();
+    return nothing;
+  }
   std::vector<double> share;
   for (std::size_t i = 0; i < first.size(); ++i) {
     share.push_back(static_cast<double>(first[i] + second[i]) / (n1 + n2));

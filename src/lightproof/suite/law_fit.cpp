@@ -31,7 +31,7 @@ double log10_p(std::span<const std::uint64_t> counts, std::span<const double> ma
   return cressie_read(counts, masses, samples).log10_p;
 }
 
-/// Of texels, rows, columns and the worst texel.
+/// The p-values (log10) of goodness of fit of texels, rows, columns and the worst texel.
 std::vector<double> log10_ps(const Grid<std::uint64_t>& texels, const Grid<double>& masses,
                              std::uint64_t samples) {
   return {log10_p(serpentine(texels), serpentine(masses), samples),

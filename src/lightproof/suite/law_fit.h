@@ -34,7 +34,8 @@ LawFit likeliest_law(const Problem& problem, const Expectation& expectation, con
 /// times their number.
 double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectation& expectation);
 
-/// The same of counts alone, in so many samples: by texels, rows, columns and the worst texel.
+/// The smallest p-value (log10) of goodness of fit of texels, rows, columns and the worst texel,
+/// times their number, for counts of texels in `samples` samples against their probabilities.
 double log10_fit_of_counts(const Grid<std::uint64_t>& texels, const Grid<double>& masses,
                            std::uint64_t samples);
 

@@ -149,8 +149,9 @@ Trial trial_of_runs(double effect, double SquarePoint::*coordinate) {
   }});
 }
 
-/// Of the samples in some rows a share lies in the upper half of their cell. A test pools cells
-/// that expect few samples: halves are larger than any pool, so that the effect survives it.
+/// A trial in which a share of the samples in some rows lies in the upper half of its cell. A test
+/// pools cells that expect few samples: halves are larger than any pool, so that the effect
+/// survives it.
 Trial trial_of_positions(double effect, const std::function<bool(int y, int height)>& concerned) {
   const double share = share_of(effect, 2);
   const Trial sound = sound_trial();

@@ -94,7 +94,10 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
         cressie_read(serpentine(draws.bins), serpentine(expectation.bins), draws.samples).effect;
   });
   require_power(record, options.must_detect);
-  if (failure) record.detail = "its power could not be computed: " + *failure;
+  if (failure && record.outcome == Outcome::accept) {
+    record.outcome = Outcome::inconclusive;
+    record.detail = "its power could not be computed: " + *failure;
+  }
   if (std::isinf(log10_e)) {
     record.detail = fmt::format("one of {} samples lies where none can", draws.samples);
   } else if (record.outcome == Outcome::reject) {
