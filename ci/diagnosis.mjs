@@ -7,7 +7,7 @@ const kLeastRight = 0.9;
 const kMostWrong = 0.02;
 
 const options = { encoding: "utf8", maxBuffer: 2 ** 30 };
-const list = JSON.parse(execFileSync(program, ["list", "mutants", "--json"], options));
+const list = JSON.parse(execFileSync(program, ["list", "mutants", "--json"], options)).entries;
 const names = new Map(list.filter(({ over }) => over === "map").map((m) => [m.name, m.diagnosis]));
 const records = new Map(
   [...names].map(([name, diagnosis]) => [name, { name, diagnosis, rejected: 0, right: 0, unknown: 0, wrong: {} }]));

@@ -42,7 +42,7 @@ TEST_P(List, StartsEachLineWithAName) {
 TEST_P(List, SaysTheSameAsJson) {
   const Finished list = lightproof({"list", GetParam().name, "--json"});
   EXPECT_EQ(list.exit_code, 0);
-  const auto json = nlohmann::json::parse(list.out);
+  const auto json = nlohmann::json::parse(list.out).at("entries");
   const Words text = lines(lightproof({"list", GetParam().name}).out);
   ASSERT_EQ(json.size(), text.size());
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -68,7 +68,8 @@ TEST(ListSamplers, MarksKnownDefects) {
 }
 
 TEST(ListMaps, NamesMapsThatTheGateTakes) {
-  for (const auto& map : nlohmann::json::parse(lightproof({"list", "maps", "--json"}).out)) {
+  const auto list = nlohmann::json::parse(lightproof({"list", "maps", "--json"}).out);
+  for (const auto& map : list.at("entries")) {
     const std::string name = map.at("name");
     EXPECT_EQ(quick_gate({name, "--sampler", "binary_search", "-q"}).exit_code, 0) << name;
   }

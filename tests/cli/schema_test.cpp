@@ -79,15 +79,20 @@ TEST(InfoSchema, DescribesOneFileAndSeveral) {
   for (const Words& files : {Words{"cold.exr"}, Words{"cold.exr", "sun-sky"}}) {
     Words words = {"info", "--json"};
     words.insert(words.end(), files.begin(), files.end());
-    write_bytes(folder / "i.json", lightproof(words, folder / "").out);
+    const std::string text = lightproof(words, folder / "").out;
+    write_bytes(folder / "i.json", text);
     expect_valid("info.schema.json", folder / "i.json");
+    EXPECT_THAT(text,
+                AllOf(HasSubstr("\"version\""), HasSubstr("lightproof info --json cold.exr")));
   }
 }
 
 TEST(ListSchema, DescribesRegistries) {
   const TemporaryFolder folder;
-  write_bytes(folder / "l.json", lightproof({"list", "samplers", "--json"}).out);
-  expect_valid("list.schema.json", folder / "l.json");
+  for (const char* registry : {"samplers", "mutants"}) {
+    write_bytes(folder / "l.json", lightproof({"list", registry, "--json"}).out);
+    expect_valid("list.schema.json", folder / "l.json");
+  }
 }
 
 }  // namespace

@@ -69,7 +69,11 @@ TEST(ComparisonTable, LetsNoNameControlTheTerminal) {
 }
 
 TEST(ComparisonJson, HasTheRowsAndTheirJudgements) {
-  const auto json = nlohmann::json::parse(comparison_json(of_ratio(1.5)));
+  const auto json = nlohmann::json::parse(
+      comparison_json(of_ratio(1.5), {"1.2.3", "abc", "lightproof history compare a b"}));
+  EXPECT_EQ(json["version"], "1.2.3");
+  EXPECT_EQ(json["commit"], "abc");
+  EXPECT_EQ(json["command"], "lightproof history compare a b");
   EXPECT_EQ(json["outcome"], "regressed");
   EXPECT_EQ(json["sessions"].size(), 2U);
   ASSERT_EQ(json["rows"].size(), 2U);
@@ -78,7 +82,7 @@ TEST(ComparisonJson, HasTheRowsAndTheirJudgements) {
   EXPECT_NEAR(json["rows"][0]["latest"]["ratio"].get<double>(), 1.5, 0.05);
   EXPECT_EQ(json["rows"][0]["earlier"]["change"], "slower");
   EXPECT_TRUE(json["rows"][1]["latest"]["log10_p"].is_null());
-  EXPECT_EQ(nlohmann::json::parse(comparison_json(of_ratio(1.0)))["outcome"], "passed");
+  EXPECT_EQ(nlohmann::json::parse(comparison_json(of_ratio(1.0), {}))["outcome"], "passed");
 }
 
 }  // namespace

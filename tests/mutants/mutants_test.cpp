@@ -299,6 +299,36 @@ TEST(Diagnosis, OfDefectsOutsideTheListGivesNoNameFromIt) {
   }
 }
 
+/// Of these texels, from the brightest on, the one at this share of their number.
+template <int kPercent>
+void drop_texel_at(Grid<double>& masses, const EnvironmentMap& /*map*/) {
+  const auto values = masses.values();
+  std::vector<std::size_t> lit;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] > 0.0) lit.push_back(i);
+  }
+  std::stable_sort(lit.begin(), lit.end(),
+                   [&](std::size_t a, std::size_t b) { return values[a] > values[b]; });
+  values[lit[(lit.size() - 1) * kPercent / 100]] = 0.0;
+}
+
+// Whichever it is: the pdf names it, and no sample contradicts.
+TEST(Diagnosis, NamesAnyTexelThatIsNeverDrawn) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {128, 64});
+  std::vector<Subject> subjects;
+  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+    subjects.push_back(subject_of_masses("without the brightest", weighting, drop_texel_at<0>));
+    subjects.push_back(subject_of_masses("without a bright one", weighting, drop_texel_at<10>));
+    subjects.push_back(subject_of_masses("without a faint one", weighting, drop_texel_at<90>));
+  }
+  const GateResult result = run_gate({&map, 1}, subjects, {.samples = 1U << 18U});
+  ASSERT_EQ(result.rejections.size(), subjects.size());
+  for (const Rejection& rejection : result.rejections) {
+    EXPECT_EQ(rejection.looks_like, "one-texel-missing")
+        << rejection.sampler << " " << rejection.weighting << ": " << rejection.diagnosis;
+  }
+}
+
 TEST(Naming, CountsEveryRejectionByWhatItWasCalled) {
   MapRecord map;
   map.map = make_synthetic_map("sun-sky", {64, 32});

@@ -35,5 +35,13 @@ TEST(Table, EscapesItsCells) {
   EXPECT_NE(html.find("aria-label=\"a &quot;caption&quot;\""), std::string::npos) << html;
 }
 
+// XML 1.0 has no way to write these: one of them makes a whole file unreadable.
+TEST(Escaped, HoldsNothingThatXmlCannot) {
+  EXPECT_EQ(escaped("a\x01"
+                    "b\x1b\xff"),
+            "a\ufffdb\ufffd\ufffd");
+  EXPECT_EQ(escaped("tab\t and line\n"), "tab\t and line\n");
+}
+
 }  // namespace
 }  // namespace lightproof

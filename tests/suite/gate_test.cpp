@@ -8,13 +8,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <new>
 #include <numeric>
 
+#include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/report/json.h"
 #include "lightproof/suite/direction_sampler.h"
 #include "lightproof/suite/expectation.h"
+#include "lightproof/suite/sequential_gate.h"
 
 namespace lightproof {
 namespace {
@@ -29,6 +32,13 @@ std::vector<std::string> rejections(const GateResult& result) {
   return names;
 }
 
+GateResult run_gate_on(std::span<const Problem> problems) {
+  return run_gate(problems, {.samples = 1024});
+}
+GateResult run_sequential_gate_on(std::span<const Problem> problems) {
+  return run_sequential_gate(problems, {.samples = 1024});
+}
+
 TEST(Gate, AcceptsSoundSamplersOnEveryMapAndSize) {
   std::vector<Subject> sound = all_subjects();
   std::erase_if(sound, [](const Subject& subject) { return subject.known_defects; });
@@ -39,6 +49,26 @@ TEST(Gate, AcceptsSoundSamplersOnEveryMapAndSize) {
     EXPECT_EQ(overall_outcome(result, true), Outcome::accept)
         << extent.width << "x" << extent.height << ": "
         << testing::PrintToString(rejections(result));
+  }
+}
+
+// Whatever part of a run it is that memory does not suffice for.
+TEST(Gate, SaysWhereMemoryRanOut) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {16, 8});
+  const std::vector<Subject> subjects = {subject_of(sampler_by_name("alias"), Weighting::B)};
+  std::vector<Problem> problems = problems_of({&map, 1}, subjects);
+  problems[0].candidates[0].bind = [bind = problems[0].candidates[0].bind] {
+    return BoundSampler{
+        [](std::span<const SquarePoint>, std::span<TexelSample>) { throw std::bad_alloc(); },
+        bind().pdf};
+  };
+  for (const auto run : {run_gate_on, run_sequential_gate_on}) {
+    try {
+      run(problems);
+      FAIL() << "memory sufficed";
+    } catch (const OutOfMemory& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("sun-sky"));
+    }
   }
 }
 

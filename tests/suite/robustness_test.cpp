@@ -73,6 +73,27 @@ TEST(Positions, OfAFaintRowAtThePoleAreAccepted) {
   }
 }
 
+// An alias table cannot be asked for the points of a row: what is not tested is said.
+TEST(Positions, InARowThatNoPointsCanBeDirectedAtAreRecordedAsNotRun) {
+  const EnvironmentMap map = {"even", Grid<Rgb>({128, 64}, Rgb(1.0F)), {}};
+  const std::vector<Subject> subjects = {subject_of(sampler_by_name("alias"), Weighting::B),
+                                         subject_of(sampler_by_name("guide_lines"), Weighting::B)};
+  const GateResult result = run_gate({&map, 1}, subjects, {.samples = 1U << 15U});
+  std::size_t found = 0;
+  for (const TestRecord& test : result.tests) {
+    if (test.test != "positions in the first row" && test.test != "positions in the last row") {
+      continue;
+    }
+    ++found;
+    EXPECT_EQ(test.outcome, test.sampler == "alias" ? Outcome::not_run : Outcome::accept);
+    EXPECT_EQ(test.detail.find("no points can be directed there") != std::string::npos,
+              test.sampler == "alias")
+        << test.detail;
+  }
+  EXPECT_EQ(found, 4U);
+  EXPECT_EQ(overall_outcome(result, true), Outcome::accept);
+}
+
 class Robustness : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Robustness, NoSoundSamplerIsRejectedOnSmallMaps) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lightproof/report/text_escapes.h"
+#include "lightproof/core/text_escapes.h"
 
 namespace lightproof::cli {
 

@@ -15,9 +15,9 @@
 #include "known_names.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/out_of_memory.h"
+#include "lightproof/core/text_escapes.h"
 #include "lightproof/image/reader.h"
 #include "lightproof/image/synthetic.h"
-#include "lightproof/report/text_escapes.h"
 #include "progress_display.h"
 #include "whole_number.h"
 
@@ -38,7 +38,8 @@ EnvironmentMap load_map(const std::string& input, Extent size, const ReadOptions
         });
   }
   try {
-    return read_environment_map(input, read);
+    return with_memory_for([&] { return input; },
+                           [&] { return read_environment_map(input, read); });
   } catch (const InputError& error) {
     const bool looks_like_a_name = input.find_first_of("./\\") == std::string::npos;
     if (!looks_like_a_name || access(input.c_str(), F_OK) == 0) throw;

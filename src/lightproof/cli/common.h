@@ -82,8 +82,8 @@ bool use_color(const CommonOptions& options, int stream);
 /// line that will be parsed.
 void add_gate(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_study(CLI::App& app, const CommandLine& line, int& exit_code);
-void add_info(CLI::App& app, int& exit_code);
-void add_history(CLI::App& app, int& exit_code);
-void add_list(CLI::App& app, int& exit_code);
+void add_info(CLI::App& app, const CommandLine& line, int& exit_code);
+void add_history(CLI::App& app, const CommandLine& line, int& exit_code);
+void add_list(CLI::App& app, const CommandLine& line, int& exit_code);
 
 }  // namespace lightproof::cli

@@ -5,8 +5,12 @@
 
 namespace lightproof::cli {
 
+RunDescription describe_run(const CommandLine& line) {
+  return {LIGHTPROOF_VERSION, LIGHTPROOF_COMMIT, text_of(line)};
+}
+
 RunDescription describe_run(const CommonOptions& options, std::span<const EnvironmentMap> maps) {
-  RunDescription run{LIGHTPROOF_VERSION, LIGHTPROOF_COMMIT, text_of(options.command_line)};
+  RunDescription run = describe_run(options.command_line);
   for (const EnvironmentMap& map : maps) run.maps.push_back(json_of(describe(map)));
   return run;
 }

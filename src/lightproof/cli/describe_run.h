@@ -4,10 +4,13 @@
 #include <span>
 
 #include "common.h"
+#include "lightproof/core/run_description.h"
 #include "lightproof/image/environment_map.h"
-#include "lightproof/report/run_description.h"
 
 namespace lightproof::cli {
+
+/// Version and commit of this program, and the command line.
+RunDescription describe_run(const CommandLine& line);
 
 /// Version and commit of this program, the command line, and the maps as they were read.
 RunDescription describe_run(const CommonOptions& options, std::span<const EnvironmentMap> maps);

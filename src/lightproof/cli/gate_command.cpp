@@ -7,18 +7,19 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <set>
 
 #include "common.h"
 #include "describe_run.h"
 #include "gate_samplers.h"
 #include "known_names.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/core/text_escapes.h"
 #include "lightproof/report/ci_outputs.h"
 #include "lightproof/report/gate_summary.h"
 #include "lightproof/report/json.h"
 #include "lightproof/report/rejection_files.h"
 #include "lightproof/report/table.h"
-#include "lightproof/report/text_escapes.h"
 #include "lightproof/suite/gate.h"
 #include "lightproof/suite/sequential_gate.h"
 #include "outputs.h"
@@ -64,6 +65,17 @@ struct Judged {
   GateResult result;
   GateVerdict verdict;
 };
+
+/// Of all files that rejections may bring.
+std::set<std::string> names_of_rejections(std::span<const Problem> problems) {
+  std::set<std::string> names;
+  for (const Problem& problem : problems) {
+    for (const Candidate& candidate : problem.candidates) {
+      names.merge(rejection_file_names(candidate.name, problem.weighting, problem.map));
+    }
+  }
+  return names;
+}
 
 /// Progress is shown until it returns.
 Judged run_on(std::span<const Problem> problems, const Options& options) {
@@ -114,6 +126,7 @@ ExitCode exit_code_of(Outcome outcome) {
     case Outcome::reject:
       return kRejected;
     case Outcome::inconclusive:
+    case Outcome::not_run:
       break;
   }
   return kInconclusive;
@@ -129,10 +142,11 @@ int run(const Options& options) {
     for (const std::string& note : chosen.notes) fmt::print(stderr, "{}\n", terminal_text(note));
   }
   const std::vector<EnvironmentMap> maps = load_maps(options);
-  if (!options.rejections.empty()) {
-    check_folder(options.rejections, options.force, {}, options.command_line);
-  }
   const std::vector<Problem> problems = problems_of(maps, chosen.of_maps, chosen.of_directions);
+  if (!options.rejections.empty()) {
+    check_folder(options.rejections, options.force, names_of_rejections(problems),
+                 options.command_line);
+  }
   const Judged judged = run_on(problems, options);
   print_for_people(options, judged, stdout_is_taken);
   write_outputs(options, judged, describe_run(options, maps));

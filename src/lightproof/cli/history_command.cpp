@@ -8,13 +8,14 @@
 #include <memory>
 
 #include "common.h"
+#include "describe_run.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/core/text_escapes.h"
 #include "lightproof/history/comparison.h"
 #include "lightproof/history/comparison_text.h"
 #include "lightproof/history/google_benchmark.h"
 #include "lightproof/history/store.h"
 #include "lightproof/history/trend_page.h"
-#include "lightproof/report/text_escapes.h"
 #include "outputs.h"
 
 namespace lightproof::cli {
@@ -29,6 +30,7 @@ struct AddOptions {
 };
 
 struct CompareOptions {
+  CommandLine command_line;
   std::string base;
   std::string head;
   std::string database;
@@ -87,7 +89,7 @@ int compare_commits(const CompareOptions& options) {
   std::FILE* const for_people = stdout_is_taken ? stderr : stdout;
   if (!options.quiet) fmt::print(for_people, "{}", comparison_table(comparison));
   if (options.github) fmt::print(for_people, "{}", comparison_annotations(comparison));
-  write_output(options.json, comparison_json(comparison));
+  write_output(options.json, comparison_json(comparison, describe_run(options.command_line)));
   write_output(options.markdown, comparison_markdown(comparison));
   return count_of(comparison, RowVerdict::regressed) > 0 ? kRejected : kPassed;
 }
@@ -122,8 +124,9 @@ void register_add(CLI::App& history, int& exit_code) {
   command->callback([options, &exit_code] { exit_code = add(*options); });
 }
 
-void register_compare(CLI::App& history, int& exit_code) {
+void register_compare(CLI::App& history, const CommandLine& line, int& exit_code) {
   auto options = std::make_shared<CompareOptions>();
+  options->command_line = line;
   CLI::App* command =
       history.add_subcommand("compare", "Has HEAD become slower than BASE on interleaved runs?");
   command->add_option("BASE", options->base, "commit, or its beginning")->required();
@@ -156,11 +159,11 @@ void register_trend(CLI::App& history, int& exit_code) {
 
 }  // namespace
 
-void add_history(CLI::App& app, int& exit_code) {
+void add_history(CLI::App& app, const CommandLine& line, int& exit_code) {
   CLI::App* history = app.add_subcommand("history", "Performance over commits: has it got slower?");
   history->require_subcommand(1);
   register_add(*history, exit_code);
-  register_compare(*history, exit_code);
+  register_compare(*history, line, exit_code);
   register_trend(*history, exit_code);
 }
 

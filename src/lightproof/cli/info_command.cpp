@@ -6,8 +6,11 @@
 #include <memory>
 
 #include "common.h"
+#include "describe_run.h"
 #include "lightproof/core/error.h"
+#include "lightproof/core/out_of_memory.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/core/text_escapes.h"
 #include "lightproof/image/map_description.h"
 #include "lightproof/image/synthetic.h"
 
@@ -20,20 +23,15 @@ struct Options : CommonOptions {
 
 MapDescription describe_input(const std::string& input, Extent size, const ReadOptions& read) {
   if (input.empty()) throw InputError("a file's name is empty");
-  EnvironmentMap map =
-      is_built_in(input) ? make_synthetic_map(input, size) : inspect_environment_map(input, read);
-  if (is_built_in(input)) map.weights = weights_of(read.luminance);
-  map.source = input;
-  return describe(map);
-}
-
-/// One object for one file, an array for several, whichever of them could be read.
-void print_json(const std::vector<MapDescription>& maps, std::size_t files) {
-  if (files > 1) {
-    fmt::print("{}", json_of(maps));
-  } else if (!maps.empty()) {
-    fmt::print("{}", json_of(maps.front()));
-  }
+  return with_memory_for([&] { return input; },
+                         [&] {
+                           const bool made = is_built_in(input);
+                           EnvironmentMap map = made ? make_synthetic_map(input, size)
+                                                     : inspect_environment_map(input, read);
+                           if (made) map.weights = weights_of(read.luminance);
+                           map.source = input;
+                           return describe(map);
+                         });
 }
 
 int run(const Options& options) {
@@ -47,18 +45,22 @@ int run(const Options& options) {
       maps.push_back(describe_input(input, size, read));
       if (!options.json) fmt::print("{}", text_of(maps.back()));
     } catch (const InputError& error) {
-      fmt::print(stderr, "lightproof: {}\n", error.what());
+      fmt::print(stderr, "lightproof: {}\n", terminal_text(error.what()));
       exit_code = kBadInput;
     }
   }
-  if (options.json) print_json(maps, options.maps.size());
+  const bool several = options.maps.size() > 1;
+  if (options.json && (several || !maps.empty())) {
+    fmt::print("{}", info_json(maps, describe_run(options.command_line), several));
+  }
   return exit_code;
 }
 
 }  // namespace
 
-void add_info(CLI::App& app, int& exit_code) {
+void add_info(CLI::App& app, const CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
+  options->command_line = line;
   CLI::App* command = app.add_subcommand(
       "info", "What a file holds, how it would be read, and what is wrong with it");
   add_common_options(*command, *options);

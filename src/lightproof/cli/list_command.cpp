@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common.h"
+#include "describe_run.h"
 #include "known_names.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/materials/material.h"
@@ -80,17 +81,35 @@ std::vector<Entry> entries_of(const std::string& registry) {
 const std::vector<std::string> kRegistries = {"samplers",  "mutants",   "maps",      "presets",
                                               "materials", "receivers", "strategies"};
 
-int run(const std::string& registry, bool json) {
-  const std::vector<Entry> entries = entries_of(registry);
-  if (json) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+using Json = nlohmann::ordered_json;
+
+/// Of `list --json`, docs/schema/list.schema.json.
+constexpr int kListFormatVersion = 1;
+
+struct Options {
+  CommandLine command_line;
+  std::string registry;
+  bool json = false;
+};
+
+int run(const Options& options) {
+  const std::vector<Entry> entries = entries_of(options.registry);
+  if (options.json) {
+    Json list = Json::array();
     for (const Entry& entry : entries) {
       list.push_back({{"name", entry.name}, {"description", entry.description}});
       if (entry.over.empty()) continue;
       list.back()["over"] = entry.over;
       list.back()["diagnosis"] = entry.diagnosis;
     }
-    fmt::print("{}\n", list.dump(2));
+    const RunDescription run = describe_run(options.command_line);
+    const Json document = {{"format_version", kListFormatVersion},
+                           {"version", run.version},
+                           {"commit", run.commit.empty() ? Json(nullptr) : Json(run.commit)},
+                           {"command", run.command},
+                           {"registry", options.registry},
+                           {"entries", list}};
+    fmt::print("{}\n", document.dump(2, ' ', false, Json::error_handler_t::replace));
     return kPassed;
   }
   std::size_t width = 0;
@@ -103,19 +122,16 @@ int run(const std::string& registry, bool json) {
 
 }  // namespace
 
-void add_list(CLI::App& app, int& exit_code) {
-  struct Options {
-    std::string registry;
-    bool json = false;
-  };
+void add_list(CLI::App& app, const CommandLine& line, int& exit_code) {
   auto options = std::make_shared<Options>();
+  options->command_line = line;
   CLI::App* command = app.add_subcommand("list", "Print a registry");
   command->add_option("WHAT", options->registry, "which registry")
       ->required()
       ->check(one_of("registry", kRegistries))
       ->type_name(fmt::format("{}", fmt::join(kRegistries, "|")));
   command->add_flag("--json", options->json, "as JSON");
-  command->callback([options, &exit_code] { exit_code = run(options->registry, options->json); });
+  command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace lightproof::cli

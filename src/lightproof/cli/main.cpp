@@ -12,7 +12,7 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/failure.h"
 #include "lightproof/core/parallel.h"
-#include "lightproof/report/text_escapes.h"
+#include "lightproof/core/text_escapes.h"
 #include "usage_errors.h"
 
 namespace {
@@ -45,7 +45,7 @@ int refuse_stdout(int error) {
 
 int fail(const std::exception_ptr& error) {
   const lightproof::Failure failure = lightproof::failure_of(error);
-  fmt::print(stderr, "lightproof: {}\n", failure.message);
+  fmt::print(stderr, "lightproof: {}\n", lightproof::terminal_lines(failure.message));
   return failure.code;
 }
 
@@ -59,9 +59,9 @@ int run(int argc, char** argv) {
   int exit_code = kPassed;
   add_study(app, line, exit_code);
   add_gate(app, line, exit_code);
-  add_info(app, exit_code);
-  add_history(app, exit_code);
-  add_list(app, exit_code);
+  add_info(app, line, exit_code);
+  add_history(app, line, exit_code);
+  add_list(app, line, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -31,7 +31,7 @@ bool check_outputs(std::span<const std::string> paths);
 void write_output(const std::string& path, std::string_view content);
 
 /// check_result_folder(), with the command line that would go on, if --force is what it takes.
-/// `names`: those of files that are certain to be written.
+/// `names`: those of files that may be written.
 void check_folder(const std::string& folder, bool force, const std::set<std::string>& names,
                   const CommandLine& line);
 

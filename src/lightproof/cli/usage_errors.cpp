@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "known_names.h"
-#include "lightproof/report/text_escapes.h"
+#include "lightproof/core/text_escapes.h"
 
 namespace lightproof::cli {
 namespace {

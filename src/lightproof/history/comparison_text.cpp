@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "lightproof/core/text_escapes.h"
 #include "lightproof/report/columns.h"
 #include "lightproof/report/numbers.h"
-#include "lightproof/report/text_escapes.h"
 
 namespace lightproof {
 namespace {
@@ -182,7 +182,7 @@ std::string comparison_annotations(const Comparison& comparison) {
          annotations(comparison, RowVerdict::suspected, "warning");
 }
 
-std::string comparison_json(const Comparison& comparison) {
+std::string comparison_json(const Comparison& comparison, const RunDescription& run) {
   const RegressionRule& rule = comparison.rule;
   Json rows = Json::array();
   for (const ComparisonRow& row : comparison.rows) {
@@ -193,6 +193,9 @@ std::string comparison_json(const Comparison& comparison) {
                     {"earlier", json_of(row.earlier)}});
   }
   const Json document = {{"format_version", kComparisonFormatVersion},
+                         {"version", run.version},
+                         {"commit", run.commit.empty() ? Json(nullptr) : Json(run.commit)},
+                         {"command", run.command},
                          {"outcome", outcome_of(comparison)},
                          {"base", comparison.base},
                          {"head", comparison.head},

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "lightproof/core/run_description.h"
 #include "lightproof/history/comparison.h"
 
 namespace lightproof {
@@ -21,7 +22,8 @@ std::string comparison_annotations(const Comparison& comparison);
 /// Of comparison_json().
 inline constexpr int kComparisonFormatVersion = 1;
 
-/// Every row; the keys are described in docs/schema/comparison.schema.json.
-std::string comparison_json(const Comparison& comparison);
+/// Every row; the keys are described in docs/schema/comparison.schema.json. Of `run` it takes
+/// version, commit and command.
+std::string comparison_json(const Comparison& comparison, const RunDescription& run);
 
 }  // namespace lightproof

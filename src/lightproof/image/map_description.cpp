@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lightproof/core/text_escapes.h"
+
 namespace lightproof {
 namespace {
 
@@ -68,24 +70,16 @@ std::string parts_text(const PictureHeader& picture) {
                      listed(picture.parts));
 }
 
-/// One line each. Names in files may hold anything: what would move a terminal's cursor is shown as
-/// a question mark.
+/// One line each. Names in files may hold anything: they are written as terminal_text().
 class Lines {
  public:
   void add(std::string_view label, std::string_view value) {
-    if (!value.empty()) text_ += fmt::format("  {:<12}{}\n", label, printable(value));
+    if (!value.empty()) text_ += fmt::format("  {:<12}{}\n", label, terminal_text(value));
   }
-  void add_title(std::string_view title) { text_ += printable(title) + "\n"; }
+  void add_title(std::string_view title) { text_ += terminal_text(title) + "\n"; }
   std::string text() const { return text_; }
 
  private:
-  static std::string printable(std::string_view text) {
-    std::string shown(text);
-    std::ranges::replace_if(
-        shown, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-    return shown;
-  }
-
   std::string text_;
 };
 
@@ -146,10 +140,18 @@ MapDescription describe(const EnvironmentMap& map) {
 
 std::string json_of(const MapDescription& description) { return text_of(object_of(description)); }
 
-std::string json_of(const std::vector<MapDescription>& descriptions) {
+std::string info_json(const std::vector<MapDescription>& descriptions, const RunDescription& run,
+                      bool as_list) {
   Json list = Json::array();
-  for (const MapDescription& description : descriptions) list.push_back(object_of(description));
-  return text_of(list);
+  for (const MapDescription& description : descriptions) {
+    Json object = {{"format_version", kInfoFormatVersion},
+                   {"version", run.version},
+                   {"commit", text_or_null(run.commit)},
+                   {"command", run.command}};
+    object.update(object_of(description));
+    list.push_back(object);
+  }
+  return text_of(as_list || list.size() != 1 ? list : list.front());
 }
 
 std::string text_of(const MapDescription& map) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "lightproof/core/run_description.h"
 #include "lightproof/image/environment_map.h"
 #include "lightproof/image/map_figures.h"
 #include "lightproof/image/reproject.h"
@@ -32,8 +33,13 @@ MapDescription describe(const EnvironmentMap& map);
 /// UTF-8 has its bad bytes replaced by U+FFFD.
 std::string json_of(const MapDescription& description);
 
-/// An array of such objects.
-std::string json_of(const std::vector<MapDescription>& descriptions);
+/// The same with format_version and, of `run`, version, commit and command before the other keys:
+/// one object, or an array if there are several or `as_list`.
+std::string info_json(const std::vector<MapDescription>& descriptions, const RunDescription& run,
+                      bool as_list);
+
+/// Of info_json().
+inline constexpr int kInfoFormatVersion = 1;
 
 /// Some lines for a terminal, the file's name first.
 std::string text_of(const MapDescription& description);

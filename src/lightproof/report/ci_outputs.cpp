@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "lightproof/core/text_escapes.h"
 #include "lightproof/report/effects.h"
 #include "lightproof/report/gate_summary.h"
 #include "lightproof/report/html.h"
 #include "lightproof/report/numbers.h"
-#include "lightproof/report/text_escapes.h"
 
 namespace lightproof {
 namespace {
@@ -78,6 +78,8 @@ std::string junit_case(const GateResult& gate, const TestRecord& test, bool coun
   if (test.outcome == Outcome::reject && counts(test, count_known_defects)) {
     xml += fmt::format("      <failure message=\"{}\">{}\n{}</failure>\n", message, message,
                        escaped(replay_command(gate, test)));
+  } else if (test.outcome == Outcome::not_run) {
+    xml += fmt::format("      <skipped message=\"not run: {}\"/>\n", escaped(test.detail));
   } else if (test.outcome == Outcome::resolution_limited) {
     xml += fmt::format("      <skipped message=\"resolution-limited: {}\"/>\n", message);
   } else if (test.outcome == Outcome::inconclusive && counts(test, count_known_defects)) {
@@ -123,6 +125,8 @@ std::string replay_command(const GateResult& gate, const TestRecord& test) {
   const bool of_map = !test.weighting.empty();
   std::string options = gate.sequential ? " --sequential" : "";
   if (gate.family > 0) options += fmt::format(" --family {}", gate.family);
+  if (gate.must_detect != kMustDetect)
+    options += fmt::format(" --must-detect {}", gate.must_detect);
   const std::string map = shell_word(test.source.empty() ? test.map : test.source);
   return fmt::format("lightproof gate{} --sampler {}{} --samples {} --seed {}{}",
                      of_map ? " " + map : "", shell_word(test.sampler),
@@ -144,7 +148,7 @@ std::string gate_junit(const GateResult& gate, bool count_known_defects) {
   std::size_t skipped = 0;
   std::string cases;
   for (const TestRecord& test : gate.tests) {
-    if (test.outcome == Outcome::resolution_limited) {
+    if (test.outcome == Outcome::resolution_limited || test.outcome == Outcome::not_run) {
       ++skipped;
     } else if (test.outcome != Outcome::accept) {
       const bool rejected = test.outcome == Outcome::reject;

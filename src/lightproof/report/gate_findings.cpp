@@ -121,6 +121,7 @@ std::string headline(const StudyResult& study) {
       return fmt::format("{}, {}: {} {}", where, verdict_on(gate, judged, tally),
                          tests_of(tally, "rejected"), error);
     case Outcome::inconclusive:
+    case Outcome::not_run:
       break;
   }
   return fmt::format("{}, {}: {}, none rejected", where, verdict_on(gate, judged, tally),

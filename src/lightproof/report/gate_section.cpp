@@ -141,15 +141,16 @@ TestRecord worst_run_of(const Sight& sight) {
 }
 
 std::string sight_table(const GateResult& gate) {
-  Table table(
-      "What each kind of test saw and could have seen",
-      {"Oracle", "Test", "Runs", "Rejected", "Inconclusive", "Detectable effect, worst run"});
+  Table table("What each kind of test saw and could have seen",
+              {"Oracle", "Test", "Runs", "Rejected", "Inconclusive", "Not run",
+               "Detectable effect, worst run"});
   for (const Sight& s : sights(gate)) {
     table.add({text_cell(s.oracle),
                text_cell(s.test),
                {with_thousands(s.tally.tests), "number", ""},
                {with_thousands(s.tally.rejected), "number", ""},
                {with_thousands(s.tally.inconclusive), "number", ""},
+               {with_thousands(s.tally.not_run), "number", ""},
                detectable_cell(worst_run_of(s))});
   }
   return table.html();

@@ -20,8 +20,10 @@ int severity(Outcome outcome) {
       return 2;
     case Outcome::accept:
       return 3;
+    case Outcome::not_run:
+      return 4;
   }
-  return 3;
+  return 4;
 }
 
 /// Deterministic checks have no probability: among equals they count as the least telling when
@@ -39,6 +41,10 @@ bool worse(const TestRecord& a, const TestRecord& b) {
 }  // namespace
 
 void Tally::add(Outcome outcome) {
+  if (outcome == Outcome::not_run) {
+    ++not_run;
+    return;
+  }
   ++tests;
   if (outcome == Outcome::reject) ++rejected;
   if (outcome == Outcome::inconclusive) ++inconclusive;
@@ -52,7 +58,8 @@ Outcome Tally::outcome() const {
 }
 
 std::string limited_text(const Tally& tally) {
-  return tally.limited > 0 ? fmt::format(", {} resolution-limited", tally.limited) : "";
+  return (tally.limited > 0 ? fmt::format(", {} resolution-limited", tally.limited) : "") +
+         (tally.not_run > 0 ? fmt::format(", {} not run", tally.not_run) : "");
 }
 
 std::string configuration_name(const TestRecord& test) {
@@ -126,6 +133,8 @@ std::string outcome_text(Outcome outcome) {
       return "? inconclusive";
     case Outcome::resolution_limited:
       return "\u2248 resolution-limited";
+    case Outcome::not_run:
+      return "- not run";
   }
   return "";
 }

@@ -15,6 +15,7 @@ struct Tally {
   std::size_t rejected = 0;
   std::size_t inconclusive = 0;
   std::size_t limited = 0;  ///< by resolution
+  std::size_t not_run = 0;  ///< not among `tests`
 
   void add(Outcome outcome);
   /// Reject if any test rejects, else inconclusive if any is or there are none, else
@@ -48,7 +49,7 @@ Tally tally_of(const GateResult& gate, const Selected& selected) {
   return tally;
 }
 
-/// ", 3 resolution-limited", or nothing.
+/// ", 3 resolution-limited, 2 not run", or nothing.
 std::string limited_text(const Tally& tally);
 
 /// The tests that decide: those of samplers without known defects.

@@ -4,8 +4,8 @@
 
 #include <array>
 
+#include "lightproof/core/text_escapes.h"
 #include "lightproof/report/numbers.h"
-#include "lightproof/report/text_escapes.h"
 
 namespace lightproof {
 namespace {

@@ -300,8 +300,12 @@ std::string gate_json(const GateResult& gate, GateVerdict verdict, const RunDesc
   return text_of(document);
 }
 
-std::string rejection_json(const GateResult& gate, const Rejection& rejection) {
-  Json document = {{"format_version", kGateFormatVersion}};
+std::string rejection_json(const GateResult& gate, const Rejection& rejection,
+                           const RunDescription& run) {
+  Json document = {{"format_version", kGateFormatVersion},
+                   {"version", run.version},
+                   {"commit", commit_of(run)},
+                   {"command", run.command}};
   document.update(json_of(gate, rejection));
   return text_of(document);
 }

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "lightproof/report/run_description.h"
+#include "lightproof/core/run_description.h"
 #include "lightproof/suite/results.h"
 
 namespace lightproof {
@@ -30,8 +30,10 @@ struct GateVerdict {
 /// as published and do not.
 std::string gate_json(const GateResult& gate, GateVerdict verdict, const RunDescription& run);
 
-/// One of its rejections, with the command that draws the same samples again.
-std::string rejection_json(const GateResult& gate, const Rejection& rejection);
+/// One of its rejections, with the command that draws the same samples again. Of `run` it takes
+/// version, commit and command.
+std::string rejection_json(const GateResult& gate, const Rejection& rejection,
+                           const RunDescription& run);
 
 /// Everything in the study but the pixels, which lie in the EXR files that it names. Tests of
 /// samplers with known defects do not count towards gate.outcome. Of `run` it takes commit and

@@ -13,9 +13,9 @@ namespace {
 constexpr double kFullColour = 10.0;
 constexpr int kPixelsPerBin = 16;
 
-std::string stem_of(const Rejection& r) {
-  const std::string weighting = r.weighting.empty() ? "" : "-" + r.weighting;
-  return file_name_part(r.sampler + weighting + "-" + r.map);
+std::string stem_of(const std::string& sampler, const std::string& weighting,
+                    const std::string& map) {
+  return file_name_part(sampler + (weighting.empty() ? "" : "-" + weighting) + "-" + map);
 }
 
 Grid<Rgb> enlarged(const Grid<Rgb>& picture, int factor) {
@@ -30,15 +30,22 @@ Grid<Rgb> enlarged(const Grid<Rgb>& picture, int factor) {
 
 }  // namespace
 
+std::set<std::string> rejection_file_names(const std::string& sampler, const std::string& weighting,
+                                           const std::string& map) {
+  const std::string stem = stem_of(sampler, weighting, map);
+  return {stem + "-residual.exr", stem + "-residual.png", stem + ".json"};
+}
+
 void write_rejections(const GateResult& gate, const std::filesystem::path& folder,
                       const RunDescription& run, Overwriting overwriting) {
   ResultFolder results(folder, overwriting);
   for (const Rejection& rejection : gate.rejections) {
-    const std::filesystem::path stem = results.temporary() / stem_of(rejection);
+    const std::filesystem::path stem =
+        results.temporary() / stem_of(rejection.sampler, rejection.weighting, rejection.map);
     write_exr(stem.string() + "-residual.exr", flip_rows(grey_picture(rejection.residual)));
     const Grid<Rgb> colours = flip_rows(diverging_picture(rejection.residual, kFullColour));
     write_png(stem.string() + "-residual.png", enlarged(colours, kPixelsPerBin));
-    write_file(stem.string() + ".json", rejection_json(gate, rejection));
+    write_file(stem.string() + ".json", rejection_json(gate, rejection, run));
   }
   results.commit(run);
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
+#include <string>
 
 #include "lightproof/report/result_folder.h"
 #include "lightproof/suite/results.h"
@@ -18,5 +20,9 @@ namespace lightproof {
 void write_rejections(const GateResult& gate, const std::filesystem::path& folder,
                       const RunDescription& run = {},
                       Overwriting overwriting = Overwriting::refused);
+
+/// The names of these files for one sampler on one map, whether it will be rejected or not.
+std::set<std::string> rejection_file_names(const std::string& sampler, const std::string& weighting,
+                                           const std::string& map);
 
 }  // namespace lightproof

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "lightproof/core/pending_file.h"
-#include "lightproof/report/run_description.h"
+#include "lightproof/core/run_description.h"
 
 namespace lightproof {
 

@@ -4,12 +4,12 @@
 
 #include <vector>
 
+#include "lightproof/core/text_escapes.h"
 #include "lightproof/report/ci_outputs.h"
 #include "lightproof/report/columns.h"
 #include "lightproof/report/effects.h"
 #include "lightproof/report/gate_summary.h"
 #include "lightproof/report/numbers.h"
-#include "lightproof/report/text_escapes.h"
 
 namespace lightproof {
 namespace {

@@ -10,6 +10,8 @@ enum class Outcome {
   /// Nothing was found, but what would have been is smaller than what the sampler's own rounding
   /// makes: no reason to fail, and no acceptance of its law to that size either.
   resolution_limited,
+  /// The sampler cannot serve the test, or gave it too little: it decides nothing.
+  not_run,
 };
 
 constexpr const char* to_string(Outcome outcome) {
@@ -22,6 +24,8 @@ constexpr const char* to_string(Outcome outcome) {
       return "inconclusive";
     case Outcome::resolution_limited:
       return "resolution-limited";
+    case Outcome::not_run:
+      return "not-run";
   }
   return "";
 }

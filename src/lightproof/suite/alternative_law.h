@@ -24,6 +24,9 @@ struct AlternativeLaw {
   /// the declared weighting.
   Grid<double> (*masses)(const DeclaredLaw& declared);
   bool reads_map = true;  ///< has no meaning without one
+  /// Whether its masses are only an example of the defect, whose counts may be any of many: such a
+  /// defect is known by other evidence.
+  bool is_example = false;
 };
 
 std::span<const AlternativeLaw> alternative_laws();

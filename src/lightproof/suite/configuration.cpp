@@ -98,8 +98,11 @@ constexpr std::array<std::string_view, 4> kPairNames = {"theta with theta", "the
 /// whose interactions are uncorrelated, so that statistics and degrees of freedom add up.
 void add_pairs(Records& records, const Draws& draws, std::size_t lag) {
   const PairCounts counts = draws.successive.pairs(lag);
-  if (independence_dof(counts.total, kPairedCells) <= 0.0) return;
   const std::string test = fmt::format("independence at lag {}", kLags[lag]);
+  if (independence_dof(counts.total, kPairedCells) <= 0.0) {
+    records.add_not_run(test, fmt::format("{} pairs are too few", counts.total));
+    return;
+  }
   records.attempt("reference", test, [&] {
     std::vector<GoodnessOfFit> fits;
     for (const auto& pair : counts.pairs) fits.push_back(independence_fit(pair));
@@ -122,13 +125,19 @@ void add_runs(Records& records, const Draws& draws) {
         fmt::format("sums over runs of {}, {}", kRunLength, coordinate == 0 ? "theta" : "phi");
     records.attempt("reference", test, [&] {
       const GoodnessOfFit fit = cressie_read(runs, even, count);
-      if (fit.dof > 0.0) records.add_partial_fit(test, fit, count);
+      if (fit.dof > 0.0) {
+        records.add_partial_fit(test, fit, count);
+      } else {
+        records.add_not_run(test, fmt::format("{} runs are too few", count));
+      }
     });
   }
 }
 
 /// Positions inside cells, for the first row, the last one, and the bands between them together.
-void add_positions(Records& records, const Expectation& expectation, const Draws& draws) {
+/// The rows of the poles hold few samples unless points can be directed there.
+void add_positions(Records& records, const Expectation& expectation, const Draws& draws,
+                   bool can_be_directed) {
   const std::vector<double> even = uniform_masses(kPositionCells);
   const auto add = [&](std::string_view test, std::size_t first, std::size_t last) {
     records.attempt("reference", test, [&] {
@@ -141,7 +150,14 @@ void add_positions(Records& records, const Expectation& expectation, const Draws
         counted += count;
       }
       const GoodnessOfFit fit = sum_of_fits(fits, counted);
-      if (fit.dof > 0.0) records.add_partial_fit(test, fit, counted);
+      if (fit.dof > 0.0) return records.add_partial_fit(test, fit, counted);
+      const bool is_pole = first == 0 || last == expectation.bands.size();
+      records.add_not_run(
+          test, fmt::format("{} samples there are too few{}", counted,
+                            is_pole && !can_be_directed
+                                ? ", and no points can be directed there: the sampler does not "
+                                  "find its row by u.t alone"
+                                : ""));
     });
   };
   const std::size_t bands = expectation.bands.size();
@@ -245,7 +261,7 @@ std::vector<Measured> test_draws(const Configuration& configuration, const Expec
     });
     const std::vector<double> even = uniform_masses(kPairBins);
     records.add_fit("reference", "transformed pair", serpentine(draws.pairs), even);
-    add_positions(records, expectation, draws);
+    add_positions(records, expectation, draws, configuration.candidate->inverts_rows);
     for (std::size_t lag = 0; lag < kLags.size(); ++lag) add_pairs(records, draws, lag);
     add_runs(records, draws);
   }
@@ -296,16 +312,20 @@ std::vector<Measured> test_exactly(const Configuration& configuration,
                                    const Inspection& inspection, const Draws& draws,
                                    const BoundSampler* twin) {
   Records records(configuration, draws.samples);
+  const auto attempt = [&](std::string_view check, const auto& run) {
+    records.attempt("check", check, [&] { records.add_check(run()); });
+  };
   if (expectation.transform) records.add_check(check_resolution(draws));
   const RandomStream stream = configuration.stream("checks");
   records.add_check(check_pdf_integral(inspection.own));
   records.add_check(check_support(inspection.density));
   records.add_check(check_declared_density(inspection.density));
   const std::uint64_t points = std::min(draws.samples, kMostCheckPoints);
-  records.add_check(check_returned_pdf(sampler, stream, points));
+  attempt("pdf of the sample", [&] { return check_returned_pdf(sampler, stream, points); });
   for (const CheckResult& check : inspection.edges) records.add_check(check);
   if (configuration.candidate->has_twin) {
-    records.add_check(check_same_texel(sampler, *twin, expectation, stream, points));
+    attempt("same texel as linear_scan",
+            [&] { return check_same_texel(sampler, *twin, expectation, stream, points); });
   }
   return records.take();
 }

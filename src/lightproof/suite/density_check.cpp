@@ -80,7 +80,7 @@ struct RowComparison {
     const double over = std::abs(ratio - 1.0) * mass / bound;
     if (over <= 1.0) return;  // false for NaN
     ++found.cells_off;
-    if (cell.pdf <= 0.0) ++found.lost_cells;
+    if (cell.pdf <= 0.0 && found.lost_cells++ == 0) found.first_lost = cell;
     if (found.worst && over <= excess) return;
     excess = over;
     found.worst = cell;
@@ -111,6 +111,7 @@ void merge(DensityComparison& all, double& excess, const RowComparison& row) {
   const DensityComparison& found = row.found;
   if (!all.first_unreachable) all.first_unreachable = found.first_unreachable;
   if (!all.first_unlit) all.first_unlit = found.first_unlit;
+  if (!all.first_lost) all.first_lost = found.first_lost;
   all.unreachable_cells += found.unreachable_cells;
   all.unreachable_mass += found.unreachable_mass;
   all.lost_cells += found.lost_cells;

@@ -39,8 +39,9 @@ struct DensityComparison {
   std::size_t unreachable_cells = 0;  ///< declared above 0, pdf 0
   double unreachable_mass = 0.0;      ///< of all light, in these
   std::optional<ComparedCell> first_unreachable;
-  std::size_t lost_cells =
-      0;  ///< unreachable beyond what the sampler's rounding is declared to make
+  /// Unreachable beyond what the sampler's rounding is declared to make.
+  std::size_t lost_cells = 0;
+  std::optional<ComparedCell> first_lost;
   std::size_t unlit_cells = 0;  ///< declared 0, pdf above 0 or not a number
   std::optional<ComparedCell> first_unlit;
   double largest_error = 0.0;         ///< relative, of cells that the declaration lets be reached

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "lightproof/core/parallel.h"
 #include "lightproof/stats/goodness_of_fit.h"
 #include "lightproof/suite/description.h"
 #include "lightproof/suite/law_fit.h"
@@ -19,7 +20,7 @@ namespace {
 
 constexpr std::string_view kOwnBinsTest = "bins 16x32 of its own pdf";
 
-constexpr std::array<Signature, 14> kSignatures = {{
+constexpr std::array<Signature, 15> kSignatures = {{
     {"off-the-map", "samples beside the map or without a density: a sum that ends below 1, a 0/0"},
     {"wrong-at-knots", "wrong only where the random number meets a knot: lower for upper bound"},
     {"same-number", "one random number for both dimensions: the marginals are right"},
@@ -27,6 +28,7 @@ constexpr std::array<Signature, 14> kSignatures = {{
     {"stratified", "points too even to be independent: stratified or quasi-random ones"},
     {"coarse-numbers", "random numbers or sums with too few bits: single texels are off, all over"},
     {"one-place", "a single texel is wrong"},
+    {"one-texel-missing", "one texel that has light is never drawn"},
     {"uneven-in-texel", "right texels, wrong places inside them"},
     {"pdf-scaled", "the pdf is off by a constant factor"},
     {"pdf-of-another-measure", "the pdf is one over another measure: the Jacobian is missing"},
@@ -80,26 +82,31 @@ class Verdicts {
 /// Bins that differ by less are the same, to what quadrature and floats leave.
 constexpr double kIntegrated = 1e-6;
 
-/// The sum of the differences of all bins.
-double distance(const Grid<double>& a, const Grid<double>& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.values().size(); ++i) {
-    sum += std::abs(a.values()[i] - b.values()[i]);
+/// What the alternatives of a problem say of one sampler.
+struct Laws {
+  std::span<const Alternative> all;
+  const LawScores& scores;
+
+  const Alternative* find(std::string_view name) const {
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Alternative& a) { return a.name == name; });
+    return found == all.end() ? nullptr : &*found;
   }
-  return sum;
-}
+  double from_own_pdf(const Alternative& law) const {
+    return scores.from_own_pdf[static_cast<std::size_t>(&law - all.data())];
+  }
+};
 
 /// The law that the sampler's own pdf integrates to: the only one that takes away 99 % of what
 /// separates the bins of the pdf from the declared ones.
-std::string_view law_of_pdf(const Problem& problem, const Expectation& expectation,
+std::string_view law_of_pdf(const Laws& laws, const Expectation& expectation,
                             const OwnDensity& own) {
   const double declared = distance(expectation.bins, own.bins);
   if (!(declared > kIntegrated)) return {};
   std::string_view best;
   double least = 0.01 * declared;
-  for (const Alternative& law : problem.alternatives()) {
-    const double d =
-        distance(reference::bin_masses(law.masses(), expectation.weighting, kGateBins), own.bins);
+  for (const Alternative& law : laws.all) {
+    const double d = laws.from_own_pdf(law);
     if (!(d < least * (1.0 - 1e-9))) continue;  // of equals, the first
     least = d;
     best = law.name;
@@ -108,39 +115,74 @@ std::string_view law_of_pdf(const Problem& problem, const Expectation& expectati
 }
 
 /// Whether the samples follow this law of the problem.
-bool fits(const Problem& problem, const Expectation& expectation, const Draws& draws,
+bool fits(const Laws& laws, const Expectation& expectation, const Draws& draws,
           std::string_view name) {
-  for (const Alternative& law : problem.alternatives()) {
-    if (law.name != name) continue;
-    return log10_fit(draws, law.masses(), expectation) >= std::log10(kFitLevel);
-  }
-  return false;
+  const Alternative* law = laws.find(name);
+  return law != nullptr && log10_fit(draws, law->masses(), expectation) >= std::log10(kFitLevel);
 }
 
 bool fits_declared(const Expectation& expectation, const Draws& draws) {
   return log10_fit(draws, expectation.masses, expectation) >= std::log10(kFitLevel);
 }
 
+/// Counts of texels and their probabilities, some texels being left out of both.
+class RemainingTexels {
+ public:
+  RemainingTexels(const Expectation& expectation, const Draws& draws)
+      : counts_(draws.texels),
+        masses_(expectation.masses),
+        samples_(draws.samples - draws.lost.count) {}
+
+  WorstCell worst() const { return worst_cell(counts_.values(), masses_.values(), samples_); }
+
+  /// False, and nothing is left out, if no other texel has light.
+  bool leave_out(std::size_t texel) {
+    const double left = 1.0 - masses_.values()[texel];
+    if (!(left > 0.0)) return false;
+    samples_ -= counts_.values()[texel];
+    counts_.values()[texel] = 0;
+    masses_.values()[texel] = 0.0;
+    for (double& mass : masses_.values()) mass /= left;
+    return true;
+  }
+
+  /// Counts of texels, rows and columns.
+  bool fit() const {
+    return log10_fit_of_counts(counts_, masses_, samples_) >= std::log10(kFitLevel);
+  }
+
+ private:
+  Grid<std::uint64_t> counts_;
+  Grid<double> masses_;
+  std::uint64_t samples_;
+};
+
 /// Whether the farthest texel is no chance, and counts of texels, rows and columns fit once it and
 /// the next are left out of them.
 bool is_in_one_place(const Expectation& expectation, const Draws& draws) {
   /// Level at which a texel is known to be off: that of a whole run.
   constexpr double kKnown = 1e-6;
-  Grid<std::uint64_t> counts = draws.texels;
-  Grid<double> masses = expectation.masses;
-  std::uint64_t samples = draws.samples - draws.lost.count;
+  RemainingTexels texels(expectation, draws);
   for (int i = 0; i < 2; ++i) {
-    const WorstCell worst = worst_cell(counts.values(), masses.values(), samples);
+    const WorstCell worst = texels.worst();
     if (worst.cells < 3) return false;
     if (i == 0 && worst.log10_p > std::log10(kKnown)) return false;
-    const double left = 1.0 - masses.values()[worst.cell];
-    if (!(left > 0.0)) return false;
-    samples -= counts.values()[worst.cell];
-    counts.values()[worst.cell] = 0;
-    masses.values()[worst.cell] = 0.0;
-    for (double& mass : masses.values()) mass /= left;
+    if (!texels.leave_out(worst.cell)) return false;
   }
-  return log10_fit_of_counts(counts, masses, samples) >= std::log10(kFitLevel);
+  return texels.fit();
+}
+
+/// Whether the pdf is 0 in one texel alone that should be reached, no sample lies there, and all
+/// others fit.
+bool is_one_texel_missing(const Expectation& expectation, const Evidence& evidence) {
+  const DensityComparison& density = evidence.inspection->density;
+  if (density.lost_cells != 1 || expectation.lookup != Lookup::nearest) return false;
+  const ComparedCell& cell = *density.first_lost;
+  if (evidence.draws->texels(cell.x, cell.y) > 0) return false;
+  RemainingTexels texels(expectation, *evidence.draws);
+  const auto width = static_cast<std::size_t>(expectation.masses.extent().width);
+  const auto texel = static_cast<std::size_t>(cell.y) * width + static_cast<std::size_t>(cell.x);
+  return texels.leave_out(texel) && texels.fit();
 }
 
 /// A name, and how sure it is.
@@ -161,7 +203,7 @@ std::string confidence_of(const LawFit& fit) {
 /// do not contradict it, so that it is what is drawn, and the law leaves more than a quarter of
 /// what separates the two. Quadrature of a pdf that has kinks inside texels, of another look-up,
 /// leaves some of it for the right law.
-bool own_pdf_excludes(std::string_view law, const Problem& problem, const Expectation& expectation,
+bool own_pdf_excludes(std::string_view name, const Laws& laws, const Expectation& expectation,
                       const Evidence& evidence, const Verdicts& verdicts) {
   constexpr double kLeft = 0.25;
   const OwnDensity& own = evidence.inspection->own;
@@ -170,24 +212,19 @@ bool own_pdf_excludes(std::string_view law, const Problem& problem, const Expect
       verdicts.rejected("self", kOwnBinsTest)) {
     return false;
   }
-  for (const Alternative& alternative : problem.alternatives()) {
-    if (alternative.name != law) continue;
-    const Grid<double> bins =
-        reference::bin_masses(alternative.masses(), expectation.weighting, kGateBins);
-    return distance(bins, own.bins) > kLeft * declared;
-  }
-  return false;
+  const Alternative* law = laws.find(name);
+  return law != nullptr && laws.from_own_pdf(*law) > kLeft * declared;
 }
 
-Name name_of_law(const Problem& problem, const Expectation& expectation, const Evidence& evidence,
+Name name_of_law(const Laws& laws, const Expectation& expectation, const Evidence& evidence,
                  const Verdicts& verdicts, const LawFit& likeliest) {
   // Laws that few samples cannot tell apart are told apart by a pdf that is what is drawn.
   if (likeliest.named() &&
-      !own_pdf_excludes(likeliest.law, problem, expectation, evidence, verdicts)) {
+      !own_pdf_excludes(likeliest.law, laws, expectation, evidence, verdicts)) {
     return {likeliest.law, confidence_of(likeliest)};
   }
-  const std::string_view own = law_of_pdf(problem, expectation, evidence.inspection->own);
-  if (!own.empty() && fits(problem, expectation, *evidence.draws, own)) {
+  const std::string_view own = law_of_pdf(laws, expectation, evidence.inspection->own);
+  if (!own.empty() && fits(laws, expectation, *evidence.draws, own)) {
     return {own, "the sampler's own pdf is this law, and the samples do not reject it"};
   }
   return {};
@@ -211,8 +248,8 @@ bool samples_depend(const Verdicts& verdicts) {
 }
 
 /// Of a pdf that is not the density that is drawn, which is the declared one.
-Name name_of_wrong_pdf(const Problem& problem, const Expectation& expectation,
-                       const Evidence& evidence, const Verdicts& verdicts) {
+Name name_of_wrong_pdf(const Laws& laws, const Expectation& expectation, const Evidence& evidence,
+                       const Verdicts& verdicts) {
   const Inspection& inspection = *evidence.inspection;
   const bool returned = verdicts.rejected("check", "pdf of the sample");
   const std::string whole = "pdf() shows it all over the map, and the samples fit the declared law";
@@ -222,7 +259,7 @@ Name name_of_wrong_pdf(const Problem& problem, const Expectation& expectation,
                       inspection.density.over_jacobian.is_constant())) {
       return {"pdf-of-another-measure", whole};
     }
-    const std::string_view law = law_of_pdf(problem, expectation, inspection.own);
+    const std::string_view law = law_of_pdf(laws, expectation, inspection.own);
     // Of a law's shape, but no probability: a density over something else.
     if (!law.empty()) {
       const bool is_density = check_pdf_integral(inspection.own).passed;
@@ -237,7 +274,7 @@ Name name_of_wrong_pdf(const Problem& problem, const Expectation& expectation,
   return {"pdf-mismatch", "the two differ, and the samples fit the declared law"};
 }
 
-Name name_of(const Problem& problem, const Expectation& expectation, const Evidence& evidence) {
+Name name_of(const Laws& laws, const Expectation& expectation, const Evidence& evidence) {
   const Verdicts verdicts(evidence.records);
   const Draws& draws = *evidence.draws;
   if (draws.lost.count > 0 || verdicts.rejected("check", "samples stay on the map")) {
@@ -255,18 +292,21 @@ Name name_of(const Problem& problem, const Expectation& expectation, const Evide
     return {verdicts.leaves_map() ? "off-the-map" : "wrong-at-knots",
             "certain: the random numbers that do it are named"};
   }
+  if (is_one_texel_missing(expectation, evidence)) {
+    return {"one-texel-missing", "pdf() is 0 there, no sample lies there, and all others fit"};
+  }
   // A law that is near the declared one may be likelier by far while both fit; it comes first, as
   // does a pdf that says so: points directed at a row miss some of it if the row sums are another
   // law's.
-  const LawFit likeliest = likeliest_law(problem, expectation, draws);
+  const LawFit likeliest = likeliest_law(laws.all, laws.scores, expectation, draws);
   if (declared && !likeliest.named()) {
-    Name pdf = name_of_wrong_pdf(problem, expectation, evidence, verdicts);
+    Name pdf = name_of_wrong_pdf(laws, expectation, evidence, verdicts);
     if (!pdf.defect.empty()) return pdf;
     if (positions_are_wrong(verdicts)) {
       return {"uneven-in-texel", "positions show it, and counts of texels fit the declared law"};
     }
   }
-  const Name law = name_of_law(problem, expectation, evidence, verdicts, likeliest);
+  const Name law = name_of_law(laws, expectation, evidence, verdicts, likeliest);
   if (!law.defect.empty()) return law;
   if (!declared && is_in_one_place(expectation, draws)) {
     return {"one-place", "all other texels fit the declared law"};
@@ -275,7 +315,7 @@ Name name_of(const Problem& problem, const Expectation& expectation, const Evide
   return {"unknown"};
 }
 
-std::string words_of(const Problem& problem, const Name& name, const Expectation& expectation,
+std::string words_of(const Laws& laws, const Name& name, const Expectation& expectation,
                      const Evidence& evidence) {
   for (const Signature& signature : kSignatures) {
     if (signature.name != name.defect) continue;
@@ -283,10 +323,8 @@ std::string words_of(const Problem& problem, const Name& name, const Expectation
     if (name.defect != "unknown" || what.empty()) return std::string(signature.diagnosis);
     return fmt::format("{}: {}", signature.diagnosis, what);
   }
-  for (const Alternative& law : problem.alternatives()) {
-    if (law.name == name.defect) return std::string(law.diagnosis);
-  }
-  return {};
+  const Alternative* law = laws.find(name.defect);
+  return law != nullptr ? std::string(law->diagnosis) : std::string();
 }
 
 Grid<double> residuals(const Expectation& expectation, const Draws& draws) {
@@ -316,23 +354,21 @@ std::vector<double> cumulative_divergence(const Expectation& expectation, const 
   return sums;
 }
 
-}  // namespace
-
-std::span<const Signature> signatures() { return kSignatures; }
-
-Rejection diagnose(const Problem& problem, const Expectation& expectation,
-                   const Evidence& evidence) {
-  const TestRecord& first = evidence.records.front();
+Rejection rejection_of(const Laws& laws, const Expectation& expectation, const Evidence& evidence,
+                       std::optional<std::string> failure) {
   Name name{"unknown"};
   std::string words;
-  const auto failure = failure_of([&] {
-    name = name_of(problem, expectation, evidence);
-    words = words_of(problem, name, expectation, evidence);
-  });
+  if (!failure) {
+    failure = failure_of([&] {
+      name = name_of(laws, expectation, evidence);
+      words = words_of(laws, name, expectation, evidence);
+    });
+  }
   if (failure) {
     name = {"unknown"};
     words = "the diagnosis could not be computed: " + *failure;
   }
+  const TestRecord& first = evidence.records.front();
   return {first.sampler,
           first.weighting,
           first.map,
@@ -341,6 +377,31 @@ Rejection diagnose(const Problem& problem, const Expectation& expectation,
           residuals(expectation, *evidence.draws),
           cumulative_divergence(expectation, *evidence.draws),
           name.confidence};
+}
+
+}  // namespace
+
+std::span<const Signature> signatures() { return kSignatures; }
+
+std::vector<Rejection> diagnose(const Problem& problem, const Expectation& expectation,
+                                std::span<const Evidence> rejected) {
+  std::vector<Rejection> rejections(rejected.size());
+  if (rejected.empty()) return rejections;
+  std::vector<Alternative> alternatives;
+  std::vector<LawScores> scores(rejected.size());
+  const auto no_scores = failure_of([&] {
+    alternatives = problem.alternatives();
+    std::vector<Scored> scored;
+    for (const Evidence& evidence : rejected) {
+      scored.push_back({evidence.draws, &evidence.inspection->own.bins});
+    }
+    scores = score_laws(alternatives, expectation, scored);
+  });
+  parallel_for(rejected.size(), [&](std::size_t i) {
+    const Laws laws{alternatives, scores[i]};
+    rejections[i] = rejection_of(laws, expectation, rejected[i], no_scores);
+  });
+  return rejections;
 }
 
 }  // namespace lightproof

@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "lightproof/suite/checks.h"
 #include "lightproof/suite/draws.h"
@@ -27,8 +28,9 @@ struct Evidence {
   const Inspection* inspection;
 };
 
-/// `problem` and `expectation` are those of the configuration.
-Rejection diagnose(const Problem& problem, const Expectation& expectation,
-                   const Evidence& evidence);
+/// The rejections of several samplers of one problem, in their order. `expectation` is the
+/// problem's. What the problem's alternatives would give is computed once for all of them.
+std::vector<Rejection> diagnose(const Problem& problem, const Expectation& expectation,
+                                std::span<const Evidence> rejected);
 
 }  // namespace lightproof

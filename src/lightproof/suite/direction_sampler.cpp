@@ -260,12 +260,13 @@ std::vector<Problem> problems_of(std::span<const DirectionSampler> samplers) {
     const Candidate candidate = {
         sampler.name, false,
         [sampler] { return bound_directions(sampler, reference::cells_for(sampler.law)); }};
-    problems.push_back({std::string(kDirections),
-                        "",
-                        "",
-                        [law = sampler.law] { return expectation_of(law); },
-                        [law = sampler.law] { return alternatives_to(law); },
-                        {candidate}});
+    problems.push_back(
+        {std::string(kDirections),
+         "",
+         "",
+         [law = sampler.law] { return std::make_shared<const Expectation>(expectation_of(law)); },
+         [law = sampler.law] { return alternatives_to(law); },
+         {candidate}});
   }
   return problems;
 }

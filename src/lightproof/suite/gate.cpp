@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <memory>
 #include <mutex>
 
+#include "lightproof/core/out_of_memory.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/stats/family.h"
 #include "lightproof/stats/tails.h"
@@ -77,7 +80,8 @@ Slot run_first(const Configuration& configuration, const Yardstick& yardstick, d
                                   yardstick.twin ? &yardstick.twin->sampler : nullptr));
   const bool clean = std::all_of(slot.tests.begin(), slot.tests.end(), [&](const Measured& test) {
     const TestRecord& r = test.record;
-    return r.log10_p ? *r.log10_p >= std::log10(suspicious) : r.outcome == Outcome::accept;
+    return r.log10_p ? *r.log10_p >= std::log10(suspicious)
+                     : r.outcome == Outcome::accept || r.outcome == Outcome::not_run;
   });
   if (!clean) slot.draws = std::move(draws);
   return slot;
@@ -179,11 +183,47 @@ class Judge {
   double must_detect_;
 };
 
+/// Exact sides of problems, each computed when it is first asked for. They are kept while all of
+/// them together have few enough texels; beyond that they last as long as whoever asked.
+class Expectations {
+ public:
+  explicit Expectations(std::span<const Problem> problems)
+      : problems_(problems), kept_(problems.size()) {}
+
+  /// To be called for one problem by one thread at a time.
+  std::shared_ptr<const Expectation> of(std::size_t problem) {
+    if (kept_[problem]) return kept_[problem];
+    std::shared_ptr<const Expectation> made = problems_[problem].expectation();
+    const std::size_t texels = made->masses.values().size();
+    if (texels_.fetch_add(texels) + texels <= kMostTexels) kept_[problem] = made;
+    return made;
+  }
+
+ private:
+  /// About 60 bytes are kept of a texel: half a gibibyte.
+  static constexpr std::size_t kMostTexels = std::size_t{1} << 23U;
+
+  std::span<const Problem> problems_;
+  std::vector<std::shared_ptr<const Expectation>> kept_;
+  std::atomic<std::size_t> texels_ = 0;
+};
+
+/// The result of `work`, with lack of memory laid to this part of the gate.
+template <class Work>
+auto with_memory_for_part(std::string_view part, const Problem& problem, std::string_view sampler,
+                          const Work& work) {
+  const auto purpose = [&] {
+    return fmt::format("{} of {} on {} (weighting {})", part, sampler, problem.map,
+                       problem.weighting);
+  };
+  return with_memory_for(purpose, work);
+}
+
 /// Problems, and what is known of their candidates.
 class Run {
  public:
   Run(std::span<const Problem> problems, const GateOptions& options, const Progress& progress)
-      : problems_(problems), options_(options), progress_(progress) {
+      : problems_(problems), options_(options), progress_(progress), expectations_(problems) {
     for (const Problem& problem : problems) slots_.emplace_back(problem.candidates.size());
   }
 
@@ -192,12 +232,14 @@ class Run {
     const auto has_twin = [](const Candidate& candidate) { return candidate.has_twin; };
     parallel_for(problems_.size(), [&](std::size_t i) {
       const std::vector<Candidate>& candidates = problems_[i].candidates;
-      const Expectation expectation = problems_[i].expectation();
+      const std::shared_ptr<const Expectation> expectation = expectations_.of(i);
       const Yardstick yardstick =
-          yardstick_of(problems_[i], expectation, options_, options_.samples,
+          yardstick_of(problems_[i], *expectation, options_, options_.samples,
                        std::any_of(candidates.begin(), candidates.end(), has_twin));
       for_each_candidate(i, [&](const Configuration& configuration, Slot& slot) {
-        slot = run_first(configuration, yardstick, options_.suspicious);
+        slot = with_memory_for_part("tests", problems_[i], configuration.candidate->name, [&] {
+          return run_first(configuration, yardstick, options_.suspicious);
+        });
         show_progress();
       });
     });
@@ -215,11 +257,13 @@ class Run {
         with_twin = with_twin || problems_[i].candidates[k].has_twin;
       }
       if (!any) return;
-      const Expectation expectation = problems_[i].expectation();
-      const Yardstick yardstick = yardstick_of(problems_[i], expectation, options_,
+      const std::shared_ptr<const Expectation> expectation = expectations_.of(i);
+      const Yardstick yardstick = yardstick_of(problems_[i], *expectation, options_,
                                                kSecondStage * options_.samples, with_twin);
       for_each_candidate(i, [&](const Configuration& configuration, Slot& slot) {
-        if (is_open(slot)) run_again(configuration, yardstick, judge.again(), slot);
+        if (!is_open(slot)) return;
+        with_memory_for_part("tests", problems_[i], configuration.candidate->name,
+                             [&] { run_again(configuration, yardstick, judge.again(), slot); });
       });
     });
     std::vector<Measured*> tests;
@@ -263,25 +307,47 @@ class Run {
     return count;
   }
 
-  GateResult collect() const {
-    GateResult result{options_.family_alpha, options_.samples, options_.seed, {}, {}};
-    for (std::size_t i = 0; i < problems_.size(); ++i) {
+  GateResult collect() {
+    std::vector<std::vector<TestRecord>> records(problems_.size());
+    std::vector<std::vector<Rejection>> rejections(problems_.size());
+    parallel_for(problems_.size(), [&](std::size_t i) {
+      std::vector<std::vector<TestRecord>> of_slots;
       for (const Slot& slot : slots_[i]) {
-        std::vector<TestRecord> records;
-        for (const Measured& test : slot.tests) records.push_back(test.record);
-        if (std::any_of(records.begin(), records.end(), is_rejected)) {
-          result.rejections.push_back(diagnose(problems_[i], problems_[i].expectation(),
-                                               {records, &*slot.draws, &slot.inspection}));
-        }
-        std::move(records.begin(), records.end(), std::back_inserter(result.tests));
+        std::vector<TestRecord>& of_slot = of_slots.emplace_back();
+        for (const Measured& test : slot.tests) of_slot.push_back(test.record);
       }
+      rejections[i] = diagnose_rejected(i, of_slots);
+      for (auto& of_slot : of_slots) {
+        std::move(of_slot.begin(), of_slot.end(), std::back_inserter(records[i]));
+      }
+    });
+    GateResult result{options_.family_alpha, options_.samples, options_.seed, {}, {}};
+    result.must_detect = options_.must_detect;
+    for (std::size_t i = 0; i < problems_.size(); ++i) {
+      std::move(records[i].begin(), records[i].end(), std::back_inserter(result.tests));
+      std::move(rejections[i].begin(), rejections[i].end(), std::back_inserter(result.rejections));
     }
     return result;
+  }
+
+  std::vector<Rejection> diagnose_rejected(std::size_t problem,
+                                           std::span<const std::vector<TestRecord>> of_slots) {
+    std::vector<Evidence> rejected;
+    for (std::size_t k = 0; k < of_slots.size(); ++k) {
+      const Slot& slot = slots_[problem][k];
+      if (std::none_of(of_slots[k].begin(), of_slots[k].end(), is_rejected)) continue;
+      rejected.push_back({of_slots[k], &*slot.draws, &slot.inspection});
+    }
+    if (rejected.empty()) return {};
+    return with_memory_for_part("diagnoses", problems_[problem], "rejected samplers", [&] {
+      return diagnose(problems_[problem], *expectations_.of(problem), rejected);
+    });
   }
 
   std::span<const Problem> problems_;
   GateOptions options_;
   Progress progress_;
+  Expectations expectations_;
   std::vector<std::vector<Slot>> slots_;  ///< by problem and candidate
   std::mutex mutex_;
   std::size_t done_ = 0;
@@ -304,6 +370,7 @@ Outcome overall_outcome(const GateResult& result, bool count_known_defects) {
   std::size_t counted = 0;
   for (const TestRecord& test : result.tests) {
     if (test.known_defect && !count_known_defects) continue;
+    if (test.outcome == Outcome::not_run) continue;
     ++counted;
     if (test.outcome == Outcome::reject) return Outcome::reject;
     if (test.outcome == Outcome::inconclusive) overall = Outcome::inconclusive;

@@ -26,7 +26,7 @@ struct GateOptions {
   /// The root mean square deviation of the bins, relative to their expectations, that an accepting
   /// run must have been able to see with kDetectablePower; else the test of the bins is
   /// inconclusive, and says how much it could have seen.
-  double must_detect = 0.1;
+  double must_detect = kMustDetect;
 };
 
 /// Runs in two stages. After the first, a test whose p-value is below `at_once` (or half of

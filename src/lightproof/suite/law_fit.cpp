@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "lightproof/core/parallel.h"
 #include "lightproof/stats/goodness_of_fit.h"
 #include "reference/texel_masses.h"
 
@@ -13,15 +14,21 @@ namespace {
 
 constexpr double kImpossible = 1e-300;
 
-/// The logarithm of how many times likelier the counts are under `law` than as declared.
-double log_likelihood_gain(const Draws& draws, const Grid<double>& law,
-                           const Grid<double>& declared) {
-  double gain = 0.0;
+/// The logarithm of how many times likelier one sample in each texel is under `law`.
+Grid<double> log_ratios(const Grid<double>& law, const Grid<double>& declared) {
+  Grid<double> ratios(law.extent());
   for (std::size_t i = 0; i < law.values().size(); ++i) {
-    const auto count = static_cast<double>(draws.texels.values()[i]);
-    if (count == 0.0) continue;
-    gain += count * std::log(std::max(law.values()[i], kImpossible) /
-                             std::max(declared.values()[i], kImpossible));
+    const double ratio =
+        std::max(law.values()[i], kImpossible) / std::max(declared.values()[i], kImpossible);
+    ratios.values()[i] = std::log(ratio);
+  }
+  return ratios;
+}
+
+double log_likelihood_gain(const Draws& draws, const Grid<double>& log_ratios) {
+  double gain = 0.0;
+  for (std::size_t i = 0; i < log_ratios.values().size(); ++i) {
+    gain += static_cast<double>(draws.texels.values()[i]) * log_ratios.values()[i];
   }
   return gain;
 }
@@ -69,14 +76,39 @@ double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectati
   return of_several(all);
 }
 
-LawFit likeliest_law(const Problem& problem, const Expectation& expectation, const Draws& draws) {
+double distance(const Grid<double>& a, const Grid<double>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.values().size(); ++i) {
+    sum += std::abs(a.values()[i] - b.values()[i]);
+  }
+  return sum;
+}
+
+std::vector<LawScores> score_laws(std::span<const Alternative> alternatives,
+                                  const Expectation& expectation, std::span<const Scored> scored) {
+  const std::vector<double> none(alternatives.size());
+  std::vector<LawScores> scores(scored.size(), LawScores{none, none});
+  parallel_for(alternatives.size(), [&](std::size_t law) {
+    const Grid<double> masses = alternatives[law].masses();
+    const Grid<double> ratios = log_ratios(masses, expectation.masses);
+    const Grid<double> bins = reference::bin_masses(masses, expectation.weighting, kGateBins);
+    for (std::size_t i = 0; i < scored.size(); ++i) {
+      scores[i].gains[law] = log_likelihood_gain(*scored[i].draws, ratios);
+      scores[i].from_own_pdf[law] = distance(bins, *scored[i].own_bins);
+    }
+  });
+  return scores;
+}
+
+LawFit likeliest_law(std::span<const Alternative> alternatives, const LawScores& scores,
+                     const Expectation& expectation, const Draws& draws) {
   LawFit best;
-  Grid<double> best_masses;
+  const Alternative* best_law = nullptr;
   double most = 0.0;  // of the declared law
   double second = -INFINITY;
-  for (const Alternative& law : problem.alternatives()) {
-    Grid<double> masses = law.masses();
-    const double gain = log_likelihood_gain(draws, masses, expectation.masses);
+  for (std::size_t i = 0; i < alternatives.size(); ++i) {
+    const Alternative& law = alternatives[i];
+    const double gain = scores.gains[i];
     // Laws that are one and the same on this map count once, by the first name.
     if (std::abs(gain - most) <= 1e-9 * std::abs(most)) continue;
     if (gain > most) {
@@ -84,15 +116,15 @@ LawFit likeliest_law(const Problem& problem, const Expectation& expectation, con
       best.next = best.law;
       most = gain;
       best.law = law.name;
-      best_masses = std::move(masses);
+      best_law = &law;
     } else if (gain > second) {
       second = gain;
       best.next = law.name;
     }
   }
-  if (best.law.empty()) return best;
+  if (best_law == nullptr) return best;
   best.log10_odds = (most - second) * std::numbers::log10e;
-  best.log10_p = log10_fit(draws, best_masses, expectation);
+  best.log10_p = log10_fit(draws, best_law->masses(), expectation);
   return best;
 }
 

@@ -1,7 +1,9 @@
 // How well a law over the texels explains what was drawn.
 #pragma once
 
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "lightproof/core/grid.h"
 #include "lightproof/image/target_density.h"
@@ -28,7 +30,33 @@ struct LawFit {
   bool named() const;       ///< likelier than the next by the odds, and not rejected
 };
 
-LawFit likeliest_law(const Problem& problem, const Expectation& expectation, const Draws& draws);
+/// What separates one sampler under test from the alternatives of its problem.
+struct LawScores {
+  /// The logarithm of how many times likelier the drawn counts are under each alternative than as
+  /// declared.
+  std::vector<double> gains;
+  /// The sum over kGateBins of how far each alternative's masses are from those of the sampler's
+  /// own pdf; NaN if that does not integrate.
+  std::vector<double> from_own_pdf;
+};
+
+/// What is scored: what one sampler drew, and the masses of kGateBins by its own pdf.
+struct Scored {
+  const Draws* draws;
+  const Grid<double>* own_bins;
+};
+
+/// The scores of several samplers of one problem. The masses of every alternative are computed
+/// once, whatever their number, and not kept: on a large map all of them would not fit. The same
+/// bits for any number of threads.
+std::vector<LawScores> score_laws(std::span<const Alternative> alternatives,
+                                  const Expectation& expectation, std::span<const Scored> scored);
+
+/// The sum of the differences of all cells.
+double distance(const Grid<double>& a, const Grid<double>& b);
+
+LawFit likeliest_law(std::span<const Alternative> alternatives, const LawScores& scores,
+                     const Expectation& expectation, const Draws& draws);
 
 /// The smallest p-value of goodness of fit over bins, texels, rows, columns and the worst texel,
 /// times their number.

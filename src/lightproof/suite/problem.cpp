@@ -10,8 +10,8 @@ std::function<BoundSampler()> made_once(const std::function<BoundSampler()>& bin
 }  // namespace
 
 Problem made_once(Problem problem) {
-  const auto expectation = std::make_shared<const Expectation>(problem.expectation());
-  problem.expectation = [expectation] { return *expectation; };
+  const std::shared_ptr<const Expectation> expectation = problem.expectation();
+  problem.expectation = [expectation] { return expectation; };
   if (problem.twin) problem.twin = made_once(problem.twin);
   for (Candidate& candidate : problem.candidates) {
     candidate.bind = made_once(candidate.bind);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,12 +43,12 @@ struct Alternative {
 };
 
 /// One law over (phi, theta) and its candidates. The parts are made when they are needed: a run
-/// over many maps holds few of them at once.
+/// over many maps holds few of them at once, and shares what it holds.
 struct Problem {
   std::string map;        ///< name of the map, or kDirections
   std::string weighting;  ///< "A", "B"; empty for laws over directions
   std::string source;     ///< of the map, as it was given
-  std::function<Expectation()> expectation;
+  std::function<std::shared_ptr<const Expectation>()> expectation;
   std::function<std::vector<Alternative>()> alternatives;
   std::vector<Candidate> candidates;
   /// A sampler that others are held against; there if any candidate has a twin.

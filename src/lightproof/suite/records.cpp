@@ -82,6 +82,12 @@ void Records::add_partial_fit(std::string_view test, const GoodnessOfFit& fit,
   };
 }
 
+void Records::add_not_run(std::string_view test, std::string why) {
+  TestRecord& record = add("reference", test).record;
+  record.outcome = Outcome::not_run;
+  record.detail = std::move(why);
+}
+
 void Records::add_two_samples(std::string_view test, const GoodnessOfFit& fit, double share) {
   auto& [record, detectable] = add("reference", test);
   record.statistic = fit.statistic;

@@ -39,6 +39,9 @@ class Records {
   /// A statistic of `fit_samples` of the samples or of what is made of them, judged already.
   void add_partial_fit(std::string_view test, const GoodnessOfFit& fit, std::uint64_t fit_samples);
 
+  /// A test that this sampler, or these samples, cannot serve, and why.
+  void add_not_run(std::string_view test, std::string why);
+
   /// `share`: of the other sample, of both.
   void add_two_samples(std::string_view test, const GoodnessOfFit& fit, double share);
 

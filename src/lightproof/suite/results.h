@@ -22,6 +22,10 @@ inline constexpr std::string_view kDirections = "directions";
 /// Probability with which the detectable effect of a test is found.
 inline constexpr double kDetectablePower = 0.99;
 
+/// The root mean square deviation of the bins, relative to their expectations, that an accepting
+/// run must have been able to see with kDetectablePower, unless another one is asked for.
+inline constexpr double kMustDetect = 0.1;
+
 /// The test of the bins over (phi, theta), and that of all counts in a sequential run: what they
 /// could have seen decides whether an accepting run says anything.
 inline constexpr std::string_view kBinsTest = "bins 16x32";
@@ -73,6 +77,7 @@ struct GateResult {
   std::string input_options = {};  ///< of the command line, with which the maps were read
   std::uint64_t family = 0;        ///< p-values, or candidates if sequential, that share the error
   bool sequential = false;
+  double must_detect = kMustDetect;  ///< as asked for
 };
 
 /// The error of an estimator at one number of samples.

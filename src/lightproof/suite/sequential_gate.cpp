@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <mutex>
 
+#include "lightproof/core/out_of_memory.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/stats/goodness_of_fit.h"
 #include "lightproof/stats/sequential.h"
@@ -30,9 +32,9 @@ double log10_average(std::span<const double> values) {
 }
 
 /// The e-processes of one law.
-class Evidence {
+class EProcesses {
  public:
-  explicit Evidence(const Expectation& expectation)
+  explicit EProcesses(const Expectation& expectation)
       : bins_(expectation.bins.values()), rows_(expectation.rows), columns_(expectation.columns) {
     const auto texels = expectation.masses.values();
     if (texels.size() <= kMostCells) texels_.emplace(texels);
@@ -62,16 +64,18 @@ class Evidence {
   std::optional<SequentialTest> texels_;
 };
 
+/// The records of one candidate, and what a diagnosis needs of it.
 struct Finding {
   std::vector<TestRecord> records;
-  std::optional<Rejection> rejection;
+  Inspection inspection;
+  std::optional<Draws> draws;  ///< there if a record is rejected
 };
 
 /// Draws until the evidence reaches `enough` (log10), or to the end.
 Finding watch(const Configuration& configuration, const Expectation& expectation,
               const GateOptions& options, double enough) {
   const BoundSampler sampler = configuration.candidate->bind();
-  const Evidence evidence(expectation);
+  const EProcesses evidence(expectation);
   const RandomStream stream = configuration.stream("sequential");
   Draws draws(expectation.masses.extent(), expectation.bands.size());
   double log10_e = 0.0;
@@ -109,7 +113,7 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
   const std::optional<BoundSampler> twin = configuration.candidate->has_twin
                                                ? std::optional(configuration.problem->twin())
                                                : std::nullopt;
-  Finding finding{{record}, {}};
+  Finding finding{{record}, inspection, {}};
   for (const auto& tests : {test_strays(configuration, draws),
                             test_exactly(configuration, expectation, sampler, inspection, draws,
                                          twin ? &*twin : nullptr)}) {
@@ -118,11 +122,18 @@ Finding watch(const Configuration& configuration, const Expectation& expectation
   const bool rejected =
       std::any_of(finding.records.begin(), finding.records.end(),
                   [](const TestRecord& r) { return r.outcome == Outcome::reject; });
-  if (rejected) {
-    finding.rejection =
-        diagnose(*configuration.problem, expectation, {finding.records, &draws, &inspection});
-  }
+  if (rejected) finding.draws = std::move(draws);
   return finding;
+}
+
+/// Diagnoses of the findings that hold a rejection.
+std::vector<Rejection> rejections_of(const Problem& problem, const Expectation& expectation,
+                                     std::span<const Finding> findings) {
+  std::vector<Evidence> rejected;
+  for (const Finding& finding : findings) {
+    if (finding.draws) rejected.push_back({finding.records, &*finding.draws, &finding.inspection});
+  }
+  return diagnose(problem, expectation, rejected);
 }
 
 }  // namespace
@@ -134,29 +145,36 @@ GateResult run_sequential_gate(std::span<const Problem> problems, const GateOpti
   for (const Problem& problem : problems) candidates += problem.candidates.size();
   const std::size_t family = std::max<std::size_t>(candidates, options.family);
   const double enough = -std::log10(options.family_alpha / static_cast<double>(family));
-  std::vector<std::vector<Finding>> findings(problems.size());
+  std::vector<std::vector<TestRecord>> records(problems.size());
+  std::vector<std::vector<Rejection>> rejections(problems.size());
   std::mutex mutex;
   std::size_t done = 0;
   parallel_for(problems.size(), [&](std::size_t i) {
     const Problem& problem = problems[i];
-    const Expectation expectation = problem.expectation();
-    findings[i].resize(problem.candidates.size());
-    parallel_for(problem.candidates.size(), [&](std::size_t k) {
-      const Configuration configuration{&problem, &problem.candidates[k], options.seed};
-      findings[i][k] = watch(configuration, expectation, options, enough);
-      const std::lock_guard lock(mutex);
-      ++done;
-      if (progress) progress("gate", static_cast<double>(done) / static_cast<double>(candidates));
+    const auto purpose = [&] { return "the sequential gate over " + problem.map; };
+    with_memory_for(purpose, [&] {
+      const std::shared_ptr<const Expectation> expectation = problem.expectation();
+      std::vector<Finding> findings(problem.candidates.size());
+      parallel_for(problem.candidates.size(), [&](std::size_t k) {
+        const Configuration configuration{&problem, &problem.candidates[k], options.seed};
+        findings[k] = watch(configuration, *expectation, options, enough);
+        const std::lock_guard lock(mutex);
+        ++done;
+        if (progress) progress("gate", static_cast<double>(done) / static_cast<double>(candidates));
+      });
+      rejections[i] = rejections_of(problem, *expectation, findings);
+      for (Finding& finding : findings) {
+        std::move(finding.records.begin(), finding.records.end(), std::back_inserter(records[i]));
+      }
     });
   });
   GateResult result{options.family_alpha, options.samples, options.seed, {}, {}};
   result.family = family;
   result.sequential = true;
-  for (auto& of_problem : findings) {
-    for (Finding& finding : of_problem) {
-      std::move(finding.records.begin(), finding.records.end(), std::back_inserter(result.tests));
-      if (finding.rejection) result.rejections.push_back(std::move(*finding.rejection));
-    }
+  result.must_detect = options.must_detect;
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    std::move(records[i].begin(), records[i].end(), std::back_inserter(result.tests));
+    std::move(rejections[i].begin(), rejections[i].end(), std::back_inserter(result.rejections));
   }
   return result;
 }

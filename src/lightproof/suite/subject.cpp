@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "lightproof/core/out_of_memory.h"
 #include "lightproof/suite/alternative_law.h"
@@ -25,6 +26,7 @@ std::vector<Alternative> alternatives_on(const EnvironmentMap& map, TargetDensit
   const auto declared = std::make_shared<const Grid<double>>(reference::texel_masses(map, target));
   std::vector<Alternative> alternatives;
   for (const AlternativeLaw& law : alternative_laws()) {
+    if (law.is_example) continue;
     alternatives.push_back({law.name, law.diagnosis, [declared, &map, target, masses = law.masses] {
                               return masses({declared.get(), &map, target});
                             }});
@@ -69,7 +71,9 @@ Problem problem_of(const EnvironmentMap& map, TargetDensity target) {
           to_string(target.weighting),
           map.source,
           [&map, target] {
-            return on(map, "the exact law of", [&] { return expectation_of(map, target); });
+            return on(map, "the exact law of", [&] {
+              return std::make_shared<const Expectation>(expectation_of(map, target));
+            });
           },
           [&map, target] {
             return on(map, "other laws of", [&] { return alternatives_on(map, target); });

@@ -15,7 +15,7 @@ Trial::Trial(const EnvironmentMap& map, Grid<double> masses)
   problem = {map.name,
              to_string(kTrialTarget.weighting),
              "",
-             [shared = expectation] { return *shared; },
+             [shared = expectation] { return shared; },
              [] { return std::vector<Alternative>(); },
              {{.name = "oracle", .bind = [sampler] { return *sampler; }, .inverts_rows = true}}};
 }

@@ -1,8 +1,6 @@
-#include "lightproof/report/text_escapes.h"
+#include "lightproof/core/text_escapes.h"
 
 #include <gtest/gtest.h>
-
-#include "lightproof/report/html.h"
 
 namespace lightproof {
 namespace {
@@ -27,6 +25,10 @@ TEST(TerminalText, ShowsBytesThatAreNoUtf8) {
 TEST(TerminalText, LeavesTheLettersOfAllLanguages) {
   EXPECT_EQ(terminal_text("caf\u00e9 \u7a7a \U0001F305 \u2713"),
             "caf\u00e9 \u7a7a \U0001F305 \u2713");
+}
+
+TEST(TerminalLines, KeepLineBreaksAlone) {
+  EXPECT_EQ(terminal_lines("a\nb\rc\x1b[2J\n"), "a\nb\\x0dc\\x1b[2J\n");
 }
 
 TEST(MarkdownText, LeavesNoMarkup) {
@@ -56,14 +58,6 @@ TEST(ShellWord, IsOneWordForAShell) {
   EXPECT_EQ(shell_word("it's mine"), "'it'\\''s mine'");
   EXPECT_EQ(shell_word(""), "''");
   EXPECT_EQ(shell_word("a\n'\xff"), "$'a\\x0a\\'\\xff'");
-}
-
-// XML 1.0 has no way to write these: one of them makes a whole file unreadable.
-TEST(Escaped, HoldsNothingThatXmlCannot) {
-  EXPECT_EQ(escaped("a\x01"
-                    "b\x1b\xff"),
-            "a\ufffdb\ufffd\ufffd");
-  EXPECT_EQ(escaped("tab\t and line\n"), "tab\t and line\n");
 }
 
 }  // namespace

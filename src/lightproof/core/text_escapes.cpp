@@ -1,4 +1,4 @@
-#include "lightproof/report/text_escapes.h"
+#include "lightproof/core/text_escapes.h"
 
 #include <fmt/format.h>
 
@@ -126,6 +126,12 @@ std::string quoted_character(const Character& character) {
 
 std::string terminal_text(std::string_view text) {
   return replaced_characters(text, terminal_character);
+}
+
+std::string terminal_lines(std::string_view text) {
+  return replaced_characters(text, [](const Character& character) {
+    return character.bytes == "\n" ? "\n" : terminal_character(character);
+  });
 }
 
 std::string well_formed_text(std::string_view text) {
