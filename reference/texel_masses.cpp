@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/measure.h"
@@ -63,9 +64,13 @@ Grid<double> bin_masses(const Grid<double>& texel_masses, Weighting weighting, E
     return weighting == Weighting::A ? t : cos_theta(t);
   });
   Grid<double> folded({bins.width, extent.height});
-  for (int y = 0; y < extent.height; ++y) {
-    for (int b = 0; b < bins.width; ++b) {
-      for (int x = 0; x < extent.width; ++x) folded(b, y) += across(x, b) * texel_masses(x, y);
+  for (int b = 0; b < bins.width; ++b) {
+    // The columns that a bin overlaps, rounded outwards.
+    const auto begin = static_cast<int>(std::int64_t{b} * extent.width / bins.width);
+    const auto end =
+        static_cast<int>((std::int64_t{b + 1} * extent.width + bins.width - 1) / bins.width);
+    for (int y = 0; y < extent.height; ++y) {
+      for (int x = begin; x < end; ++x) folded(b, y) += across(x, b) * texel_masses(x, y);
     }
   }
   Grid<double> masses(bins);

@@ -44,17 +44,24 @@ std::vector<NamingRecord> measure_naming(std::span<const MapRecord> maps,
   }
   const std::vector<Subject> subjects = all_mutants();
   const std::size_t rounds = maps.size() * options.seeds;
-  for (std::size_t i = 0; i < rounds; ++i) {
-    const auto parts = static_cast<double>(rounds);
-    const GateResult result = run_gate(
-        {&maps[i / options.seeds].map, 1}, subjects,
-        {.samples = options.samples, .seed = options.seed + i % options.seeds},
-        part_of(progress, static_cast<double>(i) / parts, static_cast<double>(i + 1) / parts));
-    for (const Rejection& rejection : result.rejections) {
-      const auto record = std::find_if(
-          records.begin(), records.end(),
-          [&](const NamingRecord& candidate) { return candidate.mutant == rejection.sampler; });
-      count(*record, rejection);
+  std::size_t done = 0;
+  for (const MapRecord& map : maps) {
+    std::vector<Problem> problems;
+    for (Problem& problem : problems_of({&map.map, 1}, subjects)) {
+      problems.push_back(inspected_once(std::move(problem)));
+    }
+    for (std::uint64_t i = 0; i < options.seeds; ++i, ++done) {
+      const auto parts = static_cast<double>(rounds);
+      const GateResult result =
+          run_gate(problems, {.samples = options.samples, .seed = options.seed + i},
+                   part_of(progress, static_cast<double>(done) / parts,
+                           static_cast<double>(done + 1) / parts));
+      for (const Rejection& rejection : result.rejections) {
+        const auto record = std::find_if(
+            records.begin(), records.end(),
+            [&](const NamingRecord& candidate) { return candidate.mutant == rejection.sampler; });
+        count(*record, rejection);
+      }
     }
   }
   return records;

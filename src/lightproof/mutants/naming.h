@@ -12,7 +12,7 @@ namespace lightproof {
 
 struct NamingOptions {
   std::uint64_t seed = 1;  ///< the first of `seeds` in a row
-  std::uint64_t seeds = 1;
+  std::uint64_t seeds = 3;
   std::uint64_t samples = std::uint64_t{1} << 17U;
 };
 

@@ -122,7 +122,7 @@ bool fits(const Laws& laws, const Expectation& expectation, const Draws& draws,
 }
 
 bool fits_declared(const Expectation& expectation, const Draws& draws) {
-  return log10_fit(draws, expectation.masses, expectation) >= std::log10(kFitLevel);
+  return log10_fit_of_declared(draws, expectation) >= std::log10(kFitLevel);
 }
 
 /// Counts of texels and their probabilities, some texels being left out of both.

@@ -53,6 +53,16 @@ double of_several(std::span<const double> log10_ps) {
   return std::min(0.0, least + std::log10(static_cast<double>(log10_ps.size())));
 }
 
+/// Over the bins as well, if their masses are given.
+double fit_with_bins(const Draws& draws, const Grid<double>& masses, const Grid<double>* bins) {
+  const std::uint64_t samples = draws.samples - draws.lost.count;
+  std::vector<double> all = log10_ps(draws.texels, masses, samples);
+  if (bins != nullptr) {
+    all.push_back(log10_p(serpentine(draws.bins), serpentine(*bins), samples));
+  }
+  return of_several(all);
+}
+
 }  // namespace
 
 bool LawFit::named() const {
@@ -66,14 +76,14 @@ double log10_fit_of_counts(const Grid<std::uint64_t>& texels, const Grid<double>
 }
 
 double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectation& expectation) {
-  const std::uint64_t samples = draws.samples - draws.lost.count;
-  std::vector<double> all = log10_ps(draws.texels, masses, samples);
   // The masses of an interpolated law say nothing of the bins that divide texels.
-  if (expectation.lookup == Lookup::nearest) {
-    const Grid<double> bins = reference::bin_masses(masses, expectation.weighting, kGateBins);
-    all.push_back(log10_p(serpentine(draws.bins), serpentine(bins), samples));
-  }
-  return of_several(all);
+  if (expectation.lookup != Lookup::nearest) return fit_with_bins(draws, masses, nullptr);
+  const Grid<double> bins = reference::bin_masses(masses, expectation.weighting, kGateBins);
+  return fit_with_bins(draws, masses, &bins);
+}
+
+double log10_fit_of_declared(const Draws& draws, const Expectation& expectation) {
+  return fit_with_bins(draws, expectation.masses, &expectation.bins);
 }
 
 double distance(const Grid<double>& a, const Grid<double>& b) {

@@ -62,6 +62,9 @@ LawFit likeliest_law(std::span<const Alternative> alternatives, const LawScores&
 /// times their number.
 double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectation& expectation);
 
+/// The same of the declared distribution.
+double log10_fit_of_declared(const Draws& draws, const Expectation& expectation);
+
 /// The smallest p-value (log10) of goodness of fit of texels, rows, columns and the worst texel,
 /// times their number, for counts of texels in `samples` samples against their probabilities.
 double log10_fit_of_counts(const Grid<std::uint64_t>& texels, const Grid<double>& masses,

@@ -55,6 +55,10 @@ struct Problem {
   std::function<BoundSampler()> twin = {};
 };
 
+/// The same problem for many runs: the inspection of each candidate, which no seed changes, is made
+/// by the first run that asks for it, and kept.
+Problem inspected_once(Problem problem);
+
 /// The same problem for many runs: the exact side, the samplers and their inspections are made now,
 /// and kept.
 Problem made_once(Problem problem);
