@@ -40,14 +40,17 @@ UnitTransform::UnitTransform(const Grid<double>& masses, Weighting weighting)
 }
 
 UnitPoint UnitTransform::operator()(SquarePoint at, int x, int y) const {
+  return (*this)(at, cos_theta(at.t), x, y);
+}
+
+UnitPoint UnitTransform::operator()(SquarePoint at, double cosine, int x, int y) const {
   const auto column = static_cast<std::size_t>(x);
   const auto row = static_cast<std::size_t>(y);
   const double across = std::clamp(at.s * extent_.width - x, 0.0, 1.0);
   const double low = heights_[row];
-  const double along =
-      weighting_ == Weighting::A
-          ? std::clamp(at.t * extent_.height - y, 0.0, 1.0)
-          : std::clamp((cos_theta(at.t) - low) / (heights_[row + 1] - low), 0.0, 1.0);
+  const double along = weighting_ == Weighting::A
+                           ? std::clamp(at.t * extent_.height - y, 0.0, 1.0)
+                           : std::clamp((cosine - low) / (heights_[row + 1] - low), 0.0, 1.0);
   return {between(rows_[row], rows_[row + 1], along),
           between(within_(x, y), within_(x + 1, y), across),
           between(columns_[column], columns_[column + 1], across),

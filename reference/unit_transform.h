@@ -31,6 +31,9 @@ class UnitTransform {
   /// `at` lies in texel (x, y).
   UnitPoint operator()(SquarePoint at, int x, int y) const;
 
+  /// The same where cos(theta) of the place is known: cos_theta(at.t).
+  UnitPoint operator()(SquarePoint at, double cosine, int x, int y) const;
+
  private:
   Extent extent_;
   Weighting weighting_;

@@ -70,14 +70,22 @@ TEST_F(Info, DescribesWhatTheGateRefuses) {
 
 TEST_F(Info, GoesOnAfterAFileThatCannotBeRead) {
   write_map(path("good.exr"));
-  for (const Words& words : {Words{path("none.exr"), path("good.exr")},
-                             Words{path("none.exr"), path("good.exr"), "--json"}}) {
+  const Words files = {path("none.exr"), path("good.exr")};
+  for (const Words& words : {files, Words{files[0], files[1], "--json"}}) {
     const Finished both = info(words);
     EXPECT_EQ(both.exit_code, 2);
     EXPECT_THAT(both.err, AllOf(HasSubstr("none.exr"), HasSubstr("no such file")));
-    EXPECT_THAT(both.out, AllOf(HasSubstr("good.exr"), Not(HasSubstr("none.exr"))));
   }
+  EXPECT_THAT(info(files).out, AllOf(HasSubstr("good.exr"), Not(HasSubstr("none.exr"))));
+  const json found = info_json(files);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].at("file"), path("good.exr"));
   EXPECT_THAT(info({path("none.exr"), "--json"}).out, IsEmpty());
+}
+
+TEST_F(Info, LetsNoNameControlTheTerminal) {
+  EXPECT_THAT(info({path("a\x1b[2J.exr")}).err,
+              AllOf(HasSubstr("a\\x1b[2J.exr"), Not(HasSubstr("\x1b"))));
 }
 
 TEST_F(Info, NeedsAFile) { EXPECT_EQ(info({}).exit_code, 2); }

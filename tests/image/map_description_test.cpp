@@ -122,6 +122,8 @@ TEST(Description, KeepsToLinesWhateverAFileIsCalled) {
   odd.origin.picture.channels.emplace_back("\r\n\x1b[H");
   EXPECT_EQ(lines(odd), usual + 1) << "a line for the channel that is left out";
   EXPECT_THAT(text_of(odd), Not(HasSubstr("\x1b")));
+  odd.origin.picture.channels.emplace_back("\xc2\x9b\u202E");
+  EXPECT_THAT(text_of(odd), HasSubstr("\\xc2\\x9b\\xe2\\x80\\xae")) << "CSI of C1, right to left";
 }
 
 TEST(Description, OfABuiltInMapHasItsSize) {

@@ -55,6 +55,20 @@ TEST(ReplayCommand, IsQuotedAndComplete) {
   EXPECT_EQ(replay_command(gate, gate.tests[1]),
             "lightproof gate 'maps/it'\\''s mine.exr' --sampler mine --weighting B --repair "
             "--samples 4194304 --seed 7");
+  gate.sequential = true;
+  gate.family = 12;
+  gate.must_detect = 0.25;
+  EXPECT_THAT(replay_command(gate, gate.tests[1]),
+              ::testing::EndsWith(" --seed 7 --sequential --family 12 --must-detect 0.25"));
+}
+
+TEST(Junit, SkipsTestsThatAreNotRun) {
+  GateResult gate = gate_with(0);
+  gate.tests[0].outcome = Outcome::not_run;
+  gate.tests[0].detail = "2 samples there are too few";
+  const std::string xml = gate_junit(gate, true);
+  EXPECT_THAT(xml, HasSubstr("tests=\"1\" failures=\"0\" errors=\"0\" skipped=\"1\""));
+  EXPECT_THAT(xml, HasSubstr("<skipped message=\"not run: 2 samples there are too few\"/>"));
 }
 
 TEST(Junit, SkipsKnownDefectsUnlessTheyCount) {

@@ -12,6 +12,8 @@
 namespace lightproof {
 namespace {
 
+using Numbers = std::vector<double>;
+
 // Where the arc cosine is steep, near the poles, what rounding does to z moves t by its root.
 TEST(UniformDirections, LieAtTheirPlacesOnTheMap) {
   for (const std::size_t size : {0U, 1U, 7U, 8U, 9U, 1001U}) {
@@ -38,6 +40,34 @@ TEST(UniformDirections, LieAtTheirPlacesOnTheMap) {
         EXPECT_NEAR(x[i], expected.x, 4e-8);
         EXPECT_NEAR(y[i], expected.y, 4e-8);
         EXPECT_NEAR(z[i], expected.z, 4e-15);
+      }
+    });
+  }
+}
+
+TEST(DirectionsOfPlaces, AreThoseOfOnePlaceEach) {
+  for (const std::size_t size : {0U, 1U, 7U, 8U, 9U, 1001U}) {
+    Numbers s(size);
+    Numbers t(size);
+    for (std::size_t i = 0; i < size; ++i) {
+      s[i] = std::fmod(0.6180339887498949 * static_cast<double>(i), 1.0);
+      t[i] = size == 1 ? 1e-9 : static_cast<double>(i) / static_cast<double>(size - 1);
+    }
+    Numbers x(size);
+    Numbers y(size);
+    Numbers z(size);
+    Numbers sine(size);
+    for_each_kind_of_vector([&](const char* vectors) {
+      SCOPED_TRACE(vectors);
+      const std::size_t done = directions_of_places(s, t, {x, y, z, sine});
+      expect_whole_vectors(vectors, done, size);
+      for (std::size_t i = 0; i < size; ++i) {
+        const Direction expected = direction_from_square({s[i], t[i]});
+        EXPECT_NEAR(x[i], expected.x, 5e-16);
+        EXPECT_NEAR(y[i], expected.y, 5e-16);
+        EXPECT_NEAR(z[i], expected.z, 5e-16);
+        // Relative to its size at the poles, where densities are divided by it.
+        EXPECT_NEAR(sine[i], sin_theta(t[i]), 5e-16 * sin_theta(t[i]));
       }
     });
   }

@@ -134,6 +134,14 @@ void add_runs(Records& records, const Draws& draws) {
   }
 }
 
+std::string why_no_positions(double mass, std::uint64_t samples, bool cannot_be_directed) {
+  if (mass <= 0.0) return "no light lies there";
+  return fmt::format("{} samples there are too few{}", samples,
+                     cannot_be_directed ? ", and no points can be directed there: the sampler does "
+                                          "not find its row by u.t alone"
+                                        : "");
+}
+
 /// Positions inside cells, for the first row, the last one, and the bands between them together.
 /// The rows of the poles hold few samples unless points can be directed there.
 void add_positions(Records& records, const Expectation& expectation, const Draws& draws,
@@ -143,7 +151,9 @@ void add_positions(Records& records, const Expectation& expectation, const Draws
     records.attempt("reference", test, [&] {
       std::vector<GoodnessOfFit> fits;
       std::uint64_t counted = 0;
+      double mass = 0.0;
       for (std::size_t band = first; band < last; ++band) {
+        mass += expectation.bands[band].mass;
         const auto counts = draws.positions.row(static_cast<int>(band));
         const std::uint64_t count = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
         fits.push_back(cressie_read(counts, even, count));
@@ -152,12 +162,7 @@ void add_positions(Records& records, const Expectation& expectation, const Draws
       const GoodnessOfFit fit = sum_of_fits(fits, counted);
       if (fit.dof > 0.0) return records.add_partial_fit(test, fit, counted);
       const bool is_pole = first == 0 || last == expectation.bands.size();
-      records.add_not_run(
-          test, fmt::format("{} samples there are too few{}", counted,
-                            is_pole && !can_be_directed
-                                ? ", and no points can be directed there: the sampler does not "
-                                  "find its row by u.t alone"
-                                : ""));
+      records.add_not_run(test, why_no_positions(mass, counted, is_pole && !can_be_directed));
     });
   };
   const std::size_t bands = expectation.bands.size();

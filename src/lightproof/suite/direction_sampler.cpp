@@ -119,8 +119,12 @@ Expectation expectation_of(const Lobes& law) {
   expectation.rows = reference::row_marginal(expectation.masses);
   expectation.columns = reference::column_marginal(expectation.masses);
   if (reference::is_around_z(law)) {
-    expectation.transform = [law](SquarePoint at, int, int) {
-      return reference::unit_point(law, at);
+    expectation.transform = [law](std::span<const TexelSample> samples,
+                                  std::span<const double> /*cosines*/,
+                                  std::span<reference::UnitPoint> points) {
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        points[i] = reference::unit_point(law, samples[i].at);
+      }
     };
   }
   expectation.density = [law](SquarePoint at) {
@@ -140,6 +144,7 @@ Expectation expectation_of(const Lobes& law) {
       if (!expectation.is_bright(expectation.grey(x, y))) expectation.grey(x, y) = 0.0;
     }
   }
+  expectation.set_flags();
   add_estimators(expectation, law);
   return expectation;
 }

@@ -10,7 +10,7 @@
 #include "lightproof/core/random_batch.h"
 #include "lightproof/image/look_up.h"
 #include "lightproof/stats/uniformity.h"
-#include "lightproof/warp/lat_long.h"
+#include "lightproof/warp/sphere_batch.h"
 
 namespace lightproof {
 namespace {
@@ -20,6 +20,8 @@ constexpr std::uint64_t kBatch = 1024;
 constexpr std::uint64_t kTaskSamples = std::uint64_t{1} << 18U;
 /// Tasks whose results are held at once.
 constexpr std::uint64_t kTasksAtOnce = 16;
+
+using Numbers = std::vector<double>;
 
 /// Adds what was counted, if it was.
 template <class Into, class From>
@@ -39,18 +41,27 @@ struct Part {
   std::vector<std::uint32_t> column = std::vector<std::uint32_t>(kUniformCells);
 };
 
-/// Samples of one batch, and what the estimators say of them.
+/// Samples of one batch, what is known of their places, and what the estimators say of them. Each
+/// step is a loop over all of them that does one thing: what it reads from memory can be waited for
+/// together, and what it computes becomes vectors.
 struct Batch {
   std::vector<SquarePoint> points = std::vector<SquarePoint>(kBatch);
   std::vector<TexelSample> samples = std::vector<TexelSample>(kBatch);
   std::vector<std::size_t> order = std::vector<std::size_t>(kBatch);  ///< in the batch as drawn
   std::size_t size = 0;
   std::size_t drawn = 0;  ///< before those that left the map were taken out
+  Numbers s = Numbers(kBatch);
+  Numbers t = Numbers(kBatch);
+  Numbers x = Numbers(kBatch);  ///< directions
+  Numbers y = Numbers(kBatch);
+  Numbers z = Numbers(kBatch);
+  Numbers sine = Numbers(kBatch);
+  std::vector<reference::UnitPoint> units = std::vector<reference::UnitPoint>(kBatch);
   std::vector<TransformedSample> transformed = std::vector<TransformedSample>(kBatch);
-  std::vector<double> radiance = std::vector<double>(kBatch);  ///< as it is looked up
-  std::vector<char> is_bright = std::vector<char>(kBatch);     ///< the samples' texels
-  std::array<std::vector<double>, kMeanCaseCount> estimates;
-  std::vector<double> inverse_pdf;
+  Numbers radiance = Numbers(kBatch);                       ///< as it is looked up
+  std::vector<char> is_bright = std::vector<char>(kBatch);  ///< the samples' texels
+  Numbers inverse_pdf = Numbers(kBatch);
+  Numbers estimates = Numbers(kBatch);
 };
 
 /// Whether a number is all but a multiple of 2^-20, and not 0.
@@ -75,10 +86,23 @@ void count_lost(Draws& draws, Batch& batch, Extent map) {
       continue;
     }
     batch.order[kept] = i;
-    batch.points[kept] = batch.points[i];
-    batch.samples[kept++] = batch.samples[i];
+    if (kept != i) {
+      batch.points[kept] = batch.points[i];
+      batch.samples[kept] = batch.samples[i];
+    }
+    ++kept;
   }
   batch.size = kept;
+}
+
+void find_directions(Batch& batch) {
+  const auto part = [&](Numbers& numbers) { return std::span(numbers).first(batch.size); };
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    batch.s[i] = batch.samples[i].at.s;
+    batch.t[i] = batch.samples[i].at.t;
+  }
+  directions_of_places(part(batch.s), part(batch.t),
+                       {part(batch.x), part(batch.y), part(batch.z), part(batch.sine)});
 }
 
 /// The texels lie anywhere: a loop that does little else waits for many of them at once.
@@ -86,15 +110,17 @@ void count_texels(Part& part, Batch& batch, const Expectation& expectation) {
   const auto width = static_cast<std::uint32_t>(expectation.masses.extent().width);
   for (std::size_t i = 0; i < batch.size; ++i) {
     const TexelSample& sample = batch.samples[i];
-    const double mass = expectation.masses(sample.x, sample.y);
-    const double grey = expectation.grey(sample.x, sample.y);
-    batch.is_bright[i] = expectation.is_bright(grey) ? 1 : 0;
-    batch.radiance[i] = expectation.lookup == Lookup::nearest
-                            ? grey
-                            : look_up_bilinear(expectation.grey, sample.at);
     part.texels.push_back(static_cast<std::uint32_t>(sample.y) * width +
                           static_cast<std::uint32_t>(sample.x));
-    if (!(mass > 0.0)) part.draws.dark.add(batch.points[i], sample);
+    const std::uint8_t flags = expectation.flags(sample.x, sample.y);
+    batch.is_bright[i] = (flags & Expectation::counts_as_bright) != 0 ? 1 : 0;
+    if ((flags & Expectation::has_mass) == 0) part.draws.dark.add(batch.points[i], sample);
+  }
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    const TexelSample& sample = batch.samples[i];
+    batch.radiance[i] = expectation.lookup == Lookup::nearest
+                            ? expectation.grey(sample.x, sample.y)
+                            : look_up_bilinear(expectation.grey, sample.at);
   }
 }
 
@@ -118,40 +144,50 @@ void count_transformed(Part& part, Batch& batch, const Expectation& expectation)
   constexpr auto kCells = static_cast<int>(kUniformCells);
   constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
   Draws& draws = part.draws;
-  std::fill(batch.transformed.begin(), batch.transformed.end(),
-            TransformedSample{kNowhere, kNowhere});
-  for (std::size_t i = 0; i < batch.size; ++i) {
-    const TexelSample& sample = batch.samples[i];
-    const reference::UnitPoint unit = expectation.transform(sample.at, sample.x, sample.y);
+  const std::span<const reference::UnitPoint> units = std::span(batch.units).first(batch.size);
+  expectation.transform(std::span(batch.samples).first(batch.size),
+                        std::span(batch.z).first(batch.size),
+                        std::span(batch.units).first(batch.size));
+  for (const reference::UnitPoint& unit : units) {
     ++part.along[static_cast<std::size_t>(cell_of(unit.along, kCells))];
     ++part.column[static_cast<std::size_t>(cell_of(unit.column, kCells))];
+    ++draws.pairs(cell_of(unit.across, kPairBins.width), cell_of(unit.along, kPairBins.height));
+  }
+  for (const reference::UnitPoint& unit : units) count_position(draws, unit, expectation);
+  for (const reference::UnitPoint& unit : units) {
     draws.along_on_lattice += is_on_lattice(unit.along) ? 1 : 0;
     draws.across_on_lattice += is_on_lattice(unit.across) ? 1 : 0;
-    ++draws.pairs(cell_of(unit.across, kPairBins.width), cell_of(unit.along, kPairBins.height));
-    count_position(draws, unit, expectation);
-    batch.transformed[batch.order[i]] = {unit.along, unit.across};
+  }
+  if (batch.size < batch.drawn) {
+    std::fill(batch.transformed.begin(), batch.transformed.end(),
+              TransformedSample{kNowhere, kNowhere});
+  }
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    batch.transformed[batch.order[i]] = {units[i].along, units[i].across};
   }
   count_successive(part, batch);
 }
 
 void add_estimates(Draws& draws, Batch& batch) {
-  for (std::vector<double>& estimates : batch.estimates) estimates.clear();
-  batch.inverse_pdf.clear();
   for (std::size_t i = 0; i < batch.size; ++i) {
-    const TexelSample& sample = batch.samples[i];
-    ++draws.bins(cell_of(sample.at.s, kGateBins.width), cell_of(sample.at.t, kGateBins.height));
-    // 2 pi^2 sin(theta) / p(s,t)
-    const double inverse_pdf = 1.0 / to_solid_angle(sample.pdf, sample.at).value;
-    const Direction direction = direction_from_square(sample.at);
-    const double radiance = batch.radiance[i];
-    for (std::size_t k = 0; k < kMeanCaseCount; ++k) {
-      const double cosine = std::max(0.0, glm::dot(kMeanCases[k].normal, direction));
-      batch.estimates[k].push_back(radiance * cosine * inverse_pdf);
-    }
-    batch.inverse_pdf.push_back(batch.is_bright[i] != 0 ? inverse_pdf : 0.0);
+    ++draws.bins(cell_of(batch.s[i], kGateBins.width), cell_of(batch.t[i], kGateBins.height));
   }
-  for (std::size_t k = 0; k < kMeanCaseCount; ++k) draws.estimators[k].add(batch.estimates[k]);
-  draws.inverse_pdf.add(batch.inverse_pdf);
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    batch.inverse_pdf[i] = 2.0 * kPi * kPi * batch.sine[i] / batch.samples[i].pdf.value;
+  }
+  const std::span<const double> estimates = std::span(batch.estimates).first(batch.size);
+  for (std::size_t k = 0; k < kMeanCaseCount; ++k) {
+    const Direction normal = kMeanCases[k].normal;
+    for (std::size_t i = 0; i < batch.size; ++i) {
+      const double cosine = normal.x * batch.x[i] + normal.y * batch.y[i] + normal.z * batch.z[i];
+      batch.estimates[i] = batch.radiance[i] * std::max(0.0, cosine) * batch.inverse_pdf[i];
+    }
+    draws.estimators[k].add(estimates);
+  }
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    batch.estimates[i] = batch.is_bright[i] != 0 ? batch.inverse_pdf[i] : 0.0;
+  }
+  draws.inverse_pdf.add(estimates);
 }
 
 Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
@@ -167,6 +203,7 @@ Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
                    std::span(batch.samples).first(batch.size));
     count_repeats(part.draws, batch);
     count_lost(part.draws, batch, expectation.masses.extent());
+    find_directions(batch);
     count_texels(part, batch, expectation);
     if (expectation.transform) count_transformed(part, batch, expectation);
     add_estimates(part.draws, batch);
@@ -189,6 +226,39 @@ void for_each_part(Range range, const Make& make, const Take& take) {
       parts[task] = make({first, std::min(kTaskSamples, end - first)});
     });
     for (const auto& part : parts) take(part);
+  }
+}
+
+/// Directions drawn uniformly, and one estimate for each.
+struct UniformBatch {
+  Numbers s = Numbers(kBatch);
+  Numbers u = Numbers(kBatch);
+  Numbers t = Numbers(kBatch);
+  Numbers x = Numbers(kBatch);
+  Numbers y = Numbers(kBatch);
+  Numbers z = Numbers(kBatch);
+  Numbers radiance = Numbers(kBatch);
+  Numbers estimates = Numbers(kBatch);
+};
+
+/// At these points of the stream, at most kBatch.
+void add_uniform(UniformEstimates& estimates, UniformBatch& batch, const Expectation& expectation,
+                 const RandomStream& stream, Range range) {
+  const auto part = [&](Numbers& numbers) { return std::span(numbers).first(range.count); };
+  fill_points(stream, range.first, part(batch.s), part(batch.u));
+  uniform_directions(part(batch.s), part(batch.u),
+                     {part(batch.x), part(batch.y), part(batch.z), part(batch.t)});
+  for (std::size_t i = 0; i < range.count; ++i) {
+    batch.radiance[i] =
+        look_up(expectation.grey, expectation.lookup, {batch.s[i], std::min(batch.t[i], 1.0)});
+  }
+  for (std::size_t k = 0; k < kMeanCaseCount; ++k) {
+    const Direction normal = kMeanCases[k].normal;
+    for (std::size_t i = 0; i < range.count; ++i) {
+      const double cosine = normal.x * batch.x[i] + normal.y * batch.y[i] + normal.z * batch.z[i];
+      batch.estimates[i] = kSphere * batch.radiance[i] * std::max(0.0, cosine);
+    }
+    estimates[k].add(part(batch.estimates));
   }
 }
 
@@ -234,17 +304,10 @@ UniformEstimates draw_uniformly(const Expectation& expectation, const RandomStre
       {0, count_all},
       [&](Range range) {
         UniformEstimates part;
-        for (std::uint64_t i = range.first; i < range.first + range.count; ++i) {
-          const SquarePoint u = stream.point(i);
-          const SquarePoint at = {u.s, std::acos(1.0 - 2.0 * u.t) / kPi};
-          const double sine = 2.0 * std::sqrt(u.t * (1.0 - u.t));
-          const double phi = kPi - 2.0 * kPi * u.s;
-          const Direction direction = {sine * std::cos(phi), sine * std::sin(phi), 2.0 * u.t - 1.0};
-          const double radiance = look_up(expectation.grey, expectation.lookup, at);
-          for (std::size_t k = 0; k < kMeanCaseCount; ++k) {
-            const double cosine = std::max(0.0, glm::dot(kMeanCases[k].normal, direction));
-            part[k].add(kSphere * radiance * cosine);
-          }
+        UniformBatch batch;
+        for (std::uint64_t done = 0; done < range.count; done += kBatch) {
+          const auto size = static_cast<std::size_t>(std::min(kBatch, range.count - done));
+          add_uniform(part, batch, expectation, stream, {range.first + done, size});
         }
         return part;
       },
@@ -278,9 +341,14 @@ void add_directed_positions(Draws& draws, const BoundSampler& sampler,
   fill_points(directed.stream, 0, points);
   for (SquarePoint& u : points) u.t = low + u.t * (high - low);
   sampler.sample(points, samples);
-  for (const TexelSample& sample : samples) {
-    if (!is_on_map(sample, expectation.masses.extent())) continue;
-    const reference::UnitPoint unit = expectation.transform(sample.at, sample.x, sample.y);
+  std::erase_if(samples, [&](const TexelSample& sample) {
+    return !is_on_map(sample, expectation.masses.extent());
+  });
+  Numbers cosines;
+  for (const TexelSample& sample : samples) cosines.push_back(cos_theta(sample.at.t));
+  std::vector<reference::UnitPoint> units(samples.size());
+  expectation.transform(samples, cosines, units);
+  for (const reference::UnitPoint& unit : units) {
     if (expectation.band_of_row[static_cast<std::size_t>(unit.row)] != directed.band) continue;
     count_position(draws, unit, expectation);
   }

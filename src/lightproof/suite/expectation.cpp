@@ -60,13 +60,25 @@ reference::LightMoments light_moments(const Expectation& expectation, Direction 
 
 void set_transform(Expectation& expectation, const EnvironmentMap& map, TargetDensity target) {
   if (target.lookup == Lookup::nearest) {
-    expectation.transform = reference::UnitTransform(expectation.masses, target.weighting);
+    const auto transform =
+        std::make_shared<const reference::UnitTransform>(expectation.masses, target.weighting);
+    expectation.transform = [transform](std::span<const TexelSample> samples,
+                                        std::span<const double> cosines,
+                                        std::span<reference::UnitPoint> points) {
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        points[i] = (*transform)(samples[i].at, cosines[i], samples[i].x, samples[i].y);
+      }
+    };
     set_smooth_rows(expectation, expectation.rows);
     return;
   }
   // Shared: an expectation is copied, and this holds sums for every texel.
   const auto transform = std::make_shared<const reference::BilinearTransform>(map, target);
-  expectation.transform = [transform](SquarePoint at, int, int) { return (*transform)(at); };
+  expectation.transform = [transform](std::span<const TexelSample> samples,
+                                      std::span<const double> /*cosines*/,
+                                      std::span<reference::UnitPoint> points) {
+    for (std::size_t i = 0; i < samples.size(); ++i) points[i] = (*transform)(samples[i].at);
+  };
   set_smooth_rows(expectation, transform->rows());
   const auto grey = std::make_shared<const Grid<double>>(expectation.grey);
   expectation.density = [grey, total = transform->total(), target](SquarePoint at) {
@@ -81,6 +93,15 @@ const std::array<MeanCase, kMeanCaseCount> kMeanCases = {{
     {"irradiance, normal +z", {0.0, 0.0, 1.0}},
     {"irradiance, normal +x", {1.0, 0.0, 0.0}},
 }};
+
+void Expectation::set_flags() {
+  flags = Grid<std::uint8_t>(masses.extent());
+  for (std::size_t i = 0; i < flags.values().size(); ++i) {
+    const int of_mass = masses.values()[i] > 0.0 ? has_mass : 0;
+    const int of_radiance = is_bright(grey.values()[i]) ? counts_as_bright : 0;
+    flags.values()[i] = static_cast<std::uint8_t>(of_mass + of_radiance);
+  }
+}
 
 Extent Expectation::smooth_cells() const {
   const Extent texels = masses.extent();
@@ -108,6 +129,7 @@ Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
   }
   expectation.inverse_pdf = inverse_pdf_moments(expectation);
   expectation.is_summed = true;
+  expectation.set_flags();
   return expectation;
 }
 

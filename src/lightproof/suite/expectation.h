@@ -11,6 +11,7 @@
 #include "lightproof/core/direction.h"
 #include "lightproof/core/grid.h"
 #include "lightproof/image/target_density.h"
+#include "lightproof/samplers/sampler.h"
 #include "lightproof/suite/row_bands.h"
 #include "reference/estimator_moments.h"
 #include "reference/unit_transform.h"
@@ -37,8 +38,11 @@ struct Expectation {
   Grid<double> bins;                   ///< of kGateBins
   std::vector<double> rows;            ///< marginal
   std::vector<double> columns;         ///< marginal
-  /// Of a place in texel (x, y); empty where the law inside one is not known in closed form.
-  std::function<reference::UnitPoint(SquarePoint at, int x, int y)> transform;
+  /// Writes the transformed coordinates of samples, cos(theta) of whose places are known; all spans
+  /// are of one size. Empty where the law inside a texel is not known in closed form.
+  std::function<void(std::span<const TexelSample> samples, std::span<const double> cosines,
+                     std::span<reference::UnitPoint> points)>
+      transform;
   /// Probability of every row that `transform` names, of texels or of bilinear patches; empty if it
   /// names none.
   std::vector<double> smooth_rows;
@@ -51,6 +55,15 @@ struct Expectation {
   std::array<reference::EstimatorMoments, kMeanCaseCount> uniform;  ///< drawn over the sphere
   /// 1/p(omega) over the texels at least a tenth as bright as the mean.
   reference::EstimatorMoments inverse_pdf;
+
+  /// What is looked up of a sample's texel besides its radiance, in a byte: it stays in the cache.
+  enum TexelFlag : std::uint8_t {
+    has_mass = 1,
+    counts_as_bright = 2,  ///< see is_bright
+  };
+  Grid<std::uint8_t> flags;  ///< of texels: sums of TexelFlag
+  /// Sets the flags, once masses, grey and mean_grey are known.
+  void set_flags();
 
   /// Whether a texel of this radiance (its own, whatever the look-up) belongs to the part of the
   /// map over which 1/p is averaged.

@@ -25,6 +25,11 @@ std::size_t convert(std::span<const double> /*s*/, std::span<const double> /*u*/
   return 0;
 }
 
+std::size_t direct(std::span<const double> /*s*/, std::span<const double> /*t*/,
+                   const PlacedDirectionSpans& /*directions*/) {
+  return 0;
+}
+
 #else
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -51,6 +56,27 @@ std::size_t convert(std::span<const double> s, std::span<const double> u,
   return done;
 }
 
+/// Whole vectors from the front; returns how many places that were.
+std::size_t direct(std::span<const double> s, std::span<const double> t,
+                   const PlacedDirectionSpans& directions) {
+  const hn::ScalableTag<double> d;
+  const auto one = hn::Set(d, 1.0);
+  const auto half = hn::Set(d, 0.5);
+  std::size_t done = 0;
+  for (; done + hn::Lanes(d) <= s.size(); done += hn::Lanes(d)) {
+    const auto along = hn::LoadU(d, t.data() + done);
+    const auto from_pole = hn::Min(along, hn::Sub(one, along));
+    const auto polar = sin_cos_of_turns(d, hn::Mul(half, from_pole));
+    const auto azimuth = sin_cos_of_turns(d, hn::LoadU(d, s.data() + done));
+    const auto z = hn::IfThenElse(hn::Lt(along, half), hn::Neg(polar.cos), polar.cos);
+    hn::StoreU(hn::Neg(hn::Mul(polar.sin, azimuth.cos)), d, directions.x.data() + done);
+    hn::StoreU(hn::Mul(polar.sin, azimuth.sin), d, directions.y.data() + done);
+    hn::StoreU(z, d, directions.z.data() + done);
+    hn::StoreU(polar.sin, d, directions.sine.data() + done);
+  }
+  return done;
+}
+
 #endif
 
 /// A plain loop, which the compiler makes vectors of.
@@ -73,6 +99,7 @@ namespace lightproof {
 namespace {
 
 HWY_EXPORT(convert);
+HWY_EXPORT(direct);
 HWY_EXPORT(find_places);
 
 }  // namespace
@@ -87,6 +114,19 @@ std::size_t uniform_directions(std::span<const double> s, std::span<const double
     directions.y[i] = sine * std::sin(2.0 * kPi * s[i]);
     directions.z[i] = z;
     directions.t[i] = std::acos(-z) / kPi;
+  }
+  return by_vectors;
+}
+
+std::size_t directions_of_places(std::span<const double> s, std::span<const double> t,
+                                 const PlacedDirectionSpans& directions) {
+  const std::size_t by_vectors = HWY_DYNAMIC_DISPATCH(direct)(s, t, directions);
+  for (std::size_t i = by_vectors; i < s.size(); ++i) {
+    const Direction direction = direction_from_square({s[i], t[i]});
+    directions.x[i] = direction.x;
+    directions.y[i] = direction.y;
+    directions.z[i] = direction.z;
+    directions.sine[i] = sin_theta(t[i]);
   }
   return by_vectors;
 }

@@ -22,6 +22,21 @@ struct DirectionSpans {
 std::size_t uniform_directions(std::span<const double> s, std::span<const double> u,
                                const DirectionSpans& directions);
 
+/// Where directions_of_places writes: unit vectors, and the sine of each one's angle to the nearer
+/// pole. All of one size.
+struct PlacedDirectionSpans {
+  std::span<double> x;
+  std::span<double> y;
+  std::span<double> z;
+  std::span<double> sine;
+};
+
+/// direction_from_square({s[i], t[i]}) and sin_theta(t[i]), to some roundings, of places in
+/// [0,1]^2. All spans are of one size. Returns how many vectors wrote, from the front: 0 on a
+/// processor without vectors.
+std::size_t directions_of_places(std::span<const double> s, std::span<const double> t,
+                                 const PlacedDirectionSpans& directions);
+
 /// Where approximate_places writes; both of one size.
 struct PlaceSpans {
   std::span<double> s;
