@@ -224,8 +224,7 @@ EstimatorMoments bilinear_inverse_pdf(const Grid<double>& radiance, Weighting we
   parallel_for(rows.size(), [&](std::size_t row) {
     const int y = static_cast<int>(row);
     const double t[2] = {static_cast<double>(y) / extent.height, (y + 1.0) / extent.height};
-    const double middle = std::clamp(0.5, t[0], t[1]);
-    const double most = std::max({factor(t[0]), factor(t[1]), factor(middle)});
+    const double most = factor(std::clamp(0.5, t[0], t[1]));  // nearest to the equator
     for (int x = 0; x < extent.width; ++x) {
       if (!is_bright(radiance(x, y))) continue;
       rows[row].raw[0] += texel_solid_angle(extent, y);

@@ -135,6 +135,8 @@ TEST(TrendChart, HasEveryCommitLevelAndChange) {
   const auto chart = nlohmann::json::parse(trend_chart(line));
   ASSERT_EQ(chart["layer"].size(), 5U);
   EXPECT_EQ(chart["layer"][0]["data"]["values"].size(), 20U);
+  EXPECT_EQ(chart["layer"][0]["data"]["values"][0]["number"], 1);
+  EXPECT_EQ(chart["layer"][0]["data"]["values"][19]["number"], 20);
   EXPECT_EQ(chart["layer"][1]["data"]["values"].size(), 2U);
   EXPECT_EQ(chart["layer"][3]["data"]["values"].size(), 1U);
   EXPECT_EQ(chart["layer"][3]["data"]["values"][0]["commit"], "c12");

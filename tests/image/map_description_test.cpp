@@ -109,6 +109,8 @@ TEST(Description, TellsChannelsLayersAndParts) {
   test::write_two_part_exr(folder / "two.exr", picture, picture);
   const json two = json::parse(json_of(describe(inspect_environment_map(folder / "two.exr"))));
   EXPECT_THAT(std::vector<std::string>(two.at("parts")), ElementsAre("first", "second"));
+  EXPECT_THAT(text_of(describe(inspect_environment_map(folder / "two.exr"))),
+              HasSubstr("part 0 of 0 to 1: first, second"));
 }
 
 TEST(Description, KeepsToLinesWhateverAFileIsCalled) {

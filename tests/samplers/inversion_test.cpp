@@ -142,6 +142,18 @@ TEST(Hierarchical, DrawsTheReferencesMasses) {
   }
 }
 
+// 16 bytes an entry; 4 bytes a sum, of which a level has a quarter as many as the next one.
+TEST(Registry, TablesAreAsLargeAsTheirEntries) {
+  const EnvironmentMap map = make_synthetic_map("constant", {64, 64});
+  const auto bytes_of = [&](const char* name) {
+    return std::visit([](const auto& sampler) { return sampler.table_bytes(); },
+                      sampler_by_name(name).make(map, Weighting::A));
+  };
+  const std::size_t places = TexelPlaces(map.radiance.extent(), Weighting::A).bytes();
+  EXPECT_EQ(bytes_of("alias"), 16U * 4096U + places);
+  EXPECT_EQ(bytes_of("hierarchical"), 4U * (4096U + 1024U + 256U + 64U + 16U + 4U) + places);
+}
+
 TEST(Inversion, EqualSolidAnglesAreEquallyLikelyUnderB) {
   const EnvironmentMap map = make_synthetic_map("constant", {4, 2});
   const BinarySearch sampler(map, {Weighting::B, kRec709});

@@ -249,6 +249,13 @@ TEST(WorstCell, CountsAllPossibleCellsAndNoOthers) {
   }
 }
 
+// The effect that is seen is a bound for all cells: that of the likeliest.
+TEST(WorstCell, KnowsTheLikeliest) {
+  const WorstCell worst = worst_cell(Counts{5, 0, 20}, std::array{0.25, 0.0, 0.75}, 25);
+  EXPECT_EQ(worst.likeliest, 0.75);
+  EXPECT_EQ(worst.cells, 2U);
+}
+
 TEST(WorstCell, LeavesImpossibleCellsOut) {
   const auto without = worst_cell(Counts{80, 90, 30}, std::array{0.3, 0.5, 0.2}, 200);
   const auto with = worst_cell(Counts{7, 80, 0, 90, 30}, std::array{0.0, 0.3, 0.0, 0.5, 0.2}, 200);
@@ -356,6 +363,8 @@ TEST(TwoSamples, OfTwoCellsAreNearPearson) {
   EXPECT_EQ(fit.dof, 1.0);
   EXPECT_NEAR(fit.statistic, 8.0, 0.2);
   EXPECT_NEAR(fit.statistic, two_sample_fit(second, first).statistic, 1e-12);
+  // The excess over the degree of freedom, times (n1 + n2) / (n1 n2).
+  EXPECT_NEAR(fit.effect, std::sqrt(0.02 * (fit.statistic - 1.0)), 1e-12);
 }
 
 TEST(TwoSamples, InTheSameProportionsAgreeWhateverTheirSizes) {
@@ -363,6 +372,7 @@ TEST(TwoSamples, InTheSameProportionsAgreeWhateverTheirSizes) {
   const std::vector<std::uint64_t> many = {300, 600, 900};
   EXPECT_NEAR(two_sample_fit(few, many).statistic, 0.0, 1e-9);
   EXPECT_EQ(two_sample_fit(few, many).dof, 2.0);
+  EXPECT_EQ(two_sample_fit(few, many).effect, 0.0);
 }
 
 TEST(TwoSamples, PoolThinCellsAndLeaveEmptyOnesOut) {

@@ -55,6 +55,13 @@ TEST(Independence, MergesCellsUntilThereAreTwentyFiveOfEach) {
   EXPECT_EQ(independence_fit(Grid<std::uint64_t>({8, 8}, 1)).dof, 0.0);
 }
 
+TEST(Independence, HasTheSquareOfTheCellsLessOneAsDegreesOfFreedom) {
+  EXPECT_EQ(independence_dof(25 * 64, 8), 49.0);
+  EXPECT_EQ(independence_dof(25 * 64 - 1, 8), 9.0);
+  EXPECT_EQ(independence_dof(25 * 4, 8), 1.0);
+  EXPECT_EQ(independence_dof(25 * 4 - 1, 8), 0.0);
+}
+
 // A number is in two pairs, but a test of the interaction alone does not mind. Kolmogorov's test of
 // 2000 p-values at 1e-6: of the degrees of freedom of the margins, 14, it would see one.
 TEST(Independence, PValuesOfOverlappingPairsAreUniform) {

@@ -38,6 +38,20 @@ TEST(HemispherePdf, IsZeroOnTheHorizonAndBelow) {
   EXPECT_EQ(uniform_hemisphere_pdf({1.0, 0.0, 1e-300}).value, 1.0 / (2.0 * kPi));
 }
 
+// Counterclockwise from +x, once around.
+TEST(HemisphereWarps, TurnAroundThePoleOnce) {
+  for (const double s : {0.0, 0.125, 0.25, 0.6, 0.75, 0.999}) {
+    const double phi = 2.0 * kPi * s;
+    for (const Direction d :
+         {uniform_hemisphere_from_square({s, 0.3}), cosine_hemisphere_from_square({s, 0.3}),
+          phong_lobe_from_square({s, 0.3}, 20.0)}) {
+      const double radius = std::hypot(d.x, d.y);
+      EXPECT_NEAR(d.x, radius * std::cos(phi), 8 * kUlp);
+      EXPECT_NEAR(d.y, radius * std::sin(phi), 8 * kUlp);
+    }
+  }
+}
+
 TEST(HemisphereWarps, GiveUnitVectorsAboveTheHorizonAndThePole) {
   for (const double s : {0.0, 0.3, 0.999}) {
     for (const double t : {0.0, 0.25, 0.999999}) {
