@@ -63,6 +63,11 @@ TEST(ComparisonAnnotations, AreNineOfEachLevelAndTheNumberOfTheOthers) {
   EXPECT_THAT(text, HasSubstr("3 measurements more regressed"));
 }
 
+TEST(ComparisonTable, EndsWithTheRule) {
+  EXPECT_THAT(comparison_table(of_ratio(1.5)),
+              AllOf(HasSubstr("the larger of +5 %"), HasSubstr("instructions: beyond +1 %")));
+}
+
 TEST(ComparisonTable, LetsNoNameControlTheTerminal) {
   EXPECT_THAT(comparison_table(of_ratio(1.5, "a\x1b[2J")),
               AllOf(HasSubstr("a\\x1b[2J"), Not(HasSubstr("\x1b"))));

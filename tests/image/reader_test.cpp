@@ -170,17 +170,26 @@ TEST(Reader, DoesNotMultiplyByAlpha) {
   EXPECT_EQ(map.radiance(0, 0), map.radiance(1, 0));
 }
 
+// Exif's orientations that only flip: 2 mirrors, 3 turns by half a turn, 4 turns upside down.
 TEST(Reader, ReadsJpegInItsOrientation) {
   const TemporaryFolder folder;
-  std::vector<unsigned> values;  // the upper half bright
-  for (unsigned i = 0; i < 32 * 16 * 3; ++i) values.push_back(i < 32 * 8 * 3 ? 200 : 50);
-  for (const int orientation : {1, 4}) {
+  std::vector<unsigned> values;  // the upper left quarter bright
+  for (unsigned i = 0; i < 32 * 16; ++i) {
+    values.insert(values.end(), 3, i % 32 < 16 && i < 32 * 8 ? 200 : 50);
+  }
+  for (const int orientation : {1, 2, 3, 4}) {
     test::write_integer_picture(folder / "a.jpg", {32, 16}, 3, values, 8, orientation);
     const EnvironmentMap map = read_environment_map(folder / "a.jpg");
-    const int bright_row = orientation == 1 ? 15 : 0;
-    // Quality 100 keeps flat blocks to within 2 of 255: 2.2 * 2 / 200 of the value.
-    EXPECT_NEAR(map.radiance(16, bright_row).g, std::pow(200 / 255.0, 2.2), 0.02);
-    EXPECT_NEAR(map.radiance(16, 15 - bright_row).g, std::pow(50 / 255.0, 2.2), 0.02);
+    const bool is_left = orientation == 1 || orientation == 4;
+    const bool is_upper = orientation <= 2;
+    for (const int x : {4, 28}) {
+      for (const int y : {4, 12}) {
+        const bool is_bright = (x < 16) == is_left && (y >= 8) == is_upper;
+        // Quality 100 keeps flat blocks to within 2 of 255: 2.2 * 2 / 200 of the value.
+        EXPECT_NEAR(map.radiance(x, y).g, std::pow((is_bright ? 200 : 50) / 255.0, 2.2), 0.02)
+            << "orientation " << orientation << " at " << x << ", " << y;
+      }
+    }
   }
 }
 

@@ -60,9 +60,9 @@ TEST(WriteExr, RefusesValuesThatAreNotFinite) {
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity()}) {
     Grid<Rgb> picture = test::numbered_picture({8, 4});
-    picture(5, 2).g = bad;
+    picture(0, 2).g = bad;
     EXPECT_THAT(refusal([&] { write_exr(folder / "bad.exr", picture); }),
-                AllOf(HasSubstr("bad.exr"), HasSubstr("column 5, row 2")));
+                AllOf(HasSubstr("bad.exr"), HasSubstr("column 0, row 2")));
     EXPECT_FALSE(fs::exists(folder / "bad.exr"));
   }
 }

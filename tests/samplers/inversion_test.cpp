@@ -142,6 +142,15 @@ TEST(Hierarchical, DrawsTheReferencesMasses) {
   }
 }
 
+// Those that invert the sums of linear_scan, and so must give its texels point for point.
+TEST(Registry, NamesTheSamplersThatShareTheirSums) {
+  std::vector<std::string_view> names;
+  for (const SamplerInfo& sampler : samplers()) {
+    if (sampler.inverts_shared_cdf) names.push_back(sampler.name);
+  }
+  EXPECT_EQ(names, (std::vector<std::string_view>{"binary_search", "eytzinger", "guide_table"}));
+}
+
 // 16 bytes an entry; 4 bytes a sum, of which a level has a quarter as many as the next one.
 TEST(Registry, TablesAreAsLargeAsTheirEntries) {
   const EnvironmentMap map = make_synthetic_map("constant", {64, 64});
@@ -152,6 +161,9 @@ TEST(Registry, TablesAreAsLargeAsTheirEntries) {
   const std::size_t places = TexelPlaces(map.radiance.extent(), Weighting::A).bytes();
   EXPECT_EQ(bytes_of("alias"), 16U * 4096U + places);
   EXPECT_EQ(bytes_of("hierarchical"), 4U * (4096U + 1024U + 256U + 64U + 16U + 4U) + places);
+  // Guides of two bytes for every sum of four.
+  EXPECT_GT(bytes_of("guide_table"), bytes_of("binary_search"));
+  EXPECT_LT(bytes_of("guide_table"), 2U * bytes_of("binary_search"));
 }
 
 TEST(Inversion, EqualSolidAnglesAreEquallyLikelyUnderB) {

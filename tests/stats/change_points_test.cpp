@@ -49,6 +49,15 @@ TEST(ChangePoints, StandWhereTheLevelChanges) {
   EXPECT_LT(changes[0].log10_p, std::log10(0.05));
 }
 
+// However short one of the levels is beside the other.
+TEST(ChangePoints, StandNearTheEndsToo) {
+  for (const std::size_t at : {kShortestLevel, 60 - kShortestLevel}) {
+    const auto changes = changes_of(joined(level(5, at), level(6, 60 - at, 1.3)));
+    ASSERT_EQ(changes.size(), 1U) << at;
+    EXPECT_EQ(changes[0].first, at);
+  }
+}
+
 TEST(ChangePoints, OfMoreThanTwoAreFoundOneInsideTheOther) {
   std::vector<double> series;
   const std::vector<double> factors = {1.0, 1.5, 1.0, 1.5};

@@ -28,6 +28,8 @@ TEST(KolmogorovTail, HasTheTabulatedPercentagePoints) {
     EXPECT_NEAR(std::pow(10.0, log10_kolmogorov_tail(x)) / p, 1.0, 0.002) << x;
   }
   EXPECT_EQ(log10_kolmogorov_tail(0.1), 0.0);
+  // 2 (e^-1/2 - e^-2 + e^-9/2 - e^-8 + ...), where several terms count.
+  EXPECT_NEAR(std::pow(10.0, log10_kolmogorov_tail(0.5)), 0.9639452436648751, 1e-12);
   EXPECT_NEAR(log10_kolmogorov_tail(30.0), std::log10(2.0) - 1800.0 / std::log(10.0), 1e-9);
 }
 

@@ -29,7 +29,7 @@ TEST(UniformDirections, LieAtTheirPlacesOnTheMap) {
     std::vector<double> t(size);
     for_each_kind_of_vector([&](const char* vectors) {
       SCOPED_TRACE(vectors);
-      uniform_directions(s, u, {x, y, z, t});
+      expect_whole_vectors(vectors, uniform_directions(s, u, {x, y, z, t}), size);
       for (std::size_t i = 0; i < size; ++i) {
         const double sine = std::sqrt(1.0 - (2.0 * u[i] - 1.0) * (2.0 * u[i] - 1.0));
         const double phi = kPi - 2.0 * kPi * s[i];
