@@ -307,8 +307,9 @@ void drop_texel_at(Grid<double>& masses, const EnvironmentMap& /*map*/) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i] > 0.0) lit.push_back(i);
   }
-  std::stable_sort(lit.begin(), lit.end(),
-                   [&](std::size_t a, std::size_t b) { return values[a] > values[b]; });
+  std::sort(lit.begin(), lit.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(-values[a], a) < std::pair(-values[b], b);
+  });
   values[lit[(lit.size() - 1) * kPercent / 100]] = 0.0;
 }
 

@@ -18,7 +18,10 @@ std::vector<Subject> all_mutants() {
   return subjects;
 }
 
-void count(NamingRecord& record, const Rejection& rejection) {
+void count(std::vector<NamingRecord>& records, const Rejection& rejection) {
+  NamingRecord& record = *std::find_if(
+      records.begin(), records.end(),
+      [&](const NamingRecord& candidate) { return candidate.mutant == rejection.sampler; });
   ++record.rejected;
   if (rejection.looks_like == record.expected) {
     ++record.right;
@@ -32,6 +35,13 @@ void count(NamingRecord& record, const Rejection& rejection) {
   }
 }
 
+std::vector<Problem> problems_for_all_seeds(const EnvironmentMap& map,
+                                            std::span<const Subject> subjects) {
+  std::vector<Problem> problems = problems_of({&map, 1}, subjects);
+  for (Problem& problem : problems) problem = inspected_once(std::move(problem));
+  return problems;
+}
+
 }  // namespace
 
 std::vector<NamingRecord> measure_naming(std::span<const MapRecord> maps,
@@ -43,25 +53,15 @@ std::vector<NamingRecord> measure_naming(std::span<const MapRecord> maps,
                        .runs = 2 * maps.size() * options.seeds});
   }
   const std::vector<Subject> subjects = all_mutants();
-  const std::size_t rounds = maps.size() * options.seeds;
-  std::size_t done = 0;
+  const auto rounds = static_cast<double>(maps.size() * options.seeds);
+  double done = 0.0;
   for (const MapRecord& map : maps) {
-    std::vector<Problem> problems;
-    for (Problem& problem : problems_of({&map.map, 1}, subjects)) {
-      problems.push_back(inspected_once(std::move(problem)));
-    }
+    const std::vector<Problem> problems = problems_for_all_seeds(map.map, subjects);
     for (std::uint64_t i = 0; i < options.seeds; ++i, ++done) {
-      const auto parts = static_cast<double>(rounds);
       const GateResult result =
           run_gate(problems, {.samples = options.samples, .seed = options.seed + i},
-                   part_of(progress, static_cast<double>(done) / parts,
-                           static_cast<double>(done + 1) / parts));
-      for (const Rejection& rejection : result.rejections) {
-        const auto record = std::find_if(
-            records.begin(), records.end(),
-            [&](const NamingRecord& candidate) { return candidate.mutant == rejection.sampler; });
-        count(*record, rejection);
-      }
+                   part_of(progress, done / rounds, (done + 1.0) / rounds));
+      for (const Rejection& rejection : result.rejections) count(records, rejection);
     }
   }
   return records;
