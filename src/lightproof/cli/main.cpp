@@ -45,7 +45,11 @@ int refuse_stdout(int error) {
 
 int fail(const std::exception_ptr& error) {
   const lightproof::Failure failure = lightproof::failure_of(error);
-  fmt::print(stderr, "lightproof: {}\n", lightproof::terminal_lines(failure.message));
+  // The request for a report has lines of its own; names in other messages must not start any.
+  const bool has_lines = failure.code == lightproof::kProgramFailed;
+  fmt::print(stderr, "lightproof: {}\n",
+             has_lines ? lightproof::terminal_lines(failure.message)
+                       : lightproof::terminal_text(failure.message));
   return failure.code;
 }
 

@@ -10,7 +10,7 @@ struct RunDescription {
   std::string version;  ///< of Lightproof
   std::string commit;   ///< that it was built from; empty if it is not known
   std::string command;  ///< the command line, quoted for a shell
-  /// One JSON object for each map, as `lightproof info` writes it (image/map_description.h).
+  /// One JSON object for each map, as json_of() writes it (image/map_description.h).
   std::vector<std::string> maps = {};
 };
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "lightproof/core/parallel.h"
 #include "lightproof/stats/goodness_of_fit.h"
 #include "lightproof/suite/description.h"
 #include "lightproof/suite/law_fit.h"
@@ -172,13 +171,15 @@ bool is_in_one_place(const Expectation& expectation, const Draws& draws) {
   return texels.fit();
 }
 
-/// Whether the pdf is 0 in one texel alone that should be reached, no sample lies there, and all
-/// others fit.
+/// Whether the pdf is 0 in one texel alone that should be reached, no sample lies there though some
+/// were to be expected, and all others fit.
 bool is_one_texel_missing(const Expectation& expectation, const Evidence& evidence) {
   const DensityComparison& density = evidence.inspection->density;
   if (density.lost_cells != 1 || expectation.lookup != Lookup::nearest) return false;
   const ComparedCell& cell = *density.first_lost;
-  if (evidence.draws->texels(cell.x, cell.y) > 0) return false;
+  const double expected =
+      static_cast<double>(evidence.draws->samples) * expectation.masses(cell.x, cell.y);
+  if (evidence.draws->texels(cell.x, cell.y) > 0 || std::exp(-expected) > kFitLevel) return false;
   RemainingTexels texels(expectation, *evidence.draws);
   const auto width = static_cast<std::size_t>(expectation.masses.extent().width);
   const auto texel = static_cast<std::size_t>(cell.y) * width + static_cast<std::size_t>(cell.x);
@@ -293,7 +294,8 @@ Name name_of(const Laws& laws, const Expectation& expectation, const Evidence& e
             "certain: the random numbers that do it are named"};
   }
   if (is_one_texel_missing(expectation, evidence)) {
-    return {"one-texel-missing", "pdf() is 0 there, no sample lies there, and all others fit"};
+    return {"one-texel-missing",
+            "pdf() is 0 there, none of the samples to be expected lies there, and all others fit"};
   }
   // A law that is near the declared one may be likelier by far while both fit; it comes first, as
   // does a pdf that says so: points directed at a row miss some of it if the row sums are another
@@ -397,7 +399,7 @@ std::vector<Rejection> diagnose(const Problem& problem, const Expectation& expec
     }
     scores = score_laws(alternatives, expectation, scored);
   });
-  parallel_for(rejected.size(), [&](std::size_t i) {
+  for_each_holding_grids(rejected.size(), expectation, [&](std::size_t i) {
     const Laws laws{alternatives, scores[i]};
     rejections[i] = rejection_of(laws, expectation, rejected[i], no_scores);
   });

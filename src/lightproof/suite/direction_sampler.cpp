@@ -220,7 +220,7 @@ std::vector<Alternative> alternatives_to(const Lobes& law) {
                             }});
   }
   for (const AlternativeLaw& other : alternative_laws()) {
-    if (other.reads_map) continue;
+    if (other.reads_map || other.is_example) continue;
     alternatives.push_back({other.name, other.diagnosis,
                             [declared, &other] { return other.masses({declared.get()}); }});
   }

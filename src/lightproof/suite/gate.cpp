@@ -113,7 +113,7 @@ void run_again(const Configuration& configuration, const Yardstick& yardstick,
     const auto same = std::find_if(again.begin(), again.end(), [&](const Measured& other) {
       return other.record.oracle == test.record.oracle && other.record.test == test.record.test;
     });
-    if (same == again.end()) continue;
+    if (same == again.end() || same->record.outcome == Outcome::not_run) continue;
     if (!is_suspicious(test) && same->record.outcome != Outcome::reject) continue;
     test = *same;
     test.record.stage = 2;
@@ -195,7 +195,11 @@ class Expectations {
     if (kept_[problem]) return kept_[problem];
     std::shared_ptr<const Expectation> made = problems_[problem].expectation();
     const std::size_t texels = made->masses.values().size();
-    if (texels_.fetch_add(texels) + texels <= kMostTexels) kept_[problem] = made;
+    if (texels_.fetch_add(texels) + texels <= kMostTexels) {
+      kept_[problem] = made;
+    } else {
+      texels_.fetch_sub(texels);
+    }
     return made;
   }
 
@@ -208,15 +212,17 @@ class Expectations {
   std::atomic<std::size_t> texels_ = 0;
 };
 
-/// The result of `work`, with lack of memory laid to this part of the gate.
+/// "the gate over alias on sun-sky (weighting B)"; "the gate over sun-sky …" without a sampler.
+std::string purpose_of(const Problem& problem, std::string_view sampler) {
+  return fmt::format(
+      "the gate over {}{}{}{}", sampler, sampler.empty() ? "" : " on ", problem.map,
+      problem.weighting.empty() ? "" : fmt::format(" (weighting {})", problem.weighting));
+}
+
+/// The result of `work`, with lack of memory laid to the sampler and its problem.
 template <class Work>
-auto with_memory_for_part(std::string_view part, const Problem& problem, std::string_view sampler,
-                          const Work& work) {
-  const auto purpose = [&] {
-    return fmt::format("{} of {} on {} (weighting {})", part, sampler, problem.map,
-                       problem.weighting);
-  };
-  return with_memory_for(purpose, work);
+auto with_memory_for(const Problem& problem, std::string_view sampler, const Work& work) {
+  return lightproof::with_memory_for([&] { return purpose_of(problem, sampler); }, work);
 }
 
 /// Problems, and what is known of their candidates.
@@ -233,11 +239,12 @@ class Run {
     parallel_for(problems_.size(), [&](std::size_t i) {
       const std::vector<Candidate>& candidates = problems_[i].candidates;
       const std::shared_ptr<const Expectation> expectation = expectations_.of(i);
-      const Yardstick yardstick =
-          yardstick_of(problems_[i], *expectation, options_, options_.samples,
-                       std::any_of(candidates.begin(), candidates.end(), has_twin));
+      const Yardstick yardstick = with_memory_for(problems_[i], "", [&] {
+        return yardstick_of(problems_[i], *expectation, options_, options_.samples,
+                            std::any_of(candidates.begin(), candidates.end(), has_twin));
+      });
       for_each_candidate(i, [&](const Configuration& configuration, Slot& slot) {
-        slot = with_memory_for_part("tests", problems_[i], configuration.candidate->name, [&] {
+        slot = with_memory_for(problems_[i], configuration.candidate->name, [&] {
           return run_first(configuration, yardstick, options_.suspicious);
         });
         show_progress();
@@ -258,12 +265,14 @@ class Run {
       }
       if (!any) return;
       const std::shared_ptr<const Expectation> expectation = expectations_.of(i);
-      const Yardstick yardstick = yardstick_of(problems_[i], *expectation, options_,
-                                               kSecondStage * options_.samples, with_twin);
+      const Yardstick yardstick = with_memory_for(problems_[i], "", [&] {
+        return yardstick_of(problems_[i], *expectation, options_, kSecondStage * options_.samples,
+                            with_twin);
+      });
       for_each_candidate(i, [&](const Configuration& configuration, Slot& slot) {
         if (!is_open(slot)) return;
-        with_memory_for_part("tests", problems_[i], configuration.candidate->name,
-                             [&] { run_again(configuration, yardstick, judge.again(), slot); });
+        with_memory_for(problems_[i], configuration.candidate->name,
+                        [&] { run_again(configuration, yardstick, judge.again(), slot); });
       });
     });
     std::vector<Measured*> tests;
@@ -339,7 +348,7 @@ class Run {
       rejected.push_back({of_slots[k], &*slot.draws, &slot.inspection});
     }
     if (rejected.empty()) return {};
-    return with_memory_for_part("diagnoses", problems_[problem], "rejected samplers", [&] {
+    return with_memory_for(problems_[problem], "", [&] {
       return diagnose(problems_[problem], *expectations_.of(problem), rejected);
     });
   }

@@ -83,7 +83,8 @@ double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectati
 }
 
 double log10_fit_of_declared(const Draws& draws, const Expectation& expectation) {
-  return fit_with_bins(draws, expectation.masses, &expectation.bins);
+  const bool has_bins = expectation.lookup == Lookup::nearest;
+  return fit_with_bins(draws, expectation.masses, has_bins ? &expectation.bins : nullptr);
 }
 
 double distance(const Grid<double>& a, const Grid<double>& b) {
@@ -94,11 +95,19 @@ double distance(const Grid<double>& a, const Grid<double>& b) {
   return sum;
 }
 
+void for_each_holding_grids(std::size_t count, const Expectation& expectation,
+                            const std::function<void(std::size_t)>& body) {
+  /// Of 2048 x 1024, beyond which one grid takes 16 MiB.
+  constexpr std::size_t kMostTexels = std::size_t{1} << 21U;
+  if (expectation.masses.values().size() <= kMostTexels) return parallel_for(count, body);
+  for (std::size_t i = 0; i < count; ++i) body(i);
+}
+
 std::vector<LawScores> score_laws(std::span<const Alternative> alternatives,
                                   const Expectation& expectation, std::span<const Scored> scored) {
   const std::vector<double> none(alternatives.size());
   std::vector<LawScores> scores(scored.size(), LawScores{none, none});
-  parallel_for(alternatives.size(), [&](std::size_t law) {
+  for_each_holding_grids(alternatives.size(), expectation, [&](std::size_t law) {
     const Grid<double> masses = alternatives[law].masses();
     const Grid<double> ratios = log_ratios(masses, expectation.masses);
     const Grid<double> bins = reference::bin_masses(masses, expectation.weighting, kGateBins);

@@ -1,6 +1,7 @@
 // How well a law over the texels explains what was drawn.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -46,9 +47,13 @@ struct Scored {
   const Grid<double>* own_bins;
 };
 
+/// Runs body(0) … body(count-1), each of which holds some grids of the map's size: in parallel, or
+/// one after the other on a map so large that one for each thread might not fit.
+void for_each_holding_grids(std::size_t count, const Expectation& expectation,
+                            const std::function<void(std::size_t)>& body);
+
 /// The scores of several samplers of one problem. The masses of every alternative are computed
-/// once, whatever their number, and not kept: on a large map all of them would not fit. The same
-/// bits for any number of threads.
+/// once, whatever their number, and not kept. The same bits for any number of threads.
 std::vector<LawScores> score_laws(std::span<const Alternative> alternatives,
                                   const Expectation& expectation, std::span<const Scored> scored);
 

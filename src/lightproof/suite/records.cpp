@@ -27,6 +27,8 @@ std::optional<std::string> failure_of(const std::function<void()>& computation) 
     throw;
   } catch (const Interrupted&) {
     throw;
+  } catch (const OutOfMemory&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
