@@ -255,7 +255,11 @@ Name name_of_wrong_pdf(const Laws& laws, const Expectation& expectation, const E
   const bool returned = verdicts.rejected("check", "pdf of the sample");
   const std::string whole = "pdf() shows it all over the map, and the samples fit the declared law";
   if (verdicts.rejected("check", "pdf is the declared density")) {
-    if (!returned && inspection.density.ratio.is_constant()) return {"pdf-scaled", whole};
+    const bool has_support =
+        inspection.density.lost_cells == 0 && inspection.density.unlit_cells == 0;
+    if (!returned && has_support && inspection.density.ratio.is_constant()) {
+      return {"pdf-scaled", whole};
+    }
     if (!returned && (inspection.density.times_jacobian.is_constant() ||
                       inspection.density.over_jacobian.is_constant())) {
       return {"pdf-of-another-measure", whole};
