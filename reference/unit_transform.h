@@ -31,7 +31,8 @@ class UnitTransform {
   /// `at` lies in texel (x, y).
   UnitPoint operator()(SquarePoint at, int x, int y) const;
 
-  /// The same where cos(theta) of the place is known: cos_theta(at.t).
+  /// The transformed coordinates of `at`, which lies in texel (x, y) and whose cos(theta) is known:
+  /// `cosine` is cos_theta(at.t).
   UnitPoint operator()(SquarePoint at, double cosine, int x, int y) const;
 
  private:

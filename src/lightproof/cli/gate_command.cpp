@@ -66,7 +66,7 @@ struct Judged {
   GateVerdict verdict;
 };
 
-/// Of all files that rejections may bring.
+/// The names of all files that --rejections may write for these problems.
 std::set<std::string> names_of_rejections(std::span<const Problem> problems) {
   std::set<std::string> names;
   for (const Problem& problem : problems) {

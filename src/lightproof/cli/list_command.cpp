@@ -83,7 +83,7 @@ const std::vector<std::string> kRegistries = {"samplers",  "mutants",   "maps", 
 
 using Json = nlohmann::ordered_json;
 
-/// Of `list --json`, docs/schema/list.schema.json.
+/// Version of the format of `list --json` (docs/schema/list.schema.json).
 constexpr int kListFormatVersion = 1;
 
 struct Options {

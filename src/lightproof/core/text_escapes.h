@@ -12,7 +12,7 @@ namespace lightproof {
 /// change colours or start a line of its own.
 std::string terminal_text(std::string_view text);
 
-/// The same for text of several lines, whose line breaks stay.
+/// terminal_text() of every line of a text; its line breaks stay.
 std::string terminal_lines(std::string_view text);
 
 /// For XML and HTML, before markup is escaped: bytes that are no UTF-8 and the control characters

@@ -33,12 +33,12 @@ MapDescription describe(const EnvironmentMap& map);
 /// UTF-8 has its bad bytes replaced by U+FFFD.
 std::string json_of(const MapDescription& description);
 
-/// The same with format_version and, of `run`, version, commit and command before the other keys:
-/// one object, or an array if there are several or `as_list`.
+/// The objects that json_of() writes, each with format_version and, of `run`, version, commit and
+/// command before its other keys: one object, or an array if there are several or `as_list`.
 std::string info_json(const std::vector<MapDescription>& descriptions, const RunDescription& run,
                       bool as_list);
 
-/// Of info_json().
+/// Version of the format of info_json() (docs/schema/info.schema.json).
 inline constexpr int kInfoFormatVersion = 1;
 
 /// Some lines for a terminal, the file's name first.
