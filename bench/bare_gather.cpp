@@ -9,7 +9,7 @@
 #define HWY_TARGET_INCLUDE "bench/bare_gather.cpp"
 #include <hwy/foreach_target.h>
 // Highway asks for this order.
-#include "lightproof/samplers/lanes-inl.h"
+#include "lightproof/samplers/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lightproof::bench::HWY_NAMESPACE {
@@ -34,14 +34,14 @@ std::uint64_t read(std::span<const std::uint16_t> numbers, std::size_t texels,
 
 using namespace lightproof::HWY_NAMESPACE;
 
-class BareGatherLanes {
+class BareGatherKernel {
  public:
   static constexpr int kStages = 2;
   struct Block : BlockPoints {
     alignas(64) std::int64_t offset[kBatchBlock];
   };
 
-  BareGatherLanes(std::span<const std::uint16_t> numbers, std::size_t texels)
+  BareGatherKernel(std::span<const std::uint16_t> numbers, std::size_t texels)
       : numbers_(numbers), texels_(static_cast<double>(texels)) {}
 
   template <int kStage>
@@ -69,7 +69,7 @@ class BareGatherLanes {
 
 std::uint64_t read(std::span<const std::uint16_t> numbers, std::size_t texels,
                    const BatchPoints& points, std::size_t count) {
-  BareGatherLanes lanes(numbers, texels);
+  BareGatherKernel lanes(numbers, texels);
   draw_vectors(lanes, points, count, std::size_t{0});
   return lanes.sum();
 }

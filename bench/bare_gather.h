@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "lightproof/core/grid.h"
-#include "lightproof/core/large_pages.h"
+#include "lightproof/core/huge_pages.h"
 #include "lightproof/core/random.h"
 
 namespace lightproof::bench {

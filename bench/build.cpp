@@ -2,7 +2,7 @@
 //
 // Beside them, on one thread, what they are compared with: build/copy_of_map/…, the map copied into
 // memory that is there already, and build/vose_baseline/…, the usual build of an alias table from
-// grey values. All others get their memory fresh. Counter: build_ms, the median.
+// luminances. All others get their memory fresh. Counter: build_ms, the median.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -51,7 +51,7 @@ void copy_benchmark(benchmark::State& state, Extent extent) {
 void vose_benchmark(benchmark::State& state, Extent extent) {
   std::vector<float> weights;
   for (const Rgb rgb : map_of(extent).radiance.values()) {
-    weights.push_back(static_cast<float>(luminance(rgb, kRec709)));
+    weights.push_back(static_cast<float>(luminance_of(rgb, kRec709)));
   }
   time_builds(state, [&] { benchmark::DoNotOptimize(build_vose(weights)); });
 }
@@ -60,7 +60,7 @@ void sampler_benchmark(benchmark::State& state, const SamplerInfo& info, Extent 
                        int threads) {
   const EnvironmentMap& map = map_of(extent);
   const ThreadLimit limit(threads);
-  time_builds(state, [&] { benchmark::DoNotOptimize(info.make(map, Weighting::A)); });
+  time_builds(state, [&] { benchmark::DoNotOptimize(info.make(map, DensitySpace::texture)); });
 }
 
 struct Threads {
@@ -69,15 +69,16 @@ struct Threads {
 };
 constexpr std::array<Threads, 2> kThreads = {{{"one-thread", 1}, {"all-threads", 0}}};
 
-struct Yardstick {
+struct BaselineBuild {
   std::string_view name;
   void (*run)(benchmark::State&, Extent);
 };
-constexpr std::array<Yardstick, 2> kYardsticks = {
+constexpr std::array<BaselineBuild, 2> kBaselines = {
     {{"copy_of_map", copy_benchmark}, {"vose_baseline", vose_benchmark}}};
 
-std::string name_of(std::string_view subject, Extent extent, std::string_view threads) {
-  return fmt::format("build/{}/{}/{}x{}/{}", subject, kMap, extent.width, extent.height, threads);
+std::string name_of(std::string_view under_test, Extent extent, std::string_view threads) {
+  return fmt::format("build/{}/{}/{}x{}/{}", under_test, kMap, extent.width, extent.height,
+                     threads);
 }
 
 void register_samplers(Extent extent) {
@@ -98,11 +99,10 @@ void register_samplers(Extent extent) {
 
 void register_build_benchmarks() {
   for (const Extent extent : kExtents) {
-    for (const Yardstick& yardstick : kYardsticks) {
-      const std::string name = name_of(yardstick.name, extent, "one-thread");
+    for (const BaselineBuild& shared : kBaselines) {
+      const std::string name = name_of(shared.name, extent, "one-thread");
       benchmark::RegisterBenchmark(
-          name.c_str(),
-          [&yardstick, extent](benchmark::State& state) { yardstick.run(state, extent); })
+          name.c_str(), [&shared, extent](benchmark::State& state) { shared.run(state, extent); })
           ->Unit(benchmark::kMillisecond)
           ->UseRealTime();
     }

@@ -64,7 +64,7 @@ void count_fused(benchmark::State& state, const Sampler& sampler) {
 
 void count_benchmark(benchmark::State& state, const SamplerInfo& info, bool fused) {
   const EnvironmentMap map = make_synthetic_map(kMap, kExtent);
-  const AnySampler any = info.make(map, Weighting::A);
+  const AnySampler any = info.make(map, DensitySpace::texture);
   std::visit(
       [&](const auto& sampler) {
         fused ? count_fused(state, sampler) : count_one_at_a_time(state, sampler);

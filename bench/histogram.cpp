@@ -1,12 +1,13 @@
 // Time to count one direction into the gate's bins, one thread: histogram/<warp>/<phase>.
 //
 //   count           directions drawn beforehand, in a block that fits the second-level cache
-//   count_and_test  2^26 of them, then the p-value against the law's exact bin masses. The block is
+//   count_and_test  2^26 of them, then the p-value against the distribution's exact bin masses. The
+//   block is
 //                   counted over and over, so that the p-value itself says nothing.
 //   draw_and_count  random numbers and warp as well, through the registry's erased type
 //
 // Before anything is timed, the counts of the block must be those of the scalar definition, and
-// must fit the law.
+// must fit the distribution.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -20,16 +21,16 @@
 
 #include "bench/registration.h"
 #include "lightproof/core/random.h"
+#include "lightproof/gate/direction_histogram.h"
+#include "lightproof/gate/direction_sampler.h"
 #include "lightproof/stats/goodness_of_fit.h"
-#include "lightproof/suite/direction_histogram.h"
-#include "lightproof/suite/direction_sampler.h"
 #include "lightproof/warp/lat_long.h"
 #include "reference/texel_masses.h"
 
 namespace lightproof::bench {
 namespace {
 
-/// The widest law, the lecture's, and one whose samples all fall into the row of the pole.
+/// The widest distribution, the lecture's, and one whose samples all fall into the row of the pole.
 constexpr std::array<std::string_view, 3> kWarps = {"uniform_hemisphere", "cosine_hemisphere",
                                                     "phong_lobe_1000"};
 constexpr std::size_t kBlock = std::size_t{1} << 14U;
@@ -41,7 +42,7 @@ constexpr double kLeastLog10P = -6.0;
 class Block {
  public:
   explicit Block(const DirectionSampler& sampler)
-      : sampler_(sampler), masses_(serpentine(bin_masses(sampler.law))) {
+      : sampler_(sampler), masses_(serpentine(bin_masses(sampler.distribution))) {
     draw(0);
   }
 
@@ -70,13 +71,16 @@ class Block {
       return "the counts are not those of square_from_direction";
     }
     const double p = log10_p(histogram);
-    return p > kLeastLog10P ? "" : fmt::format("the counts do not fit the law: log10 p = {}", p);
+    return p > kLeastLog10P
+               ? ""
+               : fmt::format("the counts do not fit the distribution: log10 p = {}", p);
   }
 
  private:
-  static Grid<double> bin_masses(std::span<const reference::CosineLobe> law) {
-    const Grid<double> cells = reference::cell_masses(law, reference::cells_for(law));
-    return reference::bin_masses(cells, Weighting::B, kGateBins);
+  static Grid<double> bin_masses(std::span<const reference::CosineLobe> distribution) {
+    const Grid<double> cells =
+        reference::cell_masses(distribution, reference::cells_for(distribution));
+    return reference::bin_masses(cells, DensitySpace::solid_angle, kGateBins);
   }
 
   Grid<std::uint64_t> scalar_bins() const {

@@ -12,10 +12,10 @@
 #include "bench/maps.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
+#include "lightproof/gate/draws.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/stats/goodness_of_fit.h"
 #include "lightproof/stats/median.h"
-#include "lightproof/suite/draws.h"
 #include "reference/slow_sampler.h"
 #include "reference/texel_masses.h"
 
@@ -30,11 +30,11 @@ const reference::SlowSampler& reference_of(Extent extent, TargetDensity target) 
   static std::unique_ptr<reference::SlowSampler> sampler;
   static Extent made_for;
   static double made_with = 0.0;
-  if (!sampler || !(made_for == extent) || made_with != target.grey.red) {
+  if (!sampler || !(made_for == extent) || made_with != target.weights.red) {
     sampler.reset();
     sampler = std::make_unique<reference::SlowSampler>(map_of(extent), target);
     made_for = extent;
-    made_with = target.grey.red;
+    made_with = target.weights.red;
   }
   return *sampler;
 }
@@ -46,32 +46,33 @@ std::vector<SquarePoint> make_points() {
   return points;
 }
 
-/// The law that all samplers of this target draw.
+/// The distribution that all samplers of this target draw.
 struct Law {
   Grid<double> masses;
   std::vector<double> bins;
 };
 
-const Law& law_of(Extent extent, TargetDensity target) {
-  static Law law;
+const Law& exact_moments(Extent extent, TargetDensity target) {
+  static Law distribution;
   static Extent made_for;
   static TargetDensity made_with = {};
   if (!(made_for == extent) || !(made_with == target)) {
-    law = {};
-    law.masses = reference::texel_masses(map_of(extent), target);
+    distribution = {};
+    distribution.masses = reference::texel_masses(map_of(extent), target);
     const bool draws_whole_texels = target.lookup == Lookup::nearest;
-    law.bins = serpentine(draws_whole_texels
-                              ? reference::bin_masses(law.masses, target.weighting, kGateBins)
-                              : reference::bin_masses(map_of(extent), target, kGateBins));
+    distribution.bins =
+        serpentine(draws_whole_texels
+                       ? reference::bin_masses(distribution.masses, target.density_space, kGateBins)
+                       : reference::bin_masses(map_of(extent), target, kGateBins));
     made_for = extent;
     made_with = target;
   }
-  return law;
+  return distribution;
 }
 
-/// How far from a knot of the exact distribution a sampler may take the neighbour: the rounding of
-/// its own sums. Of n terms they drift by up to n steps.
-double knot_tolerance(const SamplerInfo& sampler, Extent extent) {
+/// How far from a CDF entry of the exact distribution a sampler may take the neighbour: the
+/// rounding of its own sums. Of n terms they drift by up to n steps.
+double entry_tolerance(const SamplerInfo& sampler, Extent extent) {
   return (extent.width + extent.height) * sampler.resolution;
 }
 
@@ -87,7 +88,8 @@ std::string misfit(const Sampler& sampler, const SamplerInfo& info, Extent exten
     ++counts(cell_of(sample.at.s, kGateBins.width), cell_of(sample.at.t, kGateBins.height));
   }
   const double log10_p =
-      cressie_read(serpentine(counts), law_of(extent, info.target(kWeighting)).bins, count).log10_p;
+      cressie_read(serpentine(counts), exact_moments(extent, info.target(kWeighting)).bins, count)
+          .log10_p;
   return log10_p > kLeastLog10P
              ? ""
              : fmt::format("the samples do not fit the map: log10 p = {}", log10_p);
@@ -100,11 +102,11 @@ std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent
   const bool sums_texels = info.resolution != 0.0 && info.lookup == Lookup::nearest;
   if (!sums_texels) return "";
   const auto& reference = reference_of(extent, info.target(kWeighting));
-  const double tolerance = knot_tolerance(info, extent);
+  const double tolerance = entry_tolerance(info, extent);
   for (const SquarePoint u : random_points().first(256)) {
     const TexelSample sample = sampler.sample(u);
     if (reference::Texel{sample.x, sample.y} == reference.sample(u)) continue;
-    if (reference.near_knot(u, tolerance)) continue;
+    if (reference.near_entry(u, tolerance)) continue;
     return fmt::format("u = ({:.17g}, {:.17g}): texel ({}, {}) is not the reference's", u.s, u.t,
                        sample.x, sample.y);
   }
@@ -161,7 +163,7 @@ std::span<const SquarePoint> random_points() {
 
 double worst_texel_error(Extent extent, TargetDensity target,
                          const std::function<double(SquarePoint)>& pdf) {
-  const Grid<double>& masses = law_of(extent, target).masses;
+  const Grid<double>& masses = exact_moments(extent, target).masses;
   const double texels = static_cast<double>(extent.count());
   std::vector<double> worst(static_cast<std::size_t>(extent.height));
   parallel_for(worst.size(), [&](std::size_t row) {

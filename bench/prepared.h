@@ -11,8 +11,8 @@
 
 namespace lightproof::bench {
 
-/// The lecture's weighting.
-inline constexpr Weighting kWeighting = Weighting::A;
+/// The lecture's density.
+inline constexpr DensitySpace kWeighting = DensitySpace::texture;
 
 /// Uniform points, 2^21, the same in every run.
 std::span<const SquarePoint> random_points();

@@ -16,7 +16,7 @@ void register_count_benchmarks();
 /// Machine, compiler, flags and commit, beside what Google Benchmark says of itself.
 void add_context();
 
-/// Skips a benchmark whose subject disagrees with the reference.
+/// Skips a benchmark whose sampler under test disagrees with the reference.
 void disagree(benchmark::State& state, const std::string& why);
 
 /// Whether anything that was to be timed disagreed with the reference.

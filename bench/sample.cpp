@@ -3,7 +3,7 @@
 //   random   one at a time, at random points that were generated beforehand, so many that the parts
 //            of a table that they reach do not stay in the cache
 //   batch    the same points, in batches
-//   fused    in batches, random numbers included; with the ratios to the yardsticks, both measured
+//   fused    in batches, random numbers included; with the ratios to the baselines, both measured
 //            beside it: times_baseline, how many times as fast as std::upper_bound, and
 //            share_of_limit, of the speed of a bare gather from a table of two bytes a texel
 //
@@ -93,19 +93,19 @@ const RandomStream& fused_stream() {
 }
 
 /// What speed is compared with, of the last size that was asked for.
-struct Yardsticks {
-  explicit Yardsticks(Extent extent) : baseline(map_of(extent)), limit(extent) {}
+struct Baselines {
+  explicit Baselines(Extent extent) : baseline(map_of(extent)), limit(extent) {}
 
   UpperBoundBaseline baseline;
   BareGather limit;
 };
 
-const Yardsticks& yardsticks_of(Extent extent) {
-  static std::unique_ptr<Yardsticks> the_last;
+const Baselines& baselines_of(Extent extent) {
+  static std::unique_ptr<Baselines> the_last;
   static Extent size;
   if (!the_last || !(size == extent)) {
     the_last.reset();
-    the_last = std::make_unique<Yardsticks>(extent);
+    the_last = std::make_unique<Baselines>(extent);
     size = extent;
   }
   return *the_last;
@@ -148,11 +148,11 @@ auto draw_limit(const BareGather& limit) {
 
 template <class Sampler>
 void time_fused(benchmark::State& state, const Sampler& sampler, Extent extent) {
-  const Yardsticks& yardsticks = yardsticks_of(extent);
+  const Baselines& baselines = baselines_of(extent);
   std::vector<TexelSample> samples(kBatch);
-  auto baseline = draw_baseline(yardsticks.baseline);
+  auto baseline = draw_baseline(baselines.baseline);
   const double before[] = {ns_per_sample(std::ref(baseline)),
-                           ns_per_sample(draw_limit(yardsticks.limit))};
+                           ns_per_sample(draw_limit(baselines.limit))};
   time_batches(state, [&](std::uint64_t first) {
     sample(sampler, fused_stream(), first, samples);
     benchmark::DoNotOptimize(samples.data());
@@ -160,7 +160,7 @@ void time_fused(benchmark::State& state, const Sampler& sampler, Extent extent) 
   });
   // On either side of the sampler's time, so that a change of the machine's speed cancels.
   const double base = 0.5 * (before[0] + ns_per_sample(std::ref(baseline)));
-  const double limit = 0.5 * (before[1] + ns_per_sample(draw_limit(yardsticks.limit)));
+  const double limit = 0.5 * (before[1] + ns_per_sample(draw_limit(baselines.limit)));
   const double time = state.counters["ns_per_sample"];
   state.counters["times_baseline"] = base / time;
   state.counters["share_of_limit"] = limit / time;
@@ -176,8 +176,8 @@ enum class Order { random, batch, fused };
 
 void sample_benchmark(benchmark::State& state, const SamplerInfo& info, Extent extent,
                       Order order) {
-  const Prepared& subject = prepared(info, extent);
-  if (!subject.why_not.empty()) return disagree(state, subject.why_not);
+  const Prepared& under_test = prepared(info, extent);
+  if (!under_test.why_not.empty()) return disagree(state, under_test.why_not);
   std::visit(
       [&](const auto& sampler) {
         switch (order) {
@@ -192,13 +192,13 @@ void sample_benchmark(benchmark::State& state, const SamplerInfo& info, Extent e
         }
         set_table_counters(state, sampler.table_bytes(), extent);
       },
-      *subject.sampler);
-  state.counters["build_ms"] = subject.build_ms;
-  if (draws_texels(info)) state.counters["worst_texel_error"] = subject.worst_texel_error;
+      *under_test.sampler);
+  state.counters["build_ms"] = under_test.build_ms;
+  if (draws_texels(info)) state.counters["worst_texel_error"] = under_test.worst_texel_error;
 }
 
 void baseline_benchmark(benchmark::State& state, Extent extent) {
-  const UpperBoundBaseline& baseline = yardsticks_of(extent).baseline;
+  const UpperBoundBaseline& baseline = baselines_of(extent).baseline;
   auto draw = draw_baseline(baseline);
   time_batches(state, std::ref(draw));
   set_table_counters(state, baseline.table_bytes(), extent);
@@ -207,7 +207,7 @@ void baseline_benchmark(benchmark::State& state, Extent extent) {
 }
 
 void limit_benchmark(benchmark::State& state, Extent extent) {
-  const BareGather& limit = yardsticks_of(extent).limit;
+  const BareGather& limit = baselines_of(extent).limit;
   time_batches(state, draw_limit(limit));
   set_table_counters(state, limit.table_bytes(), extent);
 }
@@ -219,11 +219,11 @@ struct OrderInfo {
 constexpr std::array<OrderInfo, 3> kOrders = {
     {{Order::random, "random"}, {Order::batch, "batch"}, {Order::fused, "fused"}}};
 
-struct YardstickInfo {
+struct BaselineInfo {
   std::string_view name;
   void (*run)(benchmark::State&, Extent);
 };
-constexpr std::array<YardstickInfo, 2> kYardsticks = {
+constexpr std::array<BaselineInfo, 2> kBaselines = {
     {{"upper_bound_baseline", baseline_benchmark}, {"bare_gather_2B", limit_benchmark}}};
 
 std::string name_of(std::string_view sampler, Extent extent, std::string_view order) {
@@ -253,11 +253,10 @@ bool any_disagreement() { return disagreed; }
 
 void register_sample_benchmarks() {
   for (const Extent extent : kExtents) {
-    for (const YardstickInfo& yardstick : kYardsticks) {
-      const std::string name = name_of(yardstick.name, extent, "fused");
-      benchmark::RegisterBenchmark(name.c_str(), [&yardstick, extent](benchmark::State& state) {
-        yardstick.run(state, extent);
-      });
+    for (const BaselineInfo& shared : kBaselines) {
+      const std::string name = name_of(shared.name, extent, "fused");
+      benchmark::RegisterBenchmark(
+          name.c_str(), [&shared, extent](benchmark::State& state) { shared.run(state, extent); });
     }
     register_samplers(extent, kOrders);
     if (extent == kExtents.back()) continue;

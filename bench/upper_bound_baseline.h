@@ -14,12 +14,12 @@ namespace lightproof::bench {
 
 class UpperBoundBaseline {
  public:
-  /// Of the grey values, as a density over (s,t).
+  /// Of the luminances, as a density over (s,t).
   explicit UpperBoundBaseline(const EnvironmentMap& map) : extent_(map.radiance.extent()) {
     std::vector<double> row_weights;
     for (int y = 0; y < extent_.height; ++y) {
       std::vector<double> weights;
-      for (const Rgb rgb : map.radiance.row(y)) weights.push_back(luminance(rgb, kRec709));
+      for (const Rgb rgb : map.radiance.row(y)) weights.push_back(luminance_of(rgb, kRec709));
       row_weights.push_back(append_cdf(columns_, weights));
     }
     append_cdf(rows_, row_weights);

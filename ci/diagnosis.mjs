@@ -23,14 +23,14 @@ function rejections(map, seed) {
 
 for (let seed = 1; seed <= Number(seeds); ++seed) {
   for (const map of maps) {
-    for (const { sampler, looks_like: name, weighting } of rejections(map, seed)) {
+    for (const { sampler, looks_like: name, density } of rejections(map, seed)) {
       const record = records.get(sampler);
       ++record.rejected;
       if (name === record.diagnosis) ++record.right;
       else if (name === "unknown") ++record.unknown;
       else {
         record.wrong[name] = (record.wrong[name] ?? 0) + 1;
-        console.log(`${sampler} ${weighting} on ${map}, seed ${seed}: ${name} instead of ${record.diagnosis}`);
+        console.log(`${sampler} ${density} on ${map}, seed ${seed}: ${name} instead of ${record.diagnosis}`);
       }
     }
   }

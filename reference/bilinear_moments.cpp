@@ -9,16 +9,16 @@
 #include "lightproof/core/parallel.h"
 #include "lightproof/image/look_up.h"
 #include "lightproof/warp/lat_long.h"
-#include "reference/bilinear_law.h"
+#include "reference/bilinear_distribution.h"
 #include "reference/quadrature.h"
 
 namespace lightproof::reference {
 namespace {
 
 /// ∫ of the radiance over the square (under A) or in steradian (under B).
-double total_of(const Grid<double>& radiance, Weighting weighting) {
-  const auto weight = [weighting](double t) {
-    return weighting == Weighting::A ? 1.0 : solid_angle_per_square(t);
+double total_of(const Grid<double>& radiance, DensitySpace density_space) {
+  const auto weight = [density_space](double t) {
+    return density_space == DensitySpace::texture ? 1.0 : solid_angle_per_square(t);
   };
   const auto [width, height] = radiance.extent();
   double total = 0.0;
@@ -51,8 +51,8 @@ class CellMoments {
       : kernel_(&kernel),
         radiance_(&radiance),
         quadrature_(cells),
-        a_(2.0 * kPi * kPi * total_of(radiance, Weighting::A)),
-        b_(total_of(radiance, Weighting::B)) {}
+        a_(2.0 * kPi * kPi * total_of(radiance, DensitySpace::texture)),
+        b_(total_of(radiance, DensitySpace::solid_angle)) {}
 
   void add_row(LightMoments& moments, int j) const {
     const std::vector<double> low = corners_along(j);
@@ -171,17 +171,17 @@ double mean_over_light(const Quarter& quarter, double from, double to, const Wei
 }
 
 /// The quarters of texel (x, y).
-std::array<Quarter, 4> quarters_of(const Grid<double>& grey, int x, int y) {
-  const auto [width, height] = grey.extent();
+std::array<Quarter, 4> quarters_of(const Grid<double>& luminance, int x, int y) {
+  const auto [width, height] = luminance.extent();
   std::array<Quarter, 4> quarters;
   for (std::size_t k = 0; k < 4; ++k) {
     const int beside = (x + (k % 2 == 0 ? width - 1 : 1)) % width;
     const int up = k < 2 ? -1 : 1;
     const int above = std::clamp(y + up, 0, height - 1);
-    const double centre = grey(x, y);
-    const double edge = 0.5 * (centre + grey(beside, y));
-    quarters[k] = {{centre, 0.5 * (centre + grey(x, above))},
-                   {edge, 0.5 * (edge + 0.5 * (grey(x, above) + grey(beside, above)))},
+    const double centre = luminance(x, y);
+    const double edge = 0.5 * (centre + luminance(beside, y));
+    quarters[k] = {{centre, 0.5 * (centre + luminance(x, above))},
+                   {edge, 0.5 * (edge + 0.5 * (luminance(x, above) + luminance(beside, above)))},
                    (y + 0.5) / height,
                    0.5 * up / height};
   }
@@ -210,13 +210,13 @@ LightMoments bilinear_light_moments(const Kernel& kernel, const Grid<double>& ra
   return sum;
 }
 
-EstimatorMoments bilinear_inverse_pdf(const Grid<double>& radiance, Weighting weighting,
+EstimatorMoments bilinear_inverse_pdf(const Grid<double>& radiance, DensitySpace density_space,
                                       const std::function<bool(double)>& is_bright) {
   const Extent extent = radiance.extent();
-  const double total = total_of(radiance, weighting);
+  const double total = total_of(radiance, density_space);
   // 1/p(omega) = factor(t) / L.
   const auto factor = [&](double t) {
-    return total * (weighting == Weighting::A ? solid_angle_per_square(t) : 1.0);
+    return total * (density_space == DensitySpace::texture ? solid_angle_per_square(t) : 1.0);
   };
   const auto weight = [&](double t) { return factor(t) * solid_angle_per_square(t); };
   const double quarter_area = 0.25 / static_cast<double>(extent.count());

@@ -15,7 +15,7 @@ LightMoments bilinear_light_moments(const Kernel& kernel, const Grid<double>& ra
 /// 1/p(omega) where the sample lies in a texel whose own value is bright, else 0: the mean, the
 /// mean square and a bound of the largest value; higher moments are left at 0. Bright texels are
 /// positive.
-EstimatorMoments bilinear_inverse_pdf(const Grid<double>& radiance, Weighting weighting,
+EstimatorMoments bilinear_inverse_pdf(const Grid<double>& radiance, DensitySpace density_space,
                                       const std::function<bool(double)>& is_bright);
 
 }  // namespace lightproof::reference

@@ -81,7 +81,7 @@ bool is_around_z(std::span<const CosineLobe> lobes) {
   return std::all_of(lobes.begin(), lobes.end(), stands_on_z);
 }
 
-UnitPoint unit_point(std::span<const CosineLobe> lobes, SquarePoint at) {
+RosenblattPoint rosenblatt_point(std::span<const CosineLobe> lobes, SquarePoint at) {
   double along = 0.0;
   for (const CosineLobe& lobe : lobes) along += cumulative(lobe, cos_theta(at.t));
   return {std::min(along, 1.0), at.s, at.s};

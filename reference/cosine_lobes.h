@@ -1,12 +1,12 @@
-// Laws over directions that are mixtures of powers of cosines: the hemisphere's warps, and what
-// Phong's materials draw.
+// ScoredAlternatives over directions that are mixtures of powers of cosines: the hemisphere's
+// warps, and what Phong's materials draw.
 #pragma once
 
 #include <span>
 
 #include "lightproof/core/direction.h"
 #include "lightproof/core/grid.h"
-#include "reference/unit_transform.h"
+#include "reference/rosenblatt_transform.h"
 
 namespace lightproof::reference {
 
@@ -25,13 +25,13 @@ double density(std::span<const CosineLobe> lobes, Direction d);
 Extent cells_for(std::span<const CosineLobe> lobes);
 
 /// Probabilities of the cells of the square; they sum to 1. Lobes around +z in closed form, their
-/// cumulative law being cos^(n+1); others by quadrature.
+/// cumulative distribution being cos^(n+1); others by quadrature.
 Grid<double> cell_masses(std::span<const CosineLobe> lobes, Extent cells);
 
 /// Whether every lobe stands on +z.
 bool is_around_z(std::span<const CosineLobe> lobes);
 
 /// The transform to independent uniform numbers, for lobes around +z.
-UnitPoint unit_point(std::span<const CosineLobe> lobes, SquarePoint at);
+RosenblattPoint rosenblatt_point(std::span<const CosineLobe> lobes, SquarePoint at);
 
 }  // namespace lightproof::reference

@@ -23,7 +23,7 @@ int first_above(std::span<const double> masses, double u) {
   return last_positive;
 }
 
-bool knot_within(std::span<const double> masses, double u, double distance) {
+bool entry_within(std::span<const double> masses, double u, double distance) {
   const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
   double sum = 0.0;
   for (const double mass : masses) {
@@ -43,9 +43,9 @@ Texel SlowSampler::sample(SquarePoint u) const {
   return {first_above(masses_.row(y), u.s), y};
 }
 
-bool SlowSampler::near_knot(SquarePoint u, double distance) const {
-  return knot_within(rows_, u.t, distance) ||
-         knot_within(masses_.row(first_above(rows_, u.t)), u.s, distance);
+bool SlowSampler::near_entry(SquarePoint u, double distance) const {
+  return entry_within(rows_, u.t, distance) ||
+         entry_within(masses_.row(first_above(rows_, u.t)), u.s, distance);
 }
 
 }  // namespace lightproof::reference

@@ -24,9 +24,9 @@ class SlowSampler {
   /// The first row, then the first column in it, whose cumulative mass lies above u.
   Texel sample(SquarePoint u) const;
 
-  /// Whether u lies within `distance` of a knot of the row's or the column's distribution, where
-  /// a correct sampler of finite precision may return the neighbour.
-  bool near_knot(SquarePoint u, double distance) const;
+  /// Whether u lies within `distance` of a CDF entry of the row's or the column's distribution,
+  /// where a correct sampler of finite precision may return the neighbour.
+  bool near_entry(SquarePoint u, double distance) const;
 
  private:
   Grid<double> masses_;

@@ -6,7 +6,7 @@
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/measure.h"
-#include "reference/bilinear_law.h"
+#include "reference/bilinear_distribution.h"
 
 namespace lightproof::reference {
 namespace {
@@ -45,10 +45,11 @@ Grid<double> texel_masses(const EnvironmentMap& map, TargetDensity target) {
   for (int y = 0; y < extent.height; ++y) {
     const double low = static_cast<double>(y) / extent.height;
     const double high = (y + 1.0) / extent.height;
-    const double area =
-        target.weighting == Weighting::A ? high - low : cos_theta(high) - cos_theta(low);
+    const double area = target.density_space == DensitySpace::texture
+                            ? high - low
+                            : cos_theta(high) - cos_theta(low);
     for (int x = 0; x < extent.width; ++x) {
-      masses(x, y) = luminance(map.radiance(x, y), target.grey) * area;
+      masses(x, y) = luminance_of(map.radiance(x, y), target.weights) * area;
       total += masses(x, y);
     }
   }
@@ -57,11 +58,11 @@ Grid<double> texel_masses(const EnvironmentMap& map, TargetDensity target) {
   return masses;
 }
 
-Grid<double> bin_masses(const Grid<double>& texel_masses, Weighting weighting, Extent bins) {
+Grid<double> bin_masses(const Grid<double>& texel_masses, DensitySpace density_space, Extent bins) {
   const Extent extent = texel_masses.extent();
   const Grid<double> across = overlaps(extent.width, bins.width, [](double s) { return s; });
   const Grid<double> along = overlaps(extent.height, bins.height, [&](double t) {
-    return weighting == Weighting::A ? t : cos_theta(t);
+    return density_space == DensitySpace::texture ? t : cos_theta(t);
   });
   Grid<double> folded({bins.width, extent.height});
   for (int b = 0; b < bins.width; ++b) {
@@ -84,7 +85,7 @@ Grid<double> bin_masses(const Grid<double>& texel_masses, Weighting weighting, E
 
 Grid<double> bin_masses(const EnvironmentMap& map, TargetDensity target, Extent bins) {
   if (target.lookup == Lookup::bilinear) return bilinear_masses(map, target, bins);
-  return bin_masses(texel_masses(map, target), target.weighting, bins);
+  return bin_masses(texel_masses(map, target), target.density_space, bins);
 }
 
 std::vector<double> row_marginal(const Grid<double>& masses) {

@@ -13,7 +13,7 @@ Grid<double> texel_masses(const EnvironmentMap& map, TargetDensity target);
 
 /// Probability of every bin of a `bins` grid laid over the same square, from the exact overlap of
 /// texels and bins: linear in s; linear in t under A, in cos(theta) under B.
-Grid<double> bin_masses(const Grid<double>& texel_masses, Weighting weighting, Extent bins);
+Grid<double> bin_masses(const Grid<double>& texel_masses, DensitySpace density_space, Extent bins);
 
 /// The same of a map's own target density, whatever its look-up. Throws InputError if the map is
 /// black.

@@ -117,7 +117,7 @@ TEST(GateJson, HasTheTypesThatItsReadersExpect) {
   EXPECT_EQ(gate.at("seed"), 1);
   ASSERT_FALSE(gate.at("tests").empty());
   for (const json& test : gate.at("tests")) {
-    for (const char* key : {"sampler", "weighting", "map", "oracle", "test", "outcome"}) {
+    for (const char* key : {"sampler", "density", "map", "oracle", "test", "outcome"}) {
       EXPECT_TRUE(test.at(key).is_string() && !test.at(key).empty()) << key << test.dump();
     }
     const json& log10_p = test.at("log10_p");
@@ -132,9 +132,9 @@ TEST(GateJson, HasTheTypesThatItsReadersExpect) {
 TEST(GateJson, HoldsWhatWasChosen) {
   EXPECT_THAT(values_of(gate_results({"constant", "step"}), "map"),
               ElementsAre("constant", "step"));
-  const json scan = gate_results({"constant", "--sampler", "linear_scan", "--weighting", "B"});
+  const json scan = gate_results({"constant", "--sampler", "linear_scan", "--density", "B"});
   EXPECT_THAT(values_of(scan, "sampler"), ElementsAre("linear_scan"));
-  EXPECT_THAT(values_of(scan, "weighting"), ElementsAre("B"));
+  EXPECT_THAT(values_of(scan, "density"), ElementsAre("B"));
   EXPECT_EQ(values_of(gate_results({"--sampler", "binary_search"}), "map").size(), 8U);
   EXPECT_THAT(values_of(gate_results({"--sampler", "phong_45"}), "map"), ElementsAre("directions"));
 }
@@ -222,9 +222,9 @@ TEST(GateSequential, StopsBeforeAllSamplesAndSaysHowToRunItAgain) {
   const TemporaryFolder folder;
   const Finished gate =
       gate_into(folder / "g.json", {"gate", "sun-sky", "--size", "128x64", "--sampler", "squared",
-                                    "--weighting", "B", "--sequential"});
+                                    "--density", "B", "--sequential"});
   EXPECT_EQ(gate.exit_code, 1);
-  EXPECT_THAT(gate.out, AllOf(HasSubstr("grey squared"), HasSubstr("--sequential")));
+  EXPECT_THAT(gate.out, AllOf(HasSubstr("luminance squared"), HasSubstr("--sequential")));
   const json results = json_of(folder / "g.json");
   EXPECT_EQ(results.at("tests")[0].at("test"), "sequential");
   EXPECT_LT(results.at("tests")[0].at("samples"), 1 << 20);
@@ -309,9 +309,9 @@ TEST(GateSamplers, OfDirectionsTakeNoMap) {
 }
 
 TEST(GateSamplers, OfDirectionsHaveNoWeighting) {
-  const Finished gate = quick_gate({"--sampler", "cosine_hemisphere", "--weighting", "B"});
+  const Finished gate = quick_gate({"--sampler", "cosine_hemisphere", "--density", "B"});
   EXPECT_EQ(gate.exit_code, 2) << gate.out;
-  EXPECT_THAT(gate.err, AllOf(HasSubstr("--weighting"), HasSubstr("leave the option out")));
+  EXPECT_THAT(gate.err, AllOf(HasSubstr("--density"), HasSubstr("leave the option out")));
 }
 
 // The command that stands beside a rejection gives the same bits, out of a run over more samplers
@@ -349,7 +349,7 @@ TEST_P(GateReplay, ReproducesTheSameBits) {
     std::vector<json> expected;
     for (const json& test : all.at("tests")) {
       if (test.at("sampler") == rejection.at("sampler") &&
-          test.at("weighting") == rejection.at("weighting")) {
+          test.at("density") == rejection.at("density")) {
         expected.push_back(test);
       }
     }
@@ -369,7 +369,7 @@ INSTANTIATE_TEST_SUITE_P(Whole, GateReplay, testing::Values(false, true),
 TEST(GateLevel, OfTheNightHasAnotherSeedEveryDay) {
   const TemporaryFolder folder;
   EXPECT_EQ(gate_into(folder / "g.json", {"gate", "constant", "--size", "8x4", "--sampler",
-                                          "linear_scan", "--weighting", "B", "--level", "nightly"})
+                                          "linear_scan", "--density", "B", "--level", "nightly"})
                 .exit_code,
             0);
   const json results = json_of(folder / "g.json");

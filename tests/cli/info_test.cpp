@@ -97,9 +97,9 @@ TEST_F(Info, ReadsWhatTheOptionsChoose) {
   EXPECT_EQ(info({path("a.exr"), "--part", "1"}).exit_code, 2);
   EXPECT_THAT(Words(info_json({path("a.exr"), "--layer", "sky"}).at("read")),
               ElementsAre("sky.R", "sky.G", "sky.B"));
-  const json grey = info_json({path("a.exr"), "--channels", "sky.G", "--part", "0"});
-  EXPECT_THAT(Words(grey.at("read")), ElementsAre("sky.G"));
-  EXPECT_NEAR(grey.at("peak_luminance").get<double>(), 32.25, 1e-12);
+  const json luminance = info_json({path("a.exr"), "--channels", "sky.G", "--part", "0"});
+  EXPECT_THAT(Words(luminance.at("read")), ElementsAre("sky.G"));
+  EXPECT_NEAR(luminance.at("peak_luminance").get<double>(), 32.25, 1e-12);
 }
 
 // The least that a process of this program takes, with all its libraries, and no more than a

@@ -139,7 +139,7 @@ TEST_F(Study, LeavesNoPartsBehind) { EXPECT_THAT(parts_in(path("")), IsEmpty());
 std::vector<json> verdicts_on_maps(const json& gate) {
   std::vector<json> tests;
   for (json test : gate.at("tests")) {
-    test.erase("detectable_effect");
+    test.erase("minimum_detectable_effect");
     if (test.at("map") != "directions") tests.push_back(std::move(test));
   }
   return tests;

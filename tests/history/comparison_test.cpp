@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "lightproof/core/error.h"
-#include "made_up_runs.h"
+#include "synthetic_runs.h"
 
 namespace lightproof {
 namespace {
 
-using test::made_up_run;
-using test::made_up_session;
+using test::synthetic_run;
+using test::synthetic_session;
 using test::operator+;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -32,11 +32,12 @@ std::string refusal_of(const std::vector<BenchmarkRun>& runs, const std::string&
   return "";
 }
 
-const std::vector<BenchmarkRun> kSlow = made_up_session({.name = "slow", .ratio = 1.2, .seed = 1});
+const std::vector<BenchmarkRun> kSlow =
+    synthetic_session({.name = "slow", .ratio = 1.2, .seed = 1});
 const std::vector<BenchmarkRun> kSlowAgain =
-    made_up_session({.name = "again", .started = 1000, .ratio = 1.2, .seed = 2});
+    synthetic_session({.name = "again", .started = 1000, .ratio = 1.2, .seed = 2});
 const std::vector<BenchmarkRun> kSame =
-    made_up_session({.name = "same", .started = 1000, .ratio = 1.0, .seed = 3});
+    synthetic_session({.name = "same", .started = 1000, .ratio = 1.0, .seed = 3});
 
 TEST(Compare, NeedsTwoSessionsToCallItRegressed) {
   EXPECT_EQ(verdict_on(kSlow), RowVerdict::suspected);
@@ -46,16 +47,17 @@ TEST(Compare, NeedsTwoSessionsToCallItRegressed) {
 }
 
 TEST(Compare, LooksAtTheTwoLatestSessions) {
-  const auto latest = made_up_session({.name = "latest", .started = 2000, .ratio = 1.2, .seed = 4});
+  const auto latest =
+      synthetic_session({.name = "latest", .started = 2000, .ratio = 1.2, .seed = 4});
   EXPECT_EQ(verdict_on(kSlow + kSame + latest), RowVerdict::suspected);
   EXPECT_EQ(verdict_on(kSame + kSlow + latest), RowVerdict::suspected) << "by time, not by place";
 }
 
 TEST(Compare, SaysWhatIsFasterAndOnlyThere) {
-  EXPECT_EQ(verdict_on(made_up_session({.ratio = 0.8})), RowVerdict::faster);
+  EXPECT_EQ(verdict_on(synthetic_session({.ratio = 0.8})), RowVerdict::faster);
   auto runs = kSame;
-  runs.push_back(made_up_run("head", "same", 1000, {{"new", Metric::nanoseconds, 0, 1.0}}));
-  runs.push_back(made_up_run("base", "same", 1001, {{"old", Metric::instructions, 0, 1.0}}));
+  runs.push_back(synthetic_run("head", "same", 1000, {{"new", Metric::nanoseconds, 0, 1.0}}));
+  runs.push_back(synthetic_run("base", "same", 1001, {{"old", Metric::instructions, 0, 1.0}}));
   const Comparison comparison = compare(runs, "base", "head");
   ASSERT_EQ(comparison.rows.size(), 3U);
   EXPECT_EQ(count_of(comparison, RowVerdict::only_in_head), 1U);
@@ -65,8 +67,8 @@ TEST(Compare, SaysWhatIsFasterAndOnlyThere) {
 TEST(Compare, TakesInstructionsAtTheirWord) {
   const auto counts = [](double base, double head) {
     return std::vector<BenchmarkRun>{
-        made_up_run("base", "s", 0, {{"kernel", Metric::instructions, 0, base}}),
-        made_up_run("head", "s", 1, {{"kernel", Metric::instructions, 0, head}})};
+        synthetic_run("base", "s", 0, {{"kernel", Metric::instructions, 0, base}}),
+        synthetic_run("head", "s", 1, {{"kernel", Metric::instructions, 0, head}})};
   };
   EXPECT_EQ(verdict_on(counts(1000.0, 1020.0)), RowVerdict::regressed);
   EXPECT_EQ(verdict_on(counts(1000.0, 1005.0)), RowVerdict::same);
@@ -80,7 +82,7 @@ TEST(Compare, CountsAProcessOnce) {
     for (int k = 0; k < 10; ++k) {
       repetitions.push_back({"kernel", Metric::nanoseconds, k, 100.0 + k});
     }
-    runs.push_back(made_up_run(i % 2 == 0 ? "base" : "head", "s", i, repetitions));
+    runs.push_back(synthetic_run(i % 2 == 0 ? "base" : "head", "s", i, repetitions));
   }
   EXPECT_THAT(refusal_of(runs), AllOf(HasSubstr("kernel was run 3 times"), HasSubstr("7 runs")));
 }
@@ -128,9 +130,9 @@ TEST(Compare, RefusesRunsThatAreNotInterleaved) {
 }
 
 TEST(Compare, RefusesTooFewRuns) {
-  EXPECT_THAT(refusal_of(made_up_session({.processes = 6})),
+  EXPECT_THAT(refusal_of(synthetic_session({.processes = 6})),
               AllOf(HasSubstr("kernel was run 6 times"), HasSubstr("7 runs of each")));
-  EXPECT_EQ(refusal_of(made_up_session({.processes = 7})), "");
+  EXPECT_EQ(refusal_of(synthetic_session({.processes = 7})), "");
 }
 
 }  // namespace

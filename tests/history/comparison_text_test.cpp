@@ -6,20 +6,20 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "made_up_runs.h"
+#include "synthetic_runs.h"
 
 namespace lightproof {
 namespace {
 
-using test::made_up_session;
+using test::synthetic_session;
 using test::operator+;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
 Comparison of_ratio(double ratio, const std::string& kernel = "kernel") {
-  auto runs = made_up_session({.name = "1", .ratio = ratio, .seed = 1}) +
-              made_up_session({.name = "2", .started = 1000, .ratio = ratio, .seed = 2});
+  auto runs = synthetic_session({.name = "1", .ratio = ratio, .seed = 1}) +
+              synthetic_session({.name = "2", .started = 1000, .ratio = ratio, .seed = 2});
   for (BenchmarkRun& run : runs) {
     run.measurements[0].benchmark = kernel;
     run.measurements.push_back({"count", Metric::instructions, 0, 1000.0});
@@ -35,7 +35,7 @@ TEST(ComparisonTable, ShowsWhatWentWrongFirst) {
 }
 
 TEST(ComparisonTable, SaysWhatToDoAboutASuspicion) {
-  const auto runs = made_up_session({.ratio = 1.5});
+  const auto runs = synthetic_session({.ratio = 1.5});
   EXPECT_THAT(comparison_table(compare(runs, "base", "head")), HasSubstr("measure both"));
   EXPECT_THAT(comparison_table(of_ratio(1.0)), Not(HasSubstr("measure both")));
 }

@@ -14,8 +14,8 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// The law of the time of a process: log-normal; of a busy machine, one process in ten is late by
-/// up to a half.
+/// The distribution of the time of a process: log-normal; of a busy machine, one process in ten is
+/// late by up to a half.
 struct Law {
   double spread = 0.01;  ///< standard deviation of log time
   bool busy = false;
@@ -63,7 +63,7 @@ class FalseAlarms : public testing::TestWithParam<Law> {};
 // 4000 have a probability of 1e-7 at that rate.
 TEST_P(FalseAlarms, AreRarerThanAlpha) { EXPECT_LE(found(1.0, GetParam(), 4000), 18); }
 
-INSTANTIATE_TEST_SUITE_P(Laws, FalseAlarms,
+INSTANTIATE_TEST_SUITE_P(ScoredAlternatives, FalseAlarms,
                          testing::Values(Law{0.002}, Law{0.01}, Law{0.03}, Law{0.1},
                                          Law{0.01, true}, Law{0.1, true}),
                          [](const auto& test) {

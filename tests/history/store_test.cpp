@@ -9,7 +9,7 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/temporary_folder.h"
 #include "lightproof/history/sqlite.h"
-#include "made_up_runs.h"
+#include "synthetic_runs.h"
 
 namespace lightproof {
 namespace {
@@ -24,7 +24,7 @@ std::string bytes_of(const fs::path& file) {
 }
 
 BenchmarkRun some_run(int number) {
-  BenchmarkRun run = test::made_up_run("commit", "session", number, {});
+  BenchmarkRun run = test::synthetic_run("commit", "session", number, {});
   for (int i = 0; i < 50; ++i) {
     run.measurements.push_back({"kernel", Metric::nanoseconds, i, 1.0 + 0.1 * i});
   }

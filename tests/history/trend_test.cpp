@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "lightproof/history/trend_page.h"
-#include "made_up_runs.h"
+#include "synthetic_runs.h"
 
 namespace lightproof {
 namespace {
 
-using test::made_up_run;
+using test::synthetic_run;
 
 std::string commit_name(int number) { return "c" + std::to_string(number); }
 
@@ -24,9 +24,9 @@ std::vector<BenchmarkRun> twenty_commits() {
     const int commit = i / 3;
     const double level = commit < 12 ? 100.0 : 130.0;
     const double noise = 1.0 + 0.02 * stream.point(static_cast<std::uint64_t>(i)).s;
-    runs.push_back(made_up_run(commit_name(commit), "s" + std::to_string(commit), i,
-                               {{"kernel", Metric::nanoseconds, 0, level * noise},
-                                {"kernel", Metric::instructions, 0, commit < 5 ? 50.0 : 51.0}}));
+    runs.push_back(synthetic_run(commit_name(commit), "s" + std::to_string(commit), i,
+                                 {{"kernel", Metric::nanoseconds, 0, level * noise},
+                                  {"kernel", Metric::instructions, 0, commit < 5 ? 50.0 : 51.0}}));
   }
   return runs;
 }
@@ -63,8 +63,8 @@ TEST(Trend, TakesACommitForOneValue) {
   std::vector<BenchmarkRun> runs;
   for (int i = 0; i < 200; ++i) {
     const double level = i / 20 == 9 ? 110.0 : 100.0;
-    runs.push_back(made_up_run(commit_name(i / 20), "s" + std::to_string(i / 20), i,
-                               {{"kernel", Metric::nanoseconds, 0, level + 0.01 * (i % 20)}}));
+    runs.push_back(synthetic_run(commit_name(i / 20), "s" + std::to_string(i / 20), i,
+                                 {{"kernel", Metric::nanoseconds, 0, level + 0.01 * (i % 20)}}));
   }
   const TrendLine line = trend_lines(runs).at(0);
   EXPECT_EQ(line.points.size(), 10U);
@@ -75,8 +75,8 @@ TEST(Trend, TakesACommitForOneValue) {
 TEST(Trend, OrdersCommitsByWhenTheyWereFirstMeasured) {
   std::vector<BenchmarkRun> runs;
   for (const char* commit : {"b", "a", "b", "c"}) {
-    runs.push_back(made_up_run(commit, "s", static_cast<std::int64_t>(runs.size()),
-                               {{"kernel", Metric::nanoseconds, 0, 1.0}}));
+    runs.push_back(synthetic_run(commit, "s", static_cast<std::int64_t>(runs.size()),
+                                 {{"kernel", Metric::nanoseconds, 0, 1.0}}));
   }
   const TrendLine line = trend_lines(runs).at(0);
   ASSERT_EQ(line.points.size(), 3U);
@@ -102,8 +102,8 @@ std::vector<BenchmarkRun> thirty_sessions(std::uint64_t seed, double factor) {
         times.push_back({"kernel-" + std::to_string(k), Metric::nanoseconds, 0,
                          level * std::exp(0.02 * state + 0.01 * normal(number))});
       }
-      runs.push_back(made_up_run(commit_name(session), "s" + std::to_string(session),
-                                 3 * session + run, std::move(times)));
+      runs.push_back(synthetic_run(commit_name(session), "s" + std::to_string(session),
+                                   3 * session + run, std::move(times)));
     }
     state = 0.8 * state + 0.6 * normal(static_cast<std::uint64_t>(session + 1));
   }

@@ -1,12 +1,12 @@
-// write_sample_trend FILE: the page of a made-up history, with everything that a page can hold.
+// write_sample_trend FILE: the page of a synthetic history, with everything that a page can hold.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <filesystem>
 
-#include "lightproof/core/pending_file.h"
+#include "lightproof/core/atomic_file.h"
 #include "lightproof/history/trend_page.h"
-#include "made_up_runs.h"
+#include "synthetic_runs.h"
 
 namespace lightproof::test {
 namespace {
@@ -19,7 +19,7 @@ double level_of(int sampler, int commit) {
   return 1.0;
 }
 
-std::vector<BenchmarkRun> made_up_history() {
+std::vector<BenchmarkRun> synthetic_history() {
   constexpr const char* kSamplers[] = {"binary_search", "alias", "guide_table", "hierarchical",
                                        "</script><script>injected=1</script>"};
   const RandomStream stream("history/sample", 1);
@@ -36,11 +36,12 @@ std::vector<BenchmarkRun> made_up_history() {
       measurements.push_back({fmt::format("count/{}/sun-sky/512x256", kSamplers[k]),
                               Metric::instructions, 0, 3e5 * (k == 1 && commit > 17 ? 1.25 : 1.0)});
     }
-    runs.push_back(made_up_run(fmt::format("{:08x}90abcdef", 0x1f3a7c * (commit + 3)),
-                               fmt::format("session {}", commit), 1000 * i, measurements));
+    runs.push_back(synthetic_run(fmt::format("{:08x}90abcdef", 0x1f3a7c * (commit + 3)),
+                                 fmt::format("session {}", commit), 1000 * i, measurements));
   }
   // Too few commits for a change; a single one.
-  runs.push_back(made_up_run("c0ffee00", "last", 1000000, {{"new", Metric::nanoseconds, 0, 5.0}}));
+  runs.push_back(
+      synthetic_run("c0ffee00", "last", 1000000, {{"new", Metric::nanoseconds, 0, 5.0}}));
   return runs;
 }
 
@@ -53,6 +54,6 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(file.parent_path());
   lightproof::write_file(
       file,
-      lightproof::trend_page(lightproof::trend_lines(lightproof::test::made_up_history()), "0"));
+      lightproof::trend_page(lightproof::trend_lines(lightproof::test::synthetic_history()), "0"));
   return 0;
 }

@@ -351,7 +351,7 @@ TEST(Reader, ClampsInfinityToTheLargestFiniteValue) {
   const auto light = [](const Grid<Rgb>& of) {
     double sum = 0.0;
     for (int y = 0; y < 4; ++y) {
-      for (int x = 0; x < 8; ++x) sum += texel_solid_angle({8, 4}, y) * luminance(of(x, y));
+      for (int x = 0; x < 8; ++x) sum += texel_solid_angle({8, 4}, y) * luminance_of(of(x, y));
     }
     return sum;
   };
@@ -379,20 +379,20 @@ TEST(Reader, ReadsTheChannelsThatAreNamed) {
   Grid<Rgb> swapped = picture;
   for (Rgb& rgb : swapped.values()) rgb = {rgb.b, rgb.g, rgb.r};
   EXPECT_TRUE(is_flipped(read({.channels = {"B", "G", "R"}, .layer = "diffuse"}), swapped));
-  Grid<Rgb> grey = picture;
-  for (Rgb& rgb : grey.values()) rgb = Rgb(rgb.g);
+  Grid<Rgb> luminance = picture;
+  for (Rgb& rgb : luminance.values()) rgb = Rgb(rgb.g);
   const EnvironmentMap single = read({.channels = {"diffuse.G"}});
-  EXPECT_TRUE(is_flipped(single, grey));
+  EXPECT_TRUE(is_flipped(single, luminance));
   EXPECT_THAT(single.notes, Contains(HasSubstr("diffuse.G was read as grey")));
 }
 
 TEST(Reader, ReadsSingleChannelsAsGreyOnRequest) {
   const TemporaryFolder folder;
-  const ReadOptions grey = {.selection = {.channels = {"Y"}}};
+  const ReadOptions luminance = {.selection = {.channels = {"Y"}}};
   test::write_integer_picture(folder / "a.png", {2, 1}, 1, {0, 255}, 8);
-  EXPECT_EQ(read_environment_map(folder / "a.png", grey).radiance(1, 0), Rgb(1.0F));
+  EXPECT_EQ(read_environment_map(folder / "a.png", luminance).radiance(1, 0), Rgb(1.0F));
   test::write_exr_file(folder / "a.exr", test::numbered_picture({8, 4}), {.channels = {"Y"}});
-  EXPECT_EQ(read_environment_map(folder / "a.exr", grey).radiance(7, 0), Rgb(32.0F));
+  EXPECT_EQ(read_environment_map(folder / "a.exr", luminance).radiance(7, 0), Rgb(32.0F));
   test::write_hdr_file(folder / "a.hdr", "-Y 2 +X 4", kRgbe);
   const EnvironmentMap green =
       read_environment_map(folder / "a.hdr", {.selection = {.channels = {"G"}}});

@@ -196,11 +196,11 @@ TEST(Luminance, WeighsTheChannels) {
   map.radiance(0, 0) = {1.0F, 0.0F, 0.0F};
   map.radiance(1, 0) = {0.0F, 2.0F, 0.0F};
   map.radiance(2, 0) = {0.0F, 0.0F, 4.0F};
-  const Grid<double> grey = luminance(map);
-  EXPECT_DOUBLE_EQ(grey(0, 0), 0.2126);
-  EXPECT_DOUBLE_EQ(grey(1, 0), 2 * 0.7152);
-  EXPECT_DOUBLE_EQ(grey(2, 0), 4 * 0.0722);
-  EXPECT_DOUBLE_EQ(luminance(map, kPublishedLuminance)(1, 0), 2 * 0.5866);
+  const Grid<double> luminance = luminance_of(map);
+  EXPECT_DOUBLE_EQ(luminance(0, 0), 0.2126);
+  EXPECT_DOUBLE_EQ(luminance(1, 0), 2 * 0.7152);
+  EXPECT_DOUBLE_EQ(luminance(2, 0), 4 * 0.0722);
+  EXPECT_DOUBLE_EQ(luminance_of(map, kPublishedLuminance)(1, 0), 2 * 0.5866);
 }
 
 }  // namespace

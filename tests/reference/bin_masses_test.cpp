@@ -11,7 +11,7 @@
 namespace lightproof::reference {
 namespace {
 
-constexpr Weighting kWeightings[] = {Weighting::A, Weighting::B};
+constexpr DensitySpace kDensitySpaces[] = {DensitySpace::texture, DensitySpace::solid_angle};
 constexpr Extent kBins[] = {{1, 1}, {16, 8}, {32, 16}, {16, 32}, {5, 7}};
 
 double sum_of(const Grid<double>& grid) {
@@ -19,23 +19,23 @@ double sum_of(const Grid<double>& grid) {
 }
 
 /// The bin's share of the square under A, of the sphere under B.
-double exact_area(Weighting weighting, Extent bins, int y) {
-  if (weighting == Weighting::A) return 1.0 / static_cast<double>(bins.count());
+double exact_area(DensitySpace density_space, Extent bins, int y) {
+  if (density_space == DensitySpace::texture) return 1.0 / static_cast<double>(bins.count());
   const double low = std::cos(kPi * y / bins.height);
   const double high = std::cos(kPi * (y + 1) / bins.height);
   return 0.5 * (low - high) / bins.width;
 }
 
-Grid<double> masses_of(const EnvironmentMap& map, Weighting weighting, Extent bins) {
-  return bin_masses(texel_masses(map, {weighting}), weighting, bins);
+Grid<double> masses_of(const EnvironmentMap& map, DensitySpace density_space, Extent bins) {
+  return bin_masses(texel_masses(map, {density_space}), density_space, bins);
 }
 
-void expect_areas(const EnvironmentMap& map, Weighting weighting, Extent bins) {
-  const auto masses = masses_of(map, weighting, bins);
+void expect_areas(const EnvironmentMap& map, DensitySpace density_space, Extent bins) {
+  const auto masses = masses_of(map, density_space, bins);
   ASSERT_EQ(masses.extent(), bins);
   for (int y = 0; y < bins.height; ++y) {
     for (const double mass : masses.row(y)) {
-      EXPECT_NEAR(mass, exact_area(weighting, bins, y), 1e-12);
+      EXPECT_NEAR(mass, exact_area(density_space, bins, y), 1e-12);
     }
   }
 }
@@ -44,15 +44,16 @@ TEST(BinMasses, OfTheConstantMapAreTheAreasOfTheBins) {
   for (const Extent extent : kExtents) {
     const EnvironmentMap map = make_synthetic_map("constant", extent);
     for (const Extent bins : kBins) {
-      for (const Weighting weighting : kWeightings) expect_areas(map, weighting, bins);
+      for (const DensitySpace density_space : kDensitySpaces)
+        expect_areas(map, density_space, bins);
     }
   }
 }
 
 void expect_total_of_one(const EnvironmentMap& map) {
-  for (const Weighting weighting : kWeightings) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     for (const Extent bins : kBins) {
-      EXPECT_NEAR(sum_of(masses_of(map, weighting, bins)), 1.0, 1e-12) << map.name;
+      EXPECT_NEAR(sum_of(masses_of(map, density_space, bins)), 1.0, 1e-12) << map.name;
     }
   }
 }
@@ -65,9 +66,9 @@ TEST(BinMasses, KeepTheTotalOfEveryMap) {
 
 TEST(BinMasses, OfAsManyBinsAreTheTexelMasses) {
   const Extent extent = {33, 17};
-  for (const Weighting weighting : kWeightings) {
-    const auto texels = texel_masses(make_synthetic_map("gradient", extent), {weighting});
-    const auto bins = bin_masses(texels, weighting, extent);
+  for (const DensitySpace density_space : kDensitySpaces) {
+    const auto texels = texel_masses(make_synthetic_map("gradient", extent), {density_space});
+    const auto bins = bin_masses(texels, density_space, extent);
     for (std::size_t i = 0; i < extent.count(); ++i) {
       EXPECT_NEAR(bins.values()[i], texels.values()[i], 1e-15);
     }
@@ -75,8 +76,8 @@ TEST(BinMasses, OfAsManyBinsAreTheTexelMasses) {
 }
 
 TEST(BinMasses, ShareATexelAcrossInProportionToWidth) {
-  for (const Weighting weighting : kWeightings) {
-    const auto bins = masses_of(grey_map({2, 1}, {1, 3}), weighting, {3, 1});
+  for (const DensitySpace density_space : kDensitySpaces) {
+    const auto bins = masses_of(grey_map({2, 1}, {1, 3}), density_space, {3, 1});
     EXPECT_NEAR(bins(0, 0), 1.0 / 6.0, 1e-15);
     EXPECT_NEAR(bins(1, 0), 1.0 / 12.0 + 1.0 / 4.0, 1e-15);
     EXPECT_NEAR(bins(2, 0), 1.0 / 2.0, 1e-15);
@@ -87,11 +88,11 @@ TEST(BinMasses, ShareATexelAlongInProportionToItsMeasure) {
   // Two hemispheres of masses 1/4 and 3/4 in three bands of 60 degrees. Under A an equator texel
   // gives a third to the middle band; under B, whose bands are 1/4, 1/2, 1/4 of the sphere, half.
   const EnvironmentMap map = grey_map({1, 2}, {1, 3});
-  const auto a = masses_of(map, Weighting::A, {1, 3});
+  const auto a = masses_of(map, DensitySpace::texture, {1, 3});
   EXPECT_NEAR(a(0, 0), 2.0 / 3.0 / 4.0, 1e-15);
   EXPECT_NEAR(a(0, 1), 1.0 / 3.0, 1e-15);
   EXPECT_NEAR(a(0, 2), 2.0 / 4.0, 1e-15);
-  const auto b = masses_of(map, Weighting::B, {1, 3});
+  const auto b = masses_of(map, DensitySpace::solid_angle, {1, 3});
   EXPECT_NEAR(b(0, 0), 0.5 / 4.0, 1e-15);
   EXPECT_NEAR(b(0, 1), 0.5, 1e-15);
   EXPECT_NEAR(b(0, 2), 1.5 / 4.0, 1e-15);
@@ -100,8 +101,8 @@ TEST(BinMasses, ShareATexelAlongInProportionToItsMeasure) {
 TEST(BinMasses, OfOneTexelAreZeroOutsideIt) {
   // The lit texel (2, 3) of 7 x 5: s in [2/7, 3/7), t in [3/5, 4/5).
   const EnvironmentMap map = make_synthetic_map("one-texel", {7, 5});
-  for (const Weighting weighting : kWeightings) {
-    const auto bins = masses_of(map, weighting, {14, 20});
+  for (const DensitySpace density_space : kDensitySpaces) {
+    const auto bins = masses_of(map, density_space, {14, 20});
     for (int y = 0; y < 20; ++y) {
       for (int x = 0; x < 14; ++x) {
         // Edges that coincide on paper may differ by an ulp: no more than that leaks.

@@ -14,28 +14,28 @@ namespace lightproof::test {
 inline const double kPi = std::acos(-1.0);
 
 /// The value at (s, t) of the texel there.
-inline double nearest_value(const Grid<double>& grey, double s, double t) {
-  const auto [width, height] = grey.extent();
-  return grey(std::min(static_cast<int>(s * width), width - 1),
-              std::min(static_cast<int>(t * height), height - 1));
+inline double nearest_value(const Grid<double>& luminance, double s, double t) {
+  const auto [width, height] = luminance.extent();
+  return luminance(std::min(static_cast<int>(s * width), width - 1),
+                   std::min(static_cast<int>(t * height), height - 1));
 }
 
 /// Every centre's value, weighted by tents as wide as two texels: around the seam in s, held fast
 /// beyond the last centres in t.
-inline double interpolated_value(const Grid<double>& grey, double s, double t) {
-  const auto [width, height] = grey.extent();
+inline double interpolated_value(const Grid<double>& luminance, double s, double t) {
+  const auto [width, height] = luminance.extent();
   const auto tent = [](double distance) { return std::max(0.0, 1.0 - std::abs(distance)); };
   const double row = std::clamp(t * height, 0.5, height - 0.5);
   double sum = 0.0;
   for (int y = 0; y < height; ++y) {
     for (int x = -width; x < 2 * width; ++x) {
-      sum += tent(row - 0.5 - y) * tent(s * width - 0.5 - x) * grey((x + width) % width, y);
+      sum += tent(row - 0.5 - y) * tent(s * width - 0.5 - x) * luminance((x + width) % width, y);
     }
   }
   return sum;
 }
 
-using Value = double (*)(const Grid<double>& grey, double s, double t);
+using Value = double (*)(const Grid<double>& luminance, double s, double t);
 
 /// Calls visit(s, t, area) at the middle of each of so many cells of the square.
 template <class Visit>
@@ -50,13 +50,13 @@ void visit_middles(Extent cells, const Visit& visit) {
 
 /// Masses of the cells of a lattice, of density value (times sin(pi t) if over directions); they
 /// sum to 1.
-inline Grid<double> lattice_masses(const Grid<double>& grey, Value value, bool over_directions,
+inline Grid<double> lattice_masses(const Grid<double>& luminance, Value value, bool over_directions,
                                    Extent cells) {
   Grid<double> masses(cells);
   double total = 0.0;
   std::size_t i = 0;
   visit_middles(cells, [&](double s, double t, double /*area*/) {
-    masses.values()[i] = value(grey, s, t) * (over_directions ? std::sin(kPi * t) : 1.0);
+    masses.values()[i] = value(luminance, s, t) * (over_directions ? std::sin(kPi * t) : 1.0);
     total += masses.values()[i++];
   });
   for (double& mass : masses.values()) mass /= total;
@@ -81,14 +81,14 @@ struct Factor {
   double pdf;
 };
 
-inline StrategyMoments strategy_moments(const Grid<double>& grey, Value value,
+inline StrategyMoments strategy_moments(const Grid<double>& luminance, Value value,
                                         const std::function<Factor(double, double, double)>& at,
                                         Extent cells) {
   double mean = 0.0;   // of L over the square
   double whole = 0.0;  // of L over the sphere
   visit_middles(cells, [&](double s, double t, double area) {
-    mean += value(grey, s, t) * area;
-    whole += value(grey, s, t) * 2.0 * kPi * kPi * std::sin(kPi * t) * area;
+    mean += value(luminance, s, t) * area;
+    whole += value(luminance, s, t) * 2.0 * kPi * kPi * std::sin(kPi * t) * area;
   });
   StrategyMoments moments;
   visit_middles(cells, [&](double s, double t, double area) {
@@ -96,7 +96,7 @@ inline StrategyMoments strategy_moments(const Grid<double>& grey, Value value,
     const double phi = kPi - 2.0 * kPi * s;
     const auto [k, pdf] =
         at(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
-    const double light = value(grey, s, t);
+    const double light = value(luminance, s, t);
     const double jacobian = 2.0 * kPi * kPi * std::sin(theta);
     const auto add = [&](StrategyMoments::Of& of, double density) {
       if (!(density > 0.0)) return;

@@ -6,12 +6,12 @@
 
 #include "brute_force.h"
 #include "maps.h"
-#include "reference/bilinear_law.h"
+#include "reference/bilinear_distribution.h"
 #include "reference/bilinear_moments.h"
 #include "reference/cosine_lobes.h"
 #include "reference/estimator_moments.h"
+#include "reference/rosenblatt_transform.h"
 #include "reference/texel_masses.h"
-#include "reference/unit_transform.h"
 
 namespace lightproof::reference {
 namespace {
@@ -29,7 +29,7 @@ EnvironmentMap uneven_map() {
 }
 
 /// 2^-24 of a weight is what a 32-bit texel may be off.
-Grid<double> uneven_grey() { return luminance(uneven_map()); }
+Grid<double> uneven_luminance() { return luminance_of(uneven_map()); }
 
 /// Smooth on the upper hemisphere, and 0 on the lower one, with an edge on an edge of all cells.
 KernelValue half_kernel(Direction d) {
@@ -60,10 +60,10 @@ void expect_moments(const EstimatorMoments& exact, const test::StrategyMoments::
 }
 
 void expect_strategies(const LightMoments& exact, test::Value value) {
-  const Grid<double> grey = uneven_grey();
+  const Grid<double> luminance = uneven_luminance();
   // Whole numbers of cells for every half of a texel.
-  const auto coarse = test::strategy_moments(grey, value, half_factor, {320, 256});
-  const auto fine = test::strategy_moments(grey, value, half_factor, {640, 512});
+  const auto coarse = test::strategy_moments(luminance, value, half_factor, {320, 256});
+  const auto fine = test::strategy_moments(luminance, value, half_factor, {640, 512});
   {
     SCOPED_TRACE("uniform");
     expect_moments(exact.uniform, coarse.uniform, fine.uniform);
@@ -83,28 +83,28 @@ void expect_strategies(const LightMoments& exact, test::Value value) {
 }
 
 TEST(LightMoments, AreThoseOfABruteSum) {
-  const Grid<double> grids[] = {uneven_grey()};
+  const Grid<double> grids[] = {uneven_luminance()};
   expect_strategies(light_moments(smooth_kernel(), grids).front(), test::nearest_value);
 }
 
 TEST(BilinearMoments, AreThoseOfABruteSum) {
-  expect_strategies(bilinear_light_moments(smooth_kernel(), uneven_grey()),
+  expect_strategies(bilinear_light_moments(smooth_kernel(), uneven_luminance()),
                     test::interpolated_value);
 }
 
 /// E[1/p], E[1/p^2] and the largest 1/p where the texel's own value is 1 and more.
 test::StrategyMoments::Of inverse_pdf(bool over_directions, Extent cells) {
-  const Grid<double> grey = uneven_grey();
+  const Grid<double> luminance = uneven_luminance();
   double total = 0.0;
   test::visit_middles(cells, [&](double s, double t, double area) {
     const double jacobian = 2.0 * kPi * kPi * std::sin(kPi * t);
-    total += test::interpolated_value(grey, s, t) * (over_directions ? jacobian : 1.0) * area;
+    total += test::interpolated_value(luminance, s, t) * (over_directions ? jacobian : 1.0) * area;
   });
   test::StrategyMoments::Of moments;
   test::visit_middles(cells, [&](double s, double t, double area) {
-    if (test::nearest_value(grey, s, t) < 0.9) return;
+    if (test::nearest_value(luminance, s, t) < 0.9) return;
     const double jacobian = 2.0 * kPi * kPi * std::sin(kPi * t);
-    const double light = test::interpolated_value(grey, s, t);
+    const double light = test::interpolated_value(luminance, s, t);
     const double pdf = light / total / (over_directions ? 1.0 : jacobian);
     moments.raw[0] += jacobian * area;
     moments.raw[1] += jacobian * area / pdf;
@@ -114,12 +114,12 @@ test::StrategyMoments::Of inverse_pdf(bool over_directions, Extent cells) {
 }
 
 TEST(BilinearInversePdf, IsThatOfABruteSum) {
-  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
-    const bool over_directions = weighting == Weighting::B;
+  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+    const bool over_directions = density_space == DensitySpace::solid_angle;
     const auto coarse = inverse_pdf(over_directions, {320, 256});
     const auto fine = inverse_pdf(over_directions, {640, 512});
     const EstimatorMoments exact = bilinear_inverse_pdf(
-        uneven_grey(), weighting, [](double radiance) { return radiance >= 0.9; });
+        uneven_luminance(), density_space, [](double radiance) { return radiance >= 0.9; });
     for (std::size_t m = 0; m < 2; ++m) {
       const double change = std::abs(fine.raw[m] - coarse.raw[m]);
       ASSERT_LT(change, 1e-3 * fine.raw[m]);
@@ -149,16 +149,19 @@ constexpr double kLattice = 1e-5;
 constexpr double kLatticeOfMean = 4e-5;
 
 TEST(BinMasses, AreThoseOfABruteSumHoweverBinsLie) {
-  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
     for (const Lookup look_up : {Lookup::nearest, Lookup::bilinear}) {
       const auto value =
           look_up == Lookup::nearest ? test::nearest_value : test::interpolated_value;
       for (const Extent bins : {Extent{7, 6}, {3, 3}, {10, 16}}) {
         const Extent cells = {10 * bins.width, 384};
         const double mean = 1.0 / static_cast<double>(bins.count());
-        const Grid<double> sums = sums_of_bins(
-            test::lattice_masses(uneven_grey(), value, weighting == Weighting::B, cells), bins);
-        const Grid<double> exact = bin_masses(uneven_map(), {weighting, kRec709, look_up}, bins);
+        const Grid<double> sums =
+            sums_of_bins(test::lattice_masses(uneven_luminance(), value,
+                                              density_space == DensitySpace::solid_angle, cells),
+                         bins);
+        const Grid<double> exact =
+            bin_masses(uneven_map(), {density_space, kRec709, look_up}, bins);
         for (std::size_t i = 0; i < bins.count(); ++i) {
           EXPECT_NEAR(exact.values()[i], sums.values()[i],
                       kLattice * sums.values()[i] + kLatticeOfMean * mean)
@@ -172,31 +175,32 @@ TEST(BinMasses, AreThoseOfABruteSumHoweverBinsLie) {
 /// The mass below t, and the mass to the left of s.
 struct Below {
   explicit Below(const Grid<double>& masses)
-      : along(static_cast<std::size_t>(masses.extent().height) + 1),
-        column(static_cast<std::size_t>(masses.extent().width) + 1) {
+      : marginal(static_cast<std::size_t>(masses.extent().height) + 1),
+        column_marginal(static_cast<std::size_t>(masses.extent().width) + 1) {
     for (int y = 0; y < masses.extent().height; ++y) {
       for (int x = 0; x < masses.extent().width; ++x) {
-        along[static_cast<std::size_t>(y) + 1] += masses(x, y);
-        column[static_cast<std::size_t>(x) + 1] += masses(x, y);
+        marginal[static_cast<std::size_t>(y) + 1] += masses(x, y);
+        column_marginal[static_cast<std::size_t>(x) + 1] += masses(x, y);
       }
     }
-    for (std::size_t i = 1; i < along.size(); ++i) along[i] += along[i - 1];
-    for (std::size_t i = 1; i < column.size(); ++i) column[i] += column[i - 1];
+    for (std::size_t i = 1; i < marginal.size(); ++i) marginal[i] += marginal[i - 1];
+    for (std::size_t i = 1; i < column_marginal.size(); ++i)
+      column_marginal[i] += column_marginal[i - 1];
   }
 
-  std::vector<double> along;
-  std::vector<double> column;
+  std::vector<double> marginal;
+  std::vector<double> column_marginal;
 };
 
 /// The share of what lies left of s on the line at t, of a function without kinks between tenths.
-double share_to_the_left(const Grid<double>& grey, test::Value value, double s, double t) {
+double share_to_the_left(const Grid<double>& luminance, test::Value value, double s, double t) {
   constexpr int kParts = 640;
   double left = 0.0;
   double whole = 0.0;
   for (int i = 0; i < kParts; ++i) {
     const double at = (i + 0.5) / kParts;
-    whole += value(grey, at, t);
-    if (at < s) left += value(grey, at, t);
+    whole += value(luminance, at, t);
+    if (at < s) left += value(luminance, at, t);
   }
   return left / whole;
 }
@@ -206,30 +210,31 @@ constexpr Extent kLatticeOfPlaces = {320, 384};
 
 /// transform({s, t}) at all places but the ends.
 template <class Transform>
-void expect_transform(test::Value value, Weighting weighting, const Transform& transform) {
-  const Grid<double> grey = uneven_grey();
-  const Below below(test::lattice_masses(grey, value, weighting == Weighting::B, kLatticeOfPlaces));
+void expect_transform(test::Value value, DensitySpace density_space, const Transform& transform) {
+  const Grid<double> luminance = uneven_luminance();
+  const Below below(test::lattice_masses(
+      luminance, value, density_space == DensitySpace::solid_angle, kLatticeOfPlaces));
   for (int j = 1; j < kPlaces.height; ++j) {
     for (int i = 1; i < kPlaces.width; ++i) {
       // Inside of a texel: its edges belong to either side.
       const SquarePoint at = {static_cast<double>(i) / kPlaces.width,
                               static_cast<double>(j) / kPlaces.height};
-      const UnitPoint point = transform(at);
+      const RosenblattPoint point = transform(at);
       const auto row = static_cast<std::size_t>(16 * j);
       const auto column = static_cast<std::size_t>(16 * i);
-      EXPECT_NEAR(point.along, below.along[row], kLattice) << at.t;
-      EXPECT_NEAR(point.column, below.column[column], kLattice) << at.s;
+      EXPECT_NEAR(point.marginal, below.marginal[row], kLattice) << at.t;
+      EXPECT_NEAR(point.column_marginal, below.column_marginal[column], kLattice) << at.s;
       if (j * kExtent.height % kPlaces.height == 0) continue;  // two rows meet
-      EXPECT_NEAR(point.across, share_to_the_left(grey, value, at.s, at.t), 1e-12)
+      EXPECT_NEAR(point.conditional, share_to_the_left(luminance, value, at.s, at.t), 1e-12)
           << at.s << ", " << at.t;
     }
   }
 }
 
-TEST(UnitTransform, IsThatOfABruteSum) {
-  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
-    const UnitTransform transform(texel_masses(uneven_map(), {weighting}), weighting);
-    expect_transform(test::nearest_value, weighting, [&](SquarePoint at) {
+TEST(RosenblattTransform, IsThatOfABruteSum) {
+  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+    const RosenblattTransform transform(texel_masses(uneven_map(), {density_space}), density_space);
+    expect_transform(test::nearest_value, density_space, [&](SquarePoint at) {
       return transform(at, static_cast<int>(at.s * kExtent.width),
                        static_cast<int>(at.t * kExtent.height));
     });
@@ -237,9 +242,9 @@ TEST(UnitTransform, IsThatOfABruteSum) {
 }
 
 TEST(BilinearTransform, IsThatOfABruteSum) {
-  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
-    const BilinearTransform transform(uneven_map(), {weighting, kRec709, Lookup::bilinear});
-    expect_transform(test::interpolated_value, weighting, transform);
+  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+    const BilinearTransform transform(uneven_map(), {density_space, kRec709, Lookup::bilinear});
+    expect_transform(test::interpolated_value, density_space, transform);
   }
 }
 
@@ -319,12 +324,12 @@ TEST(CosineLobes, PointingDownAreThosePointingUpTurnedOver) {
 
 TEST(CosineLobes, TransformMixturesByTheirShares) {
   const CosineLobe lobes[] = {{{0.0, 0.0, 1.0}, 1.0, 0.25}, {{0.0, 0.0, 1.0}, 10.0, 0.75}};
-  const UnitPoint at = unit_point(lobes, {0.3, 2.0 / 3.0});  // cos(theta) = 1/2
-  EXPECT_NEAR(at.along, 0.25 * 0.25 + 0.75 * 0x1p-11, 1e-14);
-  EXPECT_EQ(at.across, 0.3);
-  EXPECT_EQ(at.column, 0.3);
-  EXPECT_EQ(unit_point(lobes, {0.3, 0.4}).along, 0.0) << "below the horizon";
-  EXPECT_EQ(unit_point(lobes, {0.3, 1.0}).along, 1.0);
+  const RosenblattPoint at = rosenblatt_point(lobes, {0.3, 2.0 / 3.0});  // cos(theta) = 1/2
+  EXPECT_NEAR(at.marginal, 0.25 * 0.25 + 0.75 * 0x1p-11, 1e-14);
+  EXPECT_EQ(at.conditional, 0.3);
+  EXPECT_EQ(at.column_marginal, 0.3);
+  EXPECT_EQ(rosenblatt_point(lobes, {0.3, 0.4}).marginal, 0.0) << "below the horizon";
+  EXPECT_EQ(rosenblatt_point(lobes, {0.3, 1.0}).marginal, 1.0);
 }
 
 }  // namespace

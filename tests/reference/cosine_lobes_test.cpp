@@ -24,15 +24,15 @@ double mass_above(const Grid<double>& masses, double least_t) {
   return sum;
 }
 
-// Within 60 degrees of the axis lie half of the hemisphere, three quarters of the cosine's law, and
-// 1 - 2^-11 of the tenth power's.
+// Within 60 degrees of the axis lie half of the hemisphere, three quarters of the cosine's
+// distribution, and 1 - 2^-11 of the tenth power's.
 TEST(CosineLobes, HoldTheShareOfTheirConeAroundZ) {
   for (const auto& [exponent, share] :
        {std::pair(0.0, 0.5), std::pair(1.0, 0.75), std::pair(10.0, 1.0 - 0x1p-11)}) {
     const CosineLobe lobe = {kUp, exponent, 1.0};
     // t = 2/3 is no row of 128; 192 rows have it.
     EXPECT_NEAR(mass_above(cell_masses({&lobe, 1}, {16, 192}), 2.0 / 3.0), share, 1e-14);
-    EXPECT_NEAR(unit_point({&lobe, 1}, {0.3, 2.0 / 3.0}).along, 1.0 - share, 1e-14);
+    EXPECT_NEAR(rosenblatt_point({&lobe, 1}, {0.3, 2.0 / 3.0}).marginal, 1.0 - share, 1e-14);
   }
 }
 
@@ -43,8 +43,8 @@ TEST(CosineLobes, KnowTheirDensityOnTheAxisAndBeyondTheHorizon) {
   EXPECT_EQ(density(lobes, {-0.6, 0.0, -0.8}), 0.0);
 }
 
-// The closed form around +z and the quadrature around any other axis must be the same law: a lobe
-// around +x, turned by hand, against one around +z.
+// The closed form around +z and the quadrature around any other axis must be the same distribution:
+// a lobe around +x, turned by hand, against one around +z.
 TEST(CosineLobes, QuadratureAgreesWithTheClosedForm) {
   const CosineLobe up = {kUp, 20.0, 1.0};
   const CosineLobe nearly_up = {{1e-9, 0.0, 1.0}, 20.0, 1.0};

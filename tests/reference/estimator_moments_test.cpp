@@ -19,7 +19,7 @@ Kernel constant_kernel() {
 }
 
 LightMoments moments(const Kernel& kernel, const EnvironmentMap& map) {
-  const Grid<double> grids[] = {luminance(map)};
+  const Grid<double> grids[] = {luminance_of(map)};
   return light_moments(kernel, grids).front();
 }
 
@@ -128,8 +128,8 @@ INSTANTIATE_TEST_SUITE_P(LightMoments, EveryExtent, testing::ValuesIn(kShapes), 
 
 /// 4 pi^4 A sum L W2, W2 = (theta/2 - sin(2 theta)/4)/(pi S) from edge to edge: E[X^2] of scheme A
 /// for k = 1.
-double second_moment_of_a(const Grid<double>& grey) {
-  const Extent extent = grey.extent();
+double second_moment_of_a(const Grid<double>& luminance) {
+  const Extent extent = luminance.extent();
   const auto primitive = [](double theta) { return 0.5 * theta - 0.25 * std::sin(2.0 * theta); };
   double mean = 0.0;
   double sum = 0.0;
@@ -137,7 +137,7 @@ double second_moment_of_a(const Grid<double>& grey) {
     const double low = kPi * (1.0 - (y + 1.0) / extent.height);
     const double high = kPi * (1.0 - static_cast<double>(y) / extent.height);
     const double w2 = (primitive(high) - primitive(low)) / (kPi * extent.width);
-    for (const double value : grey.row(y)) {
+    for (const double value : luminance.row(y)) {
       mean += value / static_cast<double>(extent.count());
       sum += value * w2;
     }
@@ -151,10 +151,10 @@ TEST(LightMoments, OfTheIntegralOfAnyMapAreClosedForms) {
     for (const Extent extent : {Extent{7, 5}, Extent{33, 17}}) {
       SCOPED_TRACE(synthetic.name);
       const EnvironmentMap map = synthetic.make(extent);
-      const Grid<double> grey = luminance(map);
+      const Grid<double> luminance = luminance_of(map);
       double total = 0.0;
       for (int y = 0; y < extent.height; ++y) {
-        for (const double value : grey.row(y)) total += value * texel_solid_angle(extent, y);
+        for (const double value : luminance.row(y)) total += value * texel_solid_angle(extent, y);
       }
       const LightMoments m = moments(constant_kernel(), map);
       for (std::size_t i = 0; i < 4; ++i) {
@@ -162,7 +162,7 @@ TEST(LightMoments, OfTheIntegralOfAnyMapAreClosedForms) {
         EXPECT_NEAR(m.environment_b.raw[i] / power, 1.0, kSmooth);
       }
       EXPECT_NEAR(m.environment_a.mean() / total, 1.0, kSmooth);
-      EXPECT_NEAR(m.environment_a.raw[1] / second_moment_of_a(grey), 1.0, kSmooth);
+      EXPECT_NEAR(m.environment_a.raw[1] / second_moment_of_a(luminance), 1.0, kSmooth);
     }
   }
 }
@@ -183,7 +183,7 @@ TEST(LightMoments, OfSeveralMapsAreThoseOfEach) {
   const Kernel kernel = cosine_kernel(glm::normalize(Direction(1, 1, 2)));
   const EnvironmentMap first = make_synthetic_map("gradient", extent);
   const EnvironmentMap second = make_synthetic_map("sun-sky", extent);
-  const Grid<double> grids[] = {luminance(first), luminance(second)};
+  const Grid<double> grids[] = {luminance_of(first), luminance_of(second)};
   const auto together = light_moments(kernel, grids);
   ASSERT_EQ(together.size(), 2U);
   EXPECT_EQ(together[0].environment_a.raw, moments(kernel, first).environment_a.raw);
@@ -194,10 +194,10 @@ TEST(LightMoments, OfSeveralMapsAreThoseOfEach) {
 TEST(LightMoments, ScaleWithTheExposure) {
   const Extent extent = {3, 5};
   const Kernel kernel = cosine_kernel({0, 0, 1});
-  Grid<double> grey = luminance(make_synthetic_map("gradient", extent));
-  const Grid<double> unit[] = {grey};
-  for (double& value : grey.values()) value *= 0x1p60;
-  const Grid<double> bright[] = {grey};
+  Grid<double> luminance = luminance_of(make_synthetic_map("gradient", extent));
+  const Grid<double> unit[] = {luminance};
+  for (double& value : luminance.values()) value *= 0x1p60;
+  const Grid<double> bright[] = {luminance};
   const LightMoments a = light_moments(kernel, unit).front();
   const LightMoments b = light_moments(kernel, bright).front();
   for (std::size_t m = 0; m < 4; ++m) {

@@ -16,8 +16,8 @@ constexpr double kStep = kPi / 256.0;
 /// Axis of the lobe and the step.
 constexpr Direction kAxis = {2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0};
 
-double irradiance(const Grid<double>& grey, Direction normal) {
-  const Grid<double> grids[] = {grey};
+double irradiance(const Grid<double>& luminance, Direction normal) {
+  const Grid<double> grids[] = {luminance};
   const LightMoments m = light_moments(cosine_kernel(normal), grids).front();
   EXPECT_NEAR(m.environment_a.mean(), m.uniform.mean(), 1e-12 * m.uniform.mean());
   EXPECT_NEAR(m.environment_b.mean(), m.uniform.mean(), 1e-12 * m.uniform.mean());
@@ -34,7 +34,7 @@ Direction at_angle(double gamma, bool other_plane) {
 constexpr double kAngles[] = {0.0, 0.4, 1.0, 0.5 * kPi, 2.0, 2.7};
 
 TEST(Irradiance, OfTheStepIsThatOfASphericalWedge) {
-  const Grid<double> grey = luminance(make_synthetic_map("step", kExtent));
+  const Grid<double> luminance = luminance_of(make_synthetic_map("step", kExtent));
   // Texels within half a diagonal r of the edge may be wrong. The band of half-width r around a
   // great circle adds at most r times the integral of (n.w)+ along the circle, which is 2, on the
   // side of falsely lit texels, and no more on the other: |error| <= 2 r. Both sides are alike but
@@ -43,13 +43,13 @@ TEST(Irradiance, OfTheStepIsThatOfASphericalWedge) {
   for (const double gamma : kAngles) {
     for (const bool other : {false, true}) {
       const double exact = kPi * (1.0 + std::cos(gamma)) / 2.0;
-      EXPECT_NEAR(irradiance(grey, at_angle(gamma, other)), exact, 2.0 * radius) << gamma;
+      EXPECT_NEAR(irradiance(luminance, at_angle(gamma, other)), exact, 2.0 * radius) << gamma;
     }
   }
 }
 
 TEST(Irradiance, OfTheCosineLobeIsItsClosedForm) {
-  const Grid<double> grey = luminance(make_synthetic_map("cosine-lobe", kExtent));
+  const Grid<double> luminance = luminance_of(make_synthetic_map("cosine-lobe", kExtent));
   // The value at the centre of a texel stands for all of it. By Taylor in theta and phi the error
   // is h^2/12 times the integral of L_tt/2 k sin + L_t (k sin)_t + (L_pp/2 k + L_p k_p) sin over
   // the pi^2 of (theta, phi) where k = (n.w)+ is positive; every factor is a projection of a unit
@@ -59,27 +59,27 @@ TEST(Irradiance, OfTheCosineLobeIsItsClosedForm) {
   for (const double gamma : kAngles) {
     for (const bool other : {false, true}) {
       const double exact = 2.0 / 3.0 * ((kPi - gamma) * std::cos(gamma) + std::sin(gamma));
-      EXPECT_NEAR(irradiance(grey, at_angle(gamma, other)), exact, bound) << gamma;
+      EXPECT_NEAR(irradiance(luminance, at_angle(gamma, other)), exact, bound) << gamma;
     }
   }
 }
 
 TEST(Irradiance, OfTheGradientIsLinearInTheNormal) {
   // L = c (1 + z/2): E = pi c (1 + n.z/3); of z the centre is off the mean by a factor 1 - h^2/24.
-  const Grid<double> grey = luminance(make_synthetic_map("gradient", kExtent));
+  const Grid<double> luminance = luminance_of(make_synthetic_map("gradient", kExtent));
   const double c = 0.2126 + 0.7152 * 0.75 + 0.0722 * 0.5;
   for (const Direction along :
        {Direction(0, 0, 1), Direction(0, 0, -1), Direction(1, 0, 0), Direction(1, -2, 2) / 3.0}) {
     const double exact = kPi * c * (1.0 + along.z / 3.0);
-    EXPECT_NEAR(irradiance(grey, along), exact, kPi * (kStep * kStep / 24.0) + 1e-6);
+    EXPECT_NEAR(irradiance(luminance, along), exact, kPi * (kStep * kStep / 24.0) + 1e-6);
   }
 }
 
 TEST(Irradiance, OfOneVisibleTexelIsItsExactVector) {
   // E = n.V, V = (int sin^2 (sin phi1 - sin phi0), int sin^2 (cos phi0 - cos phi1),
   // dphi [sin^2/2]); the texel (170, 192) of 512 x 256, well above the horizon of the normals.
-  const Grid<double> grey = luminance(make_synthetic_map("one-texel", kExtent));
-  ASSERT_NEAR(grey(170, 192), 1.0, 1e-15);
+  const Grid<double> luminance = luminance_of(make_synthetic_map("one-texel", kExtent));
+  ASSERT_NEAR(luminance(170, 192), 1.0, 1e-15);
   const double phi0 = kPi - 2.0 * kPi * 171.0 / 512.0;
   const double phi1 = kPi - 2.0 * kPi * 170.0 / 512.0;
   const double theta0 = kPi * (1.0 - 193.0 / 256.0);
@@ -93,10 +93,10 @@ TEST(Irradiance, OfOneVisibleTexelIsItsExactVector) {
   for (const Direction along : {Direction(0, 0, 1), Direction(1, 1, 1), Direction(1, 2, 0)}) {
     const Direction normal = glm::normalize(along);
     ASSERT_GT(glm::dot(normal, v), 0.0);
-    // Gauss-Legendre: h^4/4320 = 5e-12 of it, and the grey weights' own rounding.
-    EXPECT_NEAR(irradiance(grey, normal) / glm::dot(normal, v), 1.0, 1e-10);
+    // Gauss-Legendre: h^4/4320 = 5e-12 of it, and the luminance weights' own rounding.
+    EXPECT_NEAR(irradiance(luminance, normal) / glm::dot(normal, v), 1.0, 1e-10);
   }
-  EXPECT_EQ(irradiance(grey, -glm::normalize(v)), 0.0);
+  EXPECT_EQ(irradiance(luminance, -glm::normalize(v)), 0.0);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace lightproof {
 
-/// A map of these grey values, row t = 0 first.
+/// A map of these luminances, row t = 0 first.
 inline EnvironmentMap grey_map(Extent extent, const std::vector<float>& values) {
   EnvironmentMap map{"grey", Grid<Rgb>(extent), {}};
   for (std::size_t i = 0; i < values.size(); ++i) map.radiance.values()[i] = Rgb(values[i]);

@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr Weighting kWeightings[] = {Weighting::A, Weighting::B};
+constexpr DensitySpace kDensitySpaces[] = {DensitySpace::texture, DensitySpace::solid_angle};
 // Cosines of two edges cancel: an absolute rounding of 1e-16 of a band that is 1e-4 and more here,
 // and as much again for the total.
 constexpr double kRelative = 1e-11;
@@ -39,8 +39,8 @@ double share_of_sphere(Extent extent, int y) {
 TEST(TexelMasses, SumToOneOnEveryMap) {
   for (const SyntheticMap& synthetic : synthetic_maps()) {
     for (const Extent extent : kExtents) {
-      for (const Weighting weighting : kWeightings) {
-        const auto masses = texel_masses(synthetic.make(extent), {weighting});
+      for (const DensitySpace density_space : kDensitySpaces) {
+        const auto masses = texel_masses(synthetic.make(extent), {density_space});
         EXPECT_EQ(masses.extent(), extent);
         // 2048 additions at most.
         EXPECT_NEAR(sum_of(masses), 1.0, 2048 * 2.3e-16) << synthetic.name;
@@ -51,7 +51,8 @@ TEST(TexelMasses, SumToOneOnEveryMap) {
 
 TEST(TexelMasses, OfTheConstantMapAreEqualUnderA) {
   for (const Extent extent : kExtents) {
-    const auto masses = texel_masses(make_synthetic_map("constant", extent), {Weighting::A});
+    const auto masses =
+        texel_masses(make_synthetic_map("constant", extent), {DensitySpace::texture});
     const double exact = 1.0 / static_cast<double>(extent.count());
     for (const double mass : masses.values()) EXPECT_NEAR(mass, exact, kRelative * exact);
   }
@@ -59,7 +60,8 @@ TEST(TexelMasses, OfTheConstantMapAreEqualUnderA) {
 
 TEST(TexelMasses, OfTheConstantMapAreSolidAnglesUnderB) {
   for (const Extent extent : kExtents) {
-    const auto masses = texel_masses(make_synthetic_map("constant", extent), {Weighting::B});
+    const auto masses =
+        texel_masses(make_synthetic_map("constant", extent), {DensitySpace::solid_angle});
     for (int y = 0; y < extent.height; ++y) {
       const double exact = share_of_sphere(extent, y);
       for (const double mass : masses.row(y)) EXPECT_NEAR(mass, exact, kRelative * exact);
@@ -69,7 +71,8 @@ TEST(TexelMasses, OfTheConstantMapAreSolidAnglesUnderB) {
 
 TEST(TexelMasses, KeepTheirDigitsAtThePolesOfATallMap) {
   const Extent extent = {1, 4096};
-  const auto masses = texel_masses(make_synthetic_map("constant", extent), {Weighting::B});
+  const auto masses =
+      texel_masses(make_synthetic_map("constant", extent), {DensitySpace::solid_angle});
   for (const int y : {0, 1, 2047, 2048, 4094, 4095}) {
     // The polar band is 1.5e-7 of the sphere: 1e-16 of cancellation is 2e-9 of it.
     EXPECT_NEAR(masses(0, y) / share_of_sphere(extent, y), 1.0, 2e-9) << y;
@@ -80,9 +83,9 @@ TEST(TexelMasses, FollowTheValuesAndNotTheExposure) {
   const Extent extent = {2, 2};
   for (const float scale : {1.0F, 1e-30F, 1e30F}) {
     const auto map = grey_map(extent, {1 * scale, 3 * scale, 0 * scale, 4 * scale});
-    for (const Weighting weighting : kWeightings) {
+    for (const DensitySpace density_space : kDensitySpaces) {
       // Both halves of the sphere are equal under A and B. A float has 24 bits.
-      const auto masses = texel_masses(map, {weighting});
+      const auto masses = texel_masses(map, {density_space});
       EXPECT_NEAR(masses(0, 0), 0.125, 1e-7);
       EXPECT_NEAR(masses(1, 0), 0.375, 1e-7);
       EXPECT_EQ(masses(0, 1), 0.0);
@@ -94,8 +97,8 @@ TEST(TexelMasses, FollowTheValuesAndNotTheExposure) {
 TEST(TexelMasses, OfThreeRowsDifferBetweenTheWeightings) {
   // Bands of 60 degrees: a quarter, a half and a quarter of the sphere.
   const auto map = grey_map({1, 3}, {1, 2, 3});
-  const auto a = texel_masses(map, {Weighting::A});
-  const auto b = texel_masses(map, {Weighting::B});
+  const auto a = texel_masses(map, {DensitySpace::texture});
+  const auto b = texel_masses(map, {DensitySpace::solid_angle});
   const double of_a[] = {1.0 / 6.0, 2.0 / 6.0, 3.0 / 6.0};
   const double of_b[] = {1.0 / 8.0, 4.0 / 8.0, 3.0 / 8.0};
   for (int y = 0; y < 3; ++y) {
@@ -109,8 +112,8 @@ TEST(TexelMasses, UseTheDeclaredGrey) {
   map.radiance(0, 0) = {1, 0, 0};
   map.radiance(1, 0) = {0, 1, 0};
   map.radiance(2, 0) = {0, 0, 1};
-  const auto rec709 = texel_masses(map, {Weighting::A});
-  const auto published = texel_masses(map, {Weighting::B, kPublishedLuminance});
+  const auto rec709 = texel_masses(map, {DensitySpace::texture});
+  const auto published = texel_masses(map, {DensitySpace::solid_angle, kPublishedLuminance});
   const double of_rec709[] = {0.2126, 0.7152, 0.0722};
   const double of_published[] = {0.2989, 0.5866, 0.1145};
   for (int x = 0; x < 3; ++x) {
@@ -120,9 +123,9 @@ TEST(TexelMasses, UseTheDeclaredGrey) {
 }
 
 TEST(TexelMasses, OfABlackMapAreRefused) {
-  for (const Weighting weighting : kWeightings) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     try {
-      texel_masses(grey_map({2, 2}, {0, 0, 0, 0}), {weighting});
+      texel_masses(grey_map({2, 2}, {0, 0, 0, 0}), {density_space});
       ADD_FAILURE() << "nothing was thrown";
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), HasSubstr("grey"));

@@ -14,7 +14,7 @@
 #include "lightproof/image/synthetic.h"
 #include "lightproof/render/picture.h"
 #include "lightproof/stats/moment_tests.h"
-#include "lightproof/suite/exact_light.h"
+#include "lightproof/study/exact_light.h"
 
 namespace lightproof {
 namespace {
@@ -22,8 +22,8 @@ namespace {
 /// All tests of this file together reject a correct integrator with probability 1e-6.
 constexpr double kFamilyAlpha = 1e-6;
 
-Moments grey_moments(const Lighting& lighting, const ShadingPoint& point,
-                     const RandomStream& stream, std::uint64_t samples) {
+Moments luminance_moments(const Lighting& lighting, const ShadingPoint& point,
+                          const RandomStream& stream, std::uint64_t samples) {
   constexpr std::uint64_t kTask = std::uint64_t{1} << 16U;
   std::vector<Moments> parts((samples + kTask - 1) / kTask);
   parallel_for(parts.size(), [&](std::size_t task) {
@@ -32,7 +32,7 @@ Moments grey_moments(const Lighting& lighting, const ShadingPoint& point,
     for (std::uint64_t first = task * kTask; first < end; first += LightBatch::kCapacity) {
       const auto count = std::min<std::uint64_t>(LightBatch::kCapacity, end - first);
       for (const Rgb rgb : batch.estimate(lighting, point, stream, first, count)) {
-        parts[task].add(luminance(rgb));
+        parts[task].add(luminance_of(rgb));
       }
     }
   });
@@ -73,11 +73,11 @@ TEST_P(Unoccluded, EveryStrategyAgreesWithQuadrature) {
   const ReceiverInfo& receiver = receiver_by_name(GetParam().receiver);
   const Scene scene(receiver.content);
   const auto pixels = few_pixels(receiver, scene);
-  const Grid<double> grey = luminance(map);
+  const Grid<double> luminance = luminance_of(map);
   // 3 receivers, 3 maps, 2 materials, 4 strategies, at most 6 pixels.
   const double log10_level = std::log10(0.5 * kFamilyAlpha / (3 * 3 * 2 * 4 * 6));
   for (const MaterialInfo& material : materials()) {
-    const auto exact = exact_light({&grey, 1}, receiver, scene, material.material, pixels);
+    const auto exact = exact_light({&luminance, 1}, receiver, scene, material.material, pixels);
     for (const StrategyInfo& strategy : kStrategies) {
       for (std::size_t i = 0; i < pixels.size(); ++i) {
         const auto& moments = moments_of(exact[0][i], strategy.strategy);
@@ -86,8 +86,8 @@ TEST_P(Unoccluded, EveryStrategyAgreesWithQuadrature) {
         const Lighting lighting{&scene, &light, material.material, strategy.strategy};
         const bool constant = moments.variance() < 1e-8 * moments.raw[1];
         const Moments measured =
-            grey_moments(lighting, pixels[i].point, RandomStream("unoccluded/" + name, 1),
-                         constant ? 65536 : samples_for_normal_tails(moments));
+            luminance_moments(lighting, pixels[i].point, RandomStream("unoccluded/" + name, 1),
+                              constant ? 65536 : samples_for_normal_tails(moments));
         if (constant) {
           // No variance but the quadrature's error; float radiance and weights, a few roundings.
           EXPECT_NEAR(measured.mean() / moments.mean(), 1.0, 1e-6) << name;
@@ -115,18 +115,19 @@ TEST_P(Occluded, EveryStrategyAgreesWithUniformSampling) {
   const ReceiverInfo& receiver = receiver_by_name("sphere-on-plane");
   const Scene scene(receiver.content);
   const auto pixels = few_pixels(receiver, scene);
-  const Grid<double> grey = luminance(map);
+  const Grid<double> luminance = luminance_of(map);
   // 2 maps, 2 materials, 3 pairs, at most 6 pixels.
   const double log10_level = std::log10(0.5 * kFamilyAlpha / (2 * 2 * 3 * 6));
   for (const MaterialInfo& material : materials()) {
-    const auto exact = exact_light({&grey, 1}, receiver, scene, material.material, pixels);
+    const auto exact = exact_light({&luminance, 1}, receiver, scene, material.material, pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const auto measure = [&](const StrategyInfo& strategy) {
         const std::string name =
             fmt::format("occluded/{}/{}/{}/{}", map.name, material.name, strategy.name, i);
         const auto& moments = moments_of(exact[0][i], strategy.strategy);
-        return grey_moments({&scene, &light, material.material, strategy.strategy}, pixels[i].point,
-                            RandomStream(name, 1), samples_for_normal_tails(moments));
+        return luminance_moments({&scene, &light, material.material, strategy.strategy},
+                                 pixels[i].point, RandomStream(name, 1),
+                                 samples_for_normal_tails(moments));
       };
       const Moments uniform = measure(kStrategies.front());
       for (std::size_t k = 1; k < kStrategies.size(); ++k) {
@@ -149,7 +150,8 @@ TEST(Occlusion, TheSphereDarkensThePlaneBelowIt) {
   const Scene shaded({true, true});
   const RandomStream stream("darkens", 1);
   const auto mean = [&](const Scene& scene) {
-    return grey_moments({&scene, &light, material, Strategy::material}, near, stream, 65536).mean();
+    return luminance_moments({&scene, &light, material, Strategy::material}, near, stream, 65536)
+        .mean();
   };
   // Cosine sampling of a constant map: albedo without a sphere, less than it with one.
   EXPECT_NEAR(mean(open), 0.8, 1e-6);

@@ -29,7 +29,7 @@ TEST(SeriesStyles, DifferInColourAndInShape) {
 }
 
 TEST(ConvergenceChart, HasEveryPointAndAListOfMapsAndScenes) {
-  const json chart = json::parse(convergence_chart(testing::made_up_study().convergence));
+  const json chart = json::parse(convergence_chart(testing::synthetic_study().convergence));
   EXPECT_EQ(chart["data"]["values"].size(), 128U * 6U);
   ASSERT_EQ(chart["params"].size(), 2U);
   EXPECT_EQ(chart["params"][0]["bind"]["options"].size(), 8U);
@@ -37,7 +37,7 @@ TEST(ConvergenceChart, HasEveryPointAndAListOfMapsAndScenes) {
 }
 
 TEST(ConvergenceChart, OffersOnlyWhatWasMeasured) {
-  StudyResult study = testing::made_up_study();
+  StudyResult study = testing::synthetic_study();
   study.convergence.resize(21);  // two maps, one of them with two of the four scenes
   const json chart = json::parse(convergence_chart(study.convergence));
   ASSERT_EQ(chart["params"].size(), 1U);
@@ -45,7 +45,7 @@ TEST(ConvergenceChart, OffersOnlyWhatWasMeasured) {
 }
 
 TEST(ConvergenceChart, LeavesOutWhatALogarithmCannotShow) {
-  StudyResult study = testing::made_up_study();
+  StudyResult study = testing::synthetic_study();
   study.convergence.resize(4);
   study.convergence[0].measured_variance = 0.0;  // all but exact
   study.convergence[0].predicted_variance = 1e-10;
@@ -59,7 +59,7 @@ TEST(ConvergenceChart, LeavesOutWhatALogarithmCannotShow) {
 }
 
 TEST(SmallConvergenceCharts, ShareTheirAxis) {
-  const auto records = testing::made_up_study().convergence;
+  const auto records = testing::synthetic_study().convergence;
   const std::string scene = scene_name(records[0]);
   const json a = json::parse(small_convergence_chart(records, "city", scene));
   const json b = json::parse(small_convergence_chart(records, "night", scene));
@@ -71,7 +71,7 @@ TEST(SmallConvergenceCharts, ShareTheirAxis) {
 }
 
 TEST(VarianceChart, HasBarsOfTwoStandardErrors) {
-  auto records = testing::made_up_study().convergence;
+  auto records = testing::synthetic_study().convergence;
   records.resize(2);
   records[0].predicted_variance = 2.0;
   records[0].measured_variance = 2.2;
@@ -91,7 +91,7 @@ std::vector<std::string> names_of(const std::vector<TableRecord>& records) {
 }
 
 TEST(ParetoFront, IsWhatNothingBeatsInBothCosts) {
-  const std::vector<TableRecord> tables = testing::made_up_study().tables;
+  const std::vector<TableRecord> tables = testing::synthetic_study().tables;
   EXPECT_EQ(
       names_of(pareto_front(tables, &TableRecord::worst_texel_error, &TableRecord::ns_per_sample)),
       (std::vector<std::string>{"alias", "packed_alias"}));
@@ -101,7 +101,7 @@ TEST(ParetoFront, IsWhatNothingBeatsInBothCosts) {
 }
 
 TEST(TableChart, MarksTheFrontOfTheLargestMap) {
-  std::vector<TableRecord> tables = testing::made_up_study().tables;
+  std::vector<TableRecord> tables = testing::synthetic_study().tables;
   tables.push_back({"small map", "sun-sky", {4, 2}, 1.0, 1.0, 1e-9, 99.0, 1.0});
   const json rows =
       json::parse(table_chart(tables, &TableRecord::bytes_per_texel, "size"))["data"]["values"];
@@ -113,7 +113,7 @@ TEST(TableChart, MarksTheFrontOfTheLargestMap) {
 }
 
 TEST(ThroughputChart, NamesTheExponents) {
-  const json rows = json::parse(throughput_chart(testing::made_up_study()))["data"]["values"];
+  const json rows = json::parse(throughput_chart(testing::synthetic_study()))["data"]["values"];
   ASSERT_EQ(rows.size(), 15U);
   EXPECT_EQ(rows[0]["series"], "binary_search, exponent 0.16");
   EXPECT_EQ(rows[0]["size"], 384.0);
@@ -131,7 +131,7 @@ std::vector<std::string> framed(const json& chart, const std::string& name) {
 }
 
 TEST(ThroughputChart, FramesThePointsBeyondACacheAndTheKnees) {
-  const json chart = json::parse(throughput_chart(testing::made_up_study()));
+  const json chart = json::parse(throughput_chart(testing::synthetic_study()));
   EXPECT_EQ(framed(chart, "first table beyond L2 (1\u00a0MiB)"),
             (std::vector<std::string>{"1024\u00d7512 binary_search",
                                       "1024\u00d7512 linear_scan_published",
@@ -139,20 +139,20 @@ TEST(ThroughputChart, FramesThePointsBeyondACacheAndTheKnees) {
   EXPECT_EQ(framed(chart, "first table beyond L3 (32\u00a0MiB)"),
             std::vector<std::string>{"4096\u00d72048 binary_search"});
   EXPECT_EQ(
-      framed(chart, "measured knee of the time of a step"),
+      framed(chart, "measured breakpoint of the time of a step"),
       (std::vector<std::string>{"512\u00d7256 binary_search", "1024\u00d7512 binary_search"}));
   const json names = chart["layer"][2]["encoding"]["shape"]["scale"]["domain"];
   EXPECT_EQ(names.size(), 3U + 3U) << "the legend has the samplers and the frames";
 }
 
 TEST(ThroughputChart, HasNoFramesWhereNothingIsKnown) {
-  StudyResult study = testing::made_up_study();
+  StudyResult study = testing::synthetic_study();
   study.growth.clear();
   EXPECT_EQ(json::parse(throughput_chart(study))["layer"].size(), 3U);
 }
 
 TEST(BuildChart, ShowsTheTimesAgainstTexels) {
-  StudyResult study = testing::made_up_study();
+  StudyResult study = testing::synthetic_study();
   study.throughput[1].build_ms = 0.0;
   const json rows = json::parse(build_chart(study))["data"]["values"];
   ASSERT_EQ(rows.size(), 14U);

@@ -7,7 +7,7 @@
 
 #include "fixture.h"
 #include "lightproof/report/findings.h"
-#include "lightproof/report/table.h"
+#include "lightproof/report/gate_table.h"
 
 namespace lightproof {
 namespace {
@@ -53,7 +53,7 @@ TEST(ReplayCommand, IsQuotedAndComplete) {
   gate.input_options = " --repair";
   gate.tests[1].source = "maps/it's mine.exr";
   EXPECT_EQ(replay_command(gate, gate.tests[1]),
-            "lightproof gate 'maps/it'\\''s mine.exr' --sampler mine --weighting B --repair "
+            "lightproof gate 'maps/it'\\''s mine.exr' --sampler mine --density B --repair "
             "--samples 4194304 --seed 7");
   gate.sequential = true;
   gate.family = 12;
@@ -115,14 +115,14 @@ TEST(Markdown, NamesTheWorstFirstAndStaysBelowItsLimit) {
 }
 
 /// Each sampler on each map has two rejected tests.
-GateResult gate_with_configurations(std::size_t configurations) {
+GateResult gate_with_configurations(std::size_t runs) {
   GateResult gate{1e-6, 4194304, 7, {}};
-  for (std::size_t i = 0; i < configurations; ++i) {
+  for (std::size_t i = 0; i < runs; ++i) {
     for (const double log10_p : {-20.0, -30.0 - static_cast<double>(i)}) {
       TestRecord test = testing::accepted_test("mine", "map" + std::to_string(i));
       test.outcome = Outcome::reject;
       test.log10_p = log10_p;
-      test.test = log10_p < -20.0 ? "rows" : "texels";
+      test.test = log10_p < -20.0 ? TestId::rows : TestId::texels;
       test.detail = "row 0\nis 100% dark";
       gate.tests.push_back(test);
     }

@@ -14,7 +14,7 @@ namespace {
 std::ptrdiff_t lines(const std::string& csv) { return std::count(csv.begin(), csv.end(), '\n'); }
 
 TEST(Csv, HasOneRowPerRecordBelowItsHeading) {
-  const StudyResult study = testing::made_up_study();
+  const StudyResult study = testing::synthetic_study();
   EXPECT_EQ(lines(gate_csv(study.gate)), 1 + 704);
   EXPECT_EQ(lines(convergence_csv(study.convergence)), 1 + 128 * 6);
   EXPECT_EQ(lines(variance_csv(study.convergence)), 1 + 128);
@@ -30,9 +30,9 @@ TEST(Csv, QuotesWhatWouldSplitAField) {
   gate.tests = {testing::accepted_test("a,b", "say \"x\"\nhere")};
   gate.tests[0].log10_p.reset();
   EXPECT_EQ(gate_csv(gate),
-            "sampler,weighting,map,oracle,test,samples,statistic,dof,log10_p,effect,"
-            "detectable_effect,outcome,known_defect,detail\n"
-            "\"a,b\",B,\"say \"\"x\"\"\nhere\",reference,chi_square_grid,4194304,1031.2,1023,,"
+            "sampler,density,map,oracle,test,samples,statistic,dof,log10_p,effect,"
+            "minimum_detectable_effect,outcome,known_defect,detail\n"
+            "\"a,b\",B,\"say \"\"x\"\"\nhere\",reference,bins 16x32,4194304,1031.2,1023,,"
             "0.0157,0.0186,accept,no,\n");
 }
 
@@ -46,7 +46,7 @@ TEST(Csv, LetsNoNameBeAFormula) {
 }
 
 TEST(Csv, LeavesAFieldEmptyWhereThereIsNoKneeAndNoCache) {
-  std::vector<GrowthFit> growth = testing::made_up_study().growth;
+  std::vector<GrowthFit> growth = testing::synthetic_study().growth;
   EXPECT_NE(growth_csv(growth).find("binary_search,log2 S + log2 T,0.161,0.004,1,0.012,1024x512,"
                                     "4096x2048,0.02,512x256; 1024x512,0.31; 0.12,0.0021\n"),
             std::string::npos)

@@ -39,9 +39,10 @@ TEST(Headline, CountsTheTestsOfSoundSamplers) {
             "On two maps, binary_search draws the right distribution: 0 of 2 tests rejected at a "
             "family-wise error of 1e-6");
   tests.push_back(testing::accepted_test("alias", "city"));
-  EXPECT_EQ(headline(with_tests(tests)),
-            "On two maps, all 2 sound samplers draw the right distribution: 0 of 3 tests rejected "
-            "at a family-wise error of 1e-6");
+  EXPECT_EQ(
+      headline(with_tests(tests)),
+      "On two maps, all 2 correct samplers draw the right distribution: 0 of 3 tests rejected "
+      "at a family-wise error of 1e-6");
   EXPECT_EQ(headline(with_tests({other})),
             "On one map, linear_scan_published does not draw the right distribution: 1 of 1 test "
             "rejected at a family-wise error of 1e-6");
@@ -85,7 +86,7 @@ TEST(SamplerFindings, NameTheWorstTestAndKnownDefects) {
   mild.log10_p = -8.0;
   mild.known_defect = true;
   TestRecord grave = mild;
-  grave.test = "rows";
+  grave.test = TestId::rows;
   grave.log10_p = -80.0;
   grave.detail = "row 0 is never drawn";
   const auto findings =
@@ -223,10 +224,11 @@ TEST(KneesFinding, NamesTheSamplersThatHaveOne) {
   GrowthFit straight;
   GrowthFit bent;
   bent.sampler = "bent";
-  bent.knees = {0.0, {{{512, 256}, 0.5}, {{2048, 1024}, 0.1}}, 0.001};
-  EXPECT_EQ(knees_finding({straight, bent}),
-            "The time of a step has measured knees: bent at 512\u00d7256 and 2048\u00d71024.");
-  EXPECT_EQ(knees_finding({straight}), "The time of a step has no measured knee.");
+  bent.breakpoints = {0.0, {{{512, 256}, 0.5}, {{2048, 1024}, 0.1}}, 0.001};
+  EXPECT_EQ(
+      breakpoints_finding({straight, bent}),
+      "The time of a step has measured breakpoints: bent at 512\u00d7256 and 2048\u00d71024.");
+  EXPECT_EQ(breakpoints_finding({straight}), "The time of a step has no measured breakpoint.");
 }
 
 TEST(BuildFinding, GivesTheExponentsAndTheSlowestOnTheLargestMap) {

@@ -70,15 +70,13 @@ MapRecord map_record(std::size_t number) {
   return record;
 }
 
-TestRecord test_record(const std::string& sampler, const std::string& map,
-                       const std::array<std::string, 2>& kind) {
+TestRecord test_record(const std::string& sampler, const std::string& map, TestId test) {
   TestRecord t = accepted_test(sampler, map);
-  t.oracle = kind[0];
-  t.test = kind[1];
-  t.log10_p = -std::abs(noise(sampler + map + kind[0] + kind[1], 0));
-  if (kind[0] == "check") {
+  t.test = test;
+  t.log10_p = -std::abs(noise(sampler + map + full_name(test), 0));
+  if (describe(test).oracle == Oracle::check) {
     t.log10_p.reset();
-    t.detectable_effect.reset();
+    t.minimum_detectable_effect.reset();
     t.dof = 0.0;
   }
   return t;
@@ -86,7 +84,9 @@ TestRecord test_record(const std::string& sampler, const std::string& map,
 
 void spoil(TestRecord& t) {
   if (t.sampler != "linear_scan_published" || t.map != kMaps[7]) return;
-  if (t.test != "chi_square_grid" && t.test != "in_range") return;
+  if (t.test != TestId::bins && t.test != TestId::own_pdf_bins && t.test != TestId::in_domain) {
+    return;
+  }
   t.outcome = Outcome::reject;
   if (t.log10_p) t.log10_p = -41.7;
   t.effect = 0.0312;
@@ -96,22 +96,22 @@ void spoil(TestRecord& t) {
 }
 
 GateResult gate() {
-  const std::array<std::array<std::string, 2>, 8> kinds = {{{"self", "chi_square_grid"},
-                                                            {"reference", "chi_square_grid"},
-                                                            {"reference", "kuiper_phi"},
-                                                            {"reference", "anderson_darling_theta"},
-                                                            {"mean", "z"},
-                                                            {"variance", "z"},
-                                                            {"check", "pdf_integral"},
-                                                            {"check", "in_range"}}};
+  const std::array kinds = {TestId::own_pdf_bins,
+                            TestId::bins,
+                            TestId::phi,
+                            TestId::theta,
+                            TestId::irradiance_z_mean,
+                            TestId::irradiance_z_variance,
+                            TestId::pdf_integral,
+                            TestId::in_domain};
   GateResult result{1e-6, 4194304, 20240607, {}};
   for (const std::string& sampler : kSamplers) {
-    for (const char* weighting : {"A", "B"}) {
-      if (sampler == "uniform" && weighting[0] == 'B') continue;
+    for (const char* density_space : {"A", "B"}) {
+      if (sampler == "uniform" && density_space[0] == 'B') continue;
       for (const std::string& map : kMaps) {
         for (const auto& kind : kinds) {
           TestRecord t = test_record(sampler, map, kind);
-          t.weighting = sampler == "uniform" ? "" : weighting;
+          t.density_space = sampler == "uniform" ? "" : density_space;
           t.known_defect = sampler == "linear_scan_published";
           spoil(t);
           result.tests.push_back(t);
@@ -206,10 +206,10 @@ RenderRecord render(std::size_t strategy) {
 
 SelfTestResult self_test() {
   SelfTestResult result;
-  for (const char* test : {"reference/rows", "mean/irradiance, normal +z", "reference/worst row"}) {
+  for (const TestId test : {TestId::rows, TestId::irradiance_z_mean, TestId::worst_row}) {
     CalibrationRecord record;
     record.test = test;
-    record.is_bound = record.test == "reference/worst row";
+    record.is_bound = test == TestId::worst_row;
     record.replicates = 10000;
     for (int i = 0; i <= 100; ++i) {
       const double p = 0.01 * i;
@@ -226,9 +226,8 @@ SelfTestResult self_test() {
   for (const std::uint64_t samples : {1024U, 4096U, 16384U}) {
     const double predicted = samples == 1024 ? 0.1 : samples == 4096 ? 0.6 : 0.999;
     const auto rejected = static_cast<std::uint64_t>(1000.0 * predicted);
-    result.power.push_back({"reference/rows", 0.12, 1e-3, samples, 1000, rejected, predicted});
-    result.power.push_back(
-        {"reference/phi (Kuiper)", 0.1, 1e-3, samples, 1000, 1000, predicted, true});
+    result.power.push_back({TestId::rows, 0.12, 1e-3, samples, 1000, rejected, predicted});
+    result.power.push_back({TestId::phi, 0.1, 1e-3, samples, 1000, 1000, predicted, true});
   }
   result.naming = {
       {.mutant = "no-sine", .expected = "no-sine", .runs = 48, .rejected = 48, .right = 48},
@@ -241,16 +240,16 @@ SelfTestResult self_test() {
        .wrong = 2,
        .wrong_names = {"uneven-in-texel"}}};
   result.mutants = {{"no-sine",
-                     "reference",
-                     "other-weighting",
-                     "other-weighting",
-                     {{"reference/rows", 4096}, {"variance/irradiance, normal +z", 65536}},
+                     Oracle::reference,
+                     "other-density",
+                     "other-density",
+                     {{TestId::rows, 4096}, {TestId::irradiance_z_variance, 65536}},
                      1024},
                     {"pi-squared",
-                     "check",
+                     Oracle::check,
                      "pdf-scaled",
                      "pdf-scaled",
-                     {{"check/pdf integrates to 1", 4096}},
+                     {{TestId::pdf_integral, 4096}},
                      {}}};
   return result;
 }
@@ -258,14 +257,14 @@ SelfTestResult self_test() {
 }  // namespace
 
 TestRecord accepted_test(const std::string& sampler, const std::string& map) {
-  return {sampler, "B",   map,    "reference", "chi_square_grid", 4194304, 1031.2,
-          1023.0,  -0.37, 0.0157, 0.0186,      Outcome::accept,   "",      false};
+  return {sampler, "B",    map,    TestId::bins,    4194304, 1031.2, 1023.0,
+          -0.37,   0.0157, 0.0186, Outcome::accept, "",      false};
 }
 
-StudyResult made_up_study() {
+StudyResult synthetic_study() {
   StudyResult study;
-  study.version = "0.1.0 (made up for a test)";
-  study.machine = "2 \u00d7 made-up processor, g++ 12.2, -O3";
+  study.version = "0.1.0 (synthetic, for a test)";
+  study.machine = "2 \u00d7 synthetic processor, g++ 12.2, -O3";
   study.seed = 20240607;
   for (std::size_t i = 0; i < kMaps.size(); ++i) study.maps.push_back(map_record(i));
   study.gate = gate();
@@ -289,7 +288,7 @@ StudyResult made_up_study() {
     fit.build_exponent = {1.0, 0.012};
   }
   study.growth[0].leaves_l3 = {4096, 2048};
-  study.growth[0].knees = {0.02, {{{512, 256}, 0.31}, {{1024, 512}, 0.12}}, 0.0021};
+  study.growth[0].breakpoints = {0.02, {{{512, 256}, 0.31}, {{1024, 512}, 0.12}}, 0.0021};
   for (std::size_t strategy = 0; strategy < 4; ++strategy)
     study.renders.push_back(render(strategy));
   study.self_test = self_test();

@@ -22,9 +22,9 @@ std::set<std::string> keys_of(const json& object) {
 GateResult small_gate() {
   GateResult gate{1e-6, 1000, 42, {testing::accepted_test("binary_search", "city")}};
   TestRecord check = gate.tests[0];
-  check.oracle = "check";
+  check.test = TestId::edge_points;
   check.log10_p.reset();
-  check.detectable_effect.reset();
+  check.minimum_detectable_effect.reset();
   check.outcome = Outcome::reject;
   gate.tests.push_back(check);
   return gate;
@@ -42,11 +42,11 @@ TEST(GateJson, HasItsKeys) {
             (std::set<std::string>{"format_version", "version", "commit", "command", "maps",
                                    "outcome", "family_alpha", "samples", "seed", "tests",
                                    "rejections", "known_defects"}));
-  EXPECT_EQ(keys_of(document["tests"][0]),
-            (std::set<std::string>{"sampler", "weighting", "map", "oracle", "test", "samples",
-                                   "statistic", "dof", "log10_p", "effect", "detectable_effect",
-                                   "outcome", "known_defect", "stage", "seed", "detail",
-                                   "resolution_floor"}));
+  EXPECT_EQ(
+      keys_of(document["tests"][0]),
+      (std::set<std::string>{"sampler", "density", "map", "oracle", "test", "samples", "statistic",
+                             "dof", "log10_p", "effect", "minimum_detectable_effect", "outcome",
+                             "known_defect", "stage", "seed", "detail", "resolution_floor"}));
   EXPECT_EQ(document["outcome"], "inconclusive");
   EXPECT_EQ(document["seed"], 42);
   EXPECT_EQ(document["tests"][0]["log10_p"], -0.37);
@@ -56,7 +56,7 @@ TEST(GateJson, HasItsKeys) {
 TEST(GateJson, HasNullWhereThereIsNoProbability) {
   const json document = gate_document(small_gate(), Outcome::reject);
   EXPECT_TRUE(document["tests"][1]["log10_p"].is_null());
-  EXPECT_TRUE(document["tests"][1]["detectable_effect"].is_null());
+  EXPECT_TRUE(document["tests"][1]["minimum_detectable_effect"].is_null());
 }
 
 TEST(GateJson, WritesWhatIsNotFiniteAsNullOrTheLargestNumber) {
@@ -81,7 +81,7 @@ TEST(GateJson, KeepsKnownDefectsApartFromRejections) {
   GateResult gate = small_gate();
   for (const char* sampler : {"binary_search", "published"}) {
     gate.rejections.push_back({.sampler = sampler,
-                               .weighting = "B",
+                               .density_space = "B",
                                .map = "city",
                                .looks_like = "row",
                                .diagnosis = "a row is dark",
@@ -115,7 +115,7 @@ TEST(GateJson, SurvivesNamesThatAreNotUtf8) {
 }
 
 TEST(StudyJson, HoldsEverythingButThePixels) {
-  const json document = json::parse(study_json(testing::made_up_study(), {}));
+  const json document = json::parse(study_json(testing::synthetic_study(), {}));
   EXPECT_EQ(keys_of(document),
             (std::set<std::string>{"format_version", "version", "commit", "command", "machine",
                                    "seed", "maps", "gate", "convergence", "throughput", "caches",
@@ -130,23 +130,23 @@ TEST(StudyJson, HoldsEverythingButThePixels) {
 }
 
 TEST(StudyJson, HasCachesAndKneesOrNull) {
-  StudyResult study = testing::made_up_study();
+  StudyResult study = testing::synthetic_study();
   study.caches.l3.reset();
   const json document = json::parse(study_json(study, {}));
   EXPECT_EQ(document["caches"], (json{{"l2", 1048576.0}, {"l3", nullptr}}));
   const json& growth = document["growth"];
   EXPECT_EQ(growth[0]["leaves_l3"], (json{4096, 2048}));
-  EXPECT_EQ(growth[0]["knees"]["exponent_before"], 0.02);
-  EXPECT_EQ(growth[0]["knees"]["places"][1],
+  EXPECT_EQ(growth[0]["segmented"]["exponent_before"], 0.02);
+  EXPECT_EQ(growth[0]["segmented"]["breakpoints"][1],
             (json{{"size", {1024, 512}}, {"exponent_after", 0.12}}));
-  EXPECT_EQ(growth[0]["knees"]["p_value"], 0.0021);
+  EXPECT_EQ(growth[0]["segmented"]["p_value"], 0.0021);
   EXPECT_EQ(growth[0]["build_exponent"], (json{{"value", 1.0}, {"error", 0.012}}));
   EXPECT_TRUE(growth[1]["leaves_l3"].is_null());
-  EXPECT_TRUE(growth[1]["knees"].is_null());
+  EXPECT_TRUE(growth[1]["segmented"].is_null());
 }
 
 TEST(StudyJson, DoesNotCountKnownDefects) {
-  const StudyResult study = testing::made_up_study();
+  const StudyResult study = testing::synthetic_study();
   EXPECT_EQ(json::parse(study_json(study, {}))["gate"]["outcome"], "accept");
 }
 

@@ -1,4 +1,4 @@
-// Writes the report of a made-up study, for looking at and for the browser test:
+// Writes the report of a synthetic study, for looking at and for the browser test:
 //   write_sample_report FOLDER [bare]
 // `bare` leaves out throughput and renders and most of the convergence records.
 #include <cstdio>
@@ -22,7 +22,7 @@ void strip(lightproof::StudyResult& study) {
 }
 
 int run(int count, char** arguments) {
-  lightproof::StudyResult study = lightproof::testing::made_up_study();
+  lightproof::StudyResult study = lightproof::testing::synthetic_study();
   if (count == 3 && std::string_view(arguments[2]) == "bare") strip(study);
   const lightproof::RunDescription made_by = {study.version, "", "write_sample_report"};
   lightproof::write_report(study, arguments[1], made_by, lightproof::Overwriting::of_listed_files);

@@ -27,7 +27,7 @@ std::uint64_t sum_of(const Masses& masses) {
 
 std::vector<double> weights_of(std::string_view name, Extent extent) {
   const Grid<double> exact =
-      reference::texel_masses(make_synthetic_map(name, extent), {Weighting::A, kRec709});
+      reference::texel_masses(make_synthetic_map(name, extent), {DensitySpace::texture, kRec709});
   return {exact.values().begin(), exact.values().end()};
 }
 
@@ -356,7 +356,7 @@ TYPED_TEST(TableSamplers, ReturnTheDensityThatTheyDraw) {
     // Runs of 32 that are cut off at the row's end; more texels than a palette has masses.
     for (const Extent extent : {Extent{1, 1}, Extent{45, 3}, Extent{130, 65}}) {
       const EnvironmentMap map = make_synthetic_map(name, extent);
-      const TypeParam sampler(map, {Weighting::A, kRec709});
+      const TypeParam sampler(map, {DensitySpace::texture, kRec709});
       const auto runs = static_cast<std::size_t>((extent.width + 31) / 32 * extent.height);
       Grid<double> masses;
       if constexpr (std::is_same_v<TypeParam, GuideLines> ||
@@ -386,16 +386,16 @@ TYPED_TEST(TableSamplers, DrawTheReferencesMasses) {
                             : std::is_same_v<TypeParam, PackedAlias> ? 1.0 / 256.0
                                                                      : 0x1p-22;
   for (const std::string_view name : {"sun-sky", "gradient", "checker", "one-texel"}) {
-    for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+    for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
       const Extent extent = {130, 65};
       const EnvironmentMap map = make_synthetic_map(name, extent);
-      const TypeParam sampler(map, {weighting, kRec709});
-      const Grid<double> exact = reference::texel_masses(map, {weighting, kRec709});
+      const TypeParam sampler(map, {density_space, kRec709});
+      const Grid<double> exact = reference::texel_masses(map, {density_space, kRec709});
       for (int y = 0; y < extent.height; ++y) {
         for (int x = 0; x < extent.width; ++x) {
           const SquarePoint at = {(x + 0.5) / extent.width, (y + 0.5) / extent.height};
           const double mass =
-              weighting == Weighting::A
+              density_space == DensitySpace::texture
                   ? sampler.pdf(at).value / static_cast<double>(extent.count())
                   : to_solid_angle(sampler.pdf(at), at).value * texel_solid_angle(extent, y);
           // Two units of sums of a row or of thresholds of 24 bits.

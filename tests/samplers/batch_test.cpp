@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "lightproof/core/large_pages.h"
+#include "lightproof/core/huge_pages.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/registry.h"
 #include "tests/core/kinds_of_vectors.h"
 #include "tests/core/whole_vectors.h"
-#include "tests/samplers/hostile_points.h"
+#include "tests/samplers/points_beside_changes.h"
 
 namespace lightproof {
 
@@ -35,11 +35,11 @@ void expect_close(double a, double b, double tolerance) {
   EXPECT_TRUE(is_same || std::abs(a - b) <= tolerance) << a << " is not " << b;
 }
 
-void expect_same(const TexelSample& batch, const TexelSample& scalar, Weighting weighting) {
+void expect_same(const TexelSample& batch, const TexelSample& scalar, DensitySpace density_space) {
   EXPECT_EQ(batch.x, scalar.x);
   EXPECT_EQ(batch.y, scalar.y);
   expect_close(batch.at.s, scalar.at.s, 0.0);
-  const double error = weighting == Weighting::A ? 0.0 : kPlaceError;
+  const double error = density_space == DensitySpace::texture ? 0.0 : kPlaceError;
   expect_close(batch.at.t, scalar.at.t, error);
   // Near a pole the density follows the sine, and so the rounding of t.
   const double near = std::min(scalar.at.t, 1.0 - scalar.at.t);
@@ -67,8 +67,8 @@ TEST_P(Batch, GivesTheTexelsOfTheScalarInterface) {
   for (const std::string_view map_name : {"sun-sky", "one-texel", "gradient", "checker"}) {
     for (const Extent extent : {Extent{64, 32}, Extent{37, 19}, Extent{1, 1}, Extent{100, 3}}) {
       const EnvironmentMap map = make_synthetic_map(map_name, extent);
-      for (const Weighting weighting : {Weighting::A, Weighting::B}) {
-        const AnySampler any = GetParam().make(map, weighting);
+      for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+        const AnySampler any = GetParam().make(map, density_space);
         std::visit(
             [&](const auto& sampler) {
               const std::vector<SquarePoint> points = test_points(1500);
@@ -78,7 +78,7 @@ TEST_P(Batch, GivesTheTexelsOfTheScalarInterface) {
                 std::vector<TexelSample> samples(points.size());
                 sample(sampler, points, samples);
                 for (std::size_t i = 0; i < points.size() && !HasFailure(); ++i) {
-                  expect_same(samples[i], sampler.sample(points[i]), weighting);
+                  expect_same(samples[i], sampler.sample(points[i]), density_space);
                 }
               });
             },
@@ -88,7 +88,7 @@ TEST_P(Batch, GivesTheTexelsOfTheScalarInterface) {
   }
 }
 
-/// Under weighting A, with every kind of vector.
+/// Under density A, with every kind of vector.
 template <class Sampler>
 void expect_same_as_one_by_one(const Sampler& sampler, std::span<const SquarePoint> points) {
   for_each_kind_of_vector([&](const char* vectors) {
@@ -96,26 +96,26 @@ void expect_same_as_one_by_one(const Sampler& sampler, std::span<const SquarePoi
     std::vector<TexelSample> samples(points.size());
     sample(sampler, points, samples);
     for (std::size_t i = 0; i < points.size() && !testing::Test::HasFailure(); ++i) {
-      expect_same(samples[i], sampler.sample(points[i]), Weighting::A);
+      expect_same(samples[i], sampler.sample(points[i]), DensitySpace::texture);
     }
   });
 }
 
-TEST_P(Batch, GivesTheTexelsAtEveryKnotOfTheSumsAndBesideIt) {
+TEST_P(Batch, GivesTheTexelsAtEveryEntryOfTheSumsAndBesideIt) {
   for (const std::string_view map_name : {"sun-sky", "black-first-row", "step"}) {
     for (const Extent extent : {Extent{2, 1}, Extent{1, 5}, Extent{3, 2}, Extent{33, 65}}) {
       SCOPED_TRACE(testing::Message() << map_name << " " << extent.width << " x " << extent.height);
       const EnvironmentMap map = make_synthetic_map(map_name, extent);
-      const CdfTable table(map, {Weighting::A, GetParam().grey});
-      std::vector<SquarePoint> points = test::hostile_points_of_rows(table);
-      std::ranges::copy(test::hostile_points(table), std::back_inserter(points));
+      const CdfTable table(map, {DensitySpace::texture, GetParam().weights});
+      std::vector<SquarePoint> points = adversarial_points_of_rows(table);
+      std::ranges::copy(adversarial_points(table), std::back_inserter(points));
       std::visit([&](const auto& sampler) { expect_same_as_one_by_one(sampler, points); },
-                 GetParam().make(map, Weighting::A));
+                 GetParam().make(map, DensitySpace::texture));
     }
   }
 }
 
-// Thresholds of alias tables, knots of lines, edges of texels, whatever the sampler has.
+// Thresholds of alias tables, CDF entries of lines, edges of texels, whatever the sampler has.
 TEST_P(Batch, GivesTheTexelsOnBothSidesOfEveryChange) {
   for (const std::string_view map_name : {"sun-sky", "black-first-row", "step"}) {
     for (const Extent extent : {Extent{1, 5}, Extent{3, 2}, Extent{37, 9}}) {
@@ -126,14 +126,14 @@ TEST_P(Batch, GivesTheTexelsOnBothSidesOfEveryChange) {
             expect_same_as_one_by_one(sampler,
                                       test::points_beside_changes(sampler, extent.count()));
           },
-          GetParam().make(map, Weighting::A));
+          GetParam().make(map, DensitySpace::texture));
     }
   }
 }
 
 TEST_P(Batch, OfAnySizeWritesNothingElse) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
-  const AnySampler any = GetParam().make(map, Weighting::A);
+  const AnySampler any = GetParam().make(map, DensitySpace::texture);
   std::visit(
       [&](const auto& sampler) {
         const std::vector<SquarePoint> points = test_points(600);
@@ -142,7 +142,7 @@ TEST_P(Batch, OfAnySizeWritesNothingElse) {
           std::vector<TexelSample> samples(size + 9, untouched);
           sample(sampler, std::span(points).first(size), std::span(samples).first(size));
           for (std::size_t i = 0; i < size; ++i) {
-            expect_same(samples[i], sampler.sample(points[i]), Weighting::A);
+            expect_same(samples[i], sampler.sample(points[i]), DensitySpace::texture);
           }
           for (std::size_t i = size; i < samples.size(); ++i) EXPECT_EQ(samples[i].x, -1);
         }
@@ -153,7 +153,7 @@ TEST_P(Batch, OfAnySizeWritesNothingElse) {
 // More than 2^16 runs, and guides of several batches.
 TEST_P(Batch, OnALargeMapGivesTheTexelsToo) {
   static const EnvironmentMap map = make_synthetic_map("sun-sky", {2048, 1024});
-  const AnySampler any = GetParam().make(map, Weighting::A);
+  const AnySampler any = GetParam().make(map, DensitySpace::texture);
   std::visit(
       [&](const auto& sampler) {
         const std::vector<SquarePoint> points = test_points(4096);
@@ -162,7 +162,7 @@ TEST_P(Batch, OnALargeMapGivesTheTexelsToo) {
           std::vector<TexelSample> samples(points.size());
           sample(sampler, points, samples);
           for (std::size_t i = 0; i < points.size(); ++i) {
-            expect_same(samples[i], sampler.sample(points[i]), Weighting::A);
+            expect_same(samples[i], sampler.sample(points[i]), DensitySpace::texture);
           }
         });
       },
@@ -171,7 +171,7 @@ TEST_P(Batch, OnALargeMapGivesTheTexelsToo) {
 
 TEST_P(Batch, OfAStreamDrawsAtItsPoints) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
-  const AnySampler any = GetParam().make(map, Weighting::A);
+  const AnySampler any = GetParam().make(map, DensitySpace::texture);
   const RandomStream stream("batch of a stream", 3);
   const std::uint64_t first = (std::uint64_t{1} << 32U) - 300;  // both words of the counter change
   std::visit(
@@ -179,7 +179,7 @@ TEST_P(Batch, OfAStreamDrawsAtItsPoints) {
         std::vector<TexelSample> samples(700);
         sample(sampler, stream, first, samples);
         for (std::size_t i = 0; i < samples.size(); ++i) {
-          expect_same(samples[i], sampler.sample(stream.point(first + i)), Weighting::A);
+          expect_same(samples[i], sampler.sample(stream.point(first + i)), DensitySpace::texture);
         }
       },
       any);
@@ -205,8 +205,8 @@ TEST_P(Batch, OfDirectionsLieAtTheSamplesPlaces) {
   const RandomStream stream("batch of directions", 4);
   for (const Extent extent : {Extent{64, 32}, Extent{37, 19}, Extent{1, 1}}) {
     const EnvironmentMap map = make_synthetic_map("sun-sky", extent);
-    for (const Weighting weighting : {Weighting::A, Weighting::B}) {
-      const AnySampler any = GetParam().make(map, weighting);
+    for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+      const AnySampler any = GetParam().make(map, density_space);
       std::visit(
           [&](const auto& sampler) {
             for_each_kind_of_vector([&](const char* vectors) {
@@ -239,7 +239,7 @@ bool is_drawn_one_by_one(std::string_view name) {
 
 TEST_P(Batch, IsDrawnByVectors) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
-  const AnySampler any = GetParam().make(map, Weighting::B);
+  const AnySampler any = GetParam().make(map, DensitySpace::solid_angle);
   const RandomStream stream("batch", 5);
   constexpr std::size_t kSize = 1003;
   const auto expect_drawn = [](const char* vectors, std::size_t drawn) {
@@ -267,10 +267,10 @@ INSTANTIATE_TEST_SUITE_P(Samplers, Batch, testing::ValuesIn(samplers().begin(), 
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(LargePages, HoldTablesOfAnySize) {
-  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, kLargePage - 1, kLargePage,
-                                 kLargePage + 1, 3 * kLargePage}) {
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{1}, kHugePage - 1, kHugePage, kHugePage + 1, 3 * kHugePage}) {
     TableVector<unsigned char> table(size, 7);
-    const std::size_t alignment = size >= kLargePage ? kLargePage : 64;
+    const std::size_t alignment = size >= kHugePage ? kHugePage : 64;
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(table.data()) % alignment, 0U);
     for (const unsigned char byte : table) ASSERT_EQ(byte, 7);
   }

@@ -11,12 +11,14 @@
 #include "lightproof/core/random.h"
 #include "lightproof/image/look_up.h"
 #include "lightproof/image/synthetic.h"
-#include "reference/bilinear_law.h"
+#include "reference/bilinear_distribution.h"
 
 namespace lightproof {
 namespace {
 
-TargetDensity target_of(Weighting weighting) { return {weighting, kRec709, Lookup::bilinear}; }
+TargetDensity target_of(DensitySpace density_space) {
+  return {density_space, kRec709, Lookup::bilinear};
+}
 
 EnvironmentMap grey_map(Extent extent, const std::vector<float>& values) {
   EnvironmentMap map{"grey", Grid<Rgb>(extent), {}};
@@ -25,12 +27,12 @@ EnvironmentMap grey_map(Extent extent, const std::vector<float>& values) {
 }
 
 Bilinear sampler_of(Extent extent, const std::vector<float>& values,
-                    Weighting weighting = Weighting::A) {
-  return {grey_map(extent, values), target_of(weighting)};
+                    DensitySpace density_space = DensitySpace::texture) {
+  return {grey_map(extent, values), target_of(density_space)};
 }
 
 // A mass of at least 1/12 is off by at most three units of 2^-31 in its row and in its column: a
-// share of 3.4e-8; the grey is a float: 6e-8, in the value and in the integral.
+// share of 3.4e-8; the luminance is a float: 6e-8, in the value and in the integral.
 constexpr double kTableError = 4e-7;
 
 TEST(Bilinear, TwoColumnsAreATentAroundTheCircle) {
@@ -58,11 +60,11 @@ TEST(Bilinear, TwoRowsAreConstantInTheHalvesAtThePoles) {
 
 // The interpolation is odd about 2 and the sine is even: ∫ = 2 * 4 pi steradian.
 TEST(Bilinear, TwoRowsUnderBAreInProportionPerSteradian) {
-  const Bilinear sampler = sampler_of({1, 2}, {1.0F, 3.0F}, Weighting::B);
+  const Bilinear sampler = sampler_of({1, 2}, {1.0F, 3.0F}, DensitySpace::solid_angle);
   const double expected[][2] = {{0.1, 1.0}, {0.5, 2.0}, {0.625, 2.5}, {0.9, 3.0}};
-  for (const auto [t, grey] : expected) {
+  for (const auto [t, luminance] : expected) {
     const PerSteradian pdf = to_solid_angle(sampler.pdf({0.3, t}), {0.3, t});
-    EXPECT_NEAR(pdf.value, grey / (8.0 * kPi), kTableError) << t;
+    EXPECT_NEAR(pdf.value, luminance / (8.0 * kPi), kTableError) << t;
   }
 }
 
@@ -109,7 +111,7 @@ TEST(Bilinear, TheHalfRowAtThePoleIsConstant) {
 
 TEST(Bilinear, OneTexelIsConstant) {
   const Bilinear a = sampler_of({1, 1}, {0.25F});
-  const Bilinear b = sampler_of({1, 1}, {0.25F}, Weighting::B);
+  const Bilinear b = sampler_of({1, 1}, {0.25F}, DensitySpace::solid_angle);
   for (const double u : {0.1, 0.5, 0.9}) {
     const TexelSample sample = a.sample({u, 1.0 - u});
     EXPECT_NEAR(sample.at.s, u, kTableError);
@@ -120,11 +122,11 @@ TEST(Bilinear, OneTexelIsConstant) {
 }
 
 TEST(Bilinear, BlackMapIsRefusedByName) {
-  for (const float grey : {0.0F, 1e-45F}) {  // 0.0722 of the least float is none
+  for (const float luminance : {0.0F, 1e-45F}) {  // 0.0722 of the least float is none
     EnvironmentMap map{"night", Grid<Rgb>({4, 2}), {}};
-    map.radiance(1, 1) = Rgb(0.0F, 0.0F, grey);
+    map.radiance(1, 1) = Rgb(0.0F, 0.0F, luminance);
     try {
-      const Bilinear sampler(map, target_of(Weighting::A));
+      const Bilinear sampler(map, target_of(DensitySpace::texture));
       FAIL() << "a black map was accepted";
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find("night"), std::string::npos);
@@ -133,9 +135,9 @@ TEST(Bilinear, BlackMapIsRefusedByName) {
 }
 
 TEST(Bilinear, TheLargestFloatBesideTheSmallestStaysFinite) {
-  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
     const Bilinear sampler =
-        sampler_of({3, 2}, {3e38F, 1e-37F, 0.0F, 0.0F, 0.0F, 3e38F}, weighting);
+        sampler_of({3, 2}, {3e38F, 1e-37F, 0.0F, 0.0F, 0.0F, 3e38F}, density_space);
     const RandomStream stream("extremes", 1);
     for (std::uint64_t i = 0; i < 1000; ++i) {
       const TexelSample sample = sampler.sample(stream.point(i));
@@ -145,7 +147,7 @@ TEST(Bilinear, TheLargestFloatBesideTheSmallestStaysFinite) {
   }
 }
 
-class BilinearOnMaps : public testing::TestWithParam<std::tuple<std::string_view, Weighting>> {
+class BilinearOnMaps : public testing::TestWithParam<std::tuple<std::string_view, DensitySpace>> {
  protected:
   static constexpr Extent kSizes[] = {{1, 1}, {2, 1}, {1, 2}, {3, 2}, {31, 15}, {64, 32}};
 };
@@ -177,11 +179,11 @@ struct Patch {
   double mass() const { return cdf_mass(row.units(), column.units()); }
 };
 
-CdfCell find(CdfKnots knots, double u) {
+CdfCell find(CdfEntries entries, double u) {
   int index = 0;
-  while (knots[static_cast<std::size_t>(index) + 1] <= u * kCdfOne) ++index;
+  while (entries[static_cast<std::size_t>(index) + 1] <= u * kCdfOne) ++index;
   const auto k = static_cast<std::size_t>(index);
-  return {knots[k], knots[k + 1], index};
+  return {entries[k], entries[k + 1], index};
 }
 
 Patch patch_of(const Bilinear& sampler, SquarePoint u, Extent extent) {
@@ -195,9 +197,9 @@ Patch patch_of(const Bilinear& sampler, SquarePoint u, Extent extent) {
 
 // The masses of the table sum to 1 exactly; sums of 1e5 terms round.
 TEST_P(BilinearOnMaps, PdfIntegratesToOne) {
-  const auto [name, weighting] = GetParam();
+  const auto [name, density_space] = GetParam();
   for (const Extent extent : kSizes) {
-    const Bilinear sampler(make_synthetic_map(name, extent), target_of(weighting));
+    const Bilinear sampler(make_synthetic_map(name, extent), target_of(density_space));
     double sum = 0.0;
     for (int r = 0; r <= extent.height; ++r) {
       sum +=
@@ -216,20 +218,21 @@ TEST_P(BilinearOnMaps, PdfIntegratesToOne) {
   }
 }
 
-// The table rounds the mass of a patch: its two knots in each of two distributions are off by less
-// than a unit for rounding and one for every cell with light. Inside the patch the grey is a float.
+// The table rounds the mass of a patch: its two CDF entries in each of two distributions are off by
+// less than a unit for rounding and one for every cell with light. Inside the patch the luminance
+// is a float.
 TEST_P(BilinearOnMaps, PdfIsTheInterpolatedGreyOverItsIntegral) {
-  const auto [name, weighting] = GetParam();
+  const auto [name, density_space] = GetParam();
   for (const Extent extent : kSizes) {
     const EnvironmentMap map = make_synthetic_map(name, extent);
-    const Bilinear sampler(map, target_of(weighting));
-    const Grid<double> grey = luminance(map);
-    const Grid<double> quarters = reference::bilinear_masses(map, target_of(weighting),
+    const Bilinear sampler(map, target_of(density_space));
+    const Grid<double> luminance = luminance_of(map);
+    const Grid<double> quarters = reference::bilinear_masses(map, target_of(density_space),
                                                              {2 * extent.width, 2 * extent.height});
     const double mass_error = 2.0 * (extent.height + extent.width + 6) * 0x1p-31;
     const auto density = [&](SquarePoint at) {
-      const double value = look_up(grey, Lookup::bilinear, at);
-      return weighting == Weighting::A ? value : value * solid_angle_per_square(at.t);
+      const double value = look_up(luminance, Lookup::bilinear, at);
+      return density_space == DensitySpace::texture ? value : value * solid_angle_per_square(at.t);
     };
     double total = 0.0;
     for (int i = 0; i < 2 * extent.height; ++i) {
@@ -264,10 +267,10 @@ TEST_P(BilinearOnMaps, PdfIsTheInterpolatedGreyOverItsIntegral) {
 // at that t, the share across lies to the left of s. Both are kept 2^-36 of the patch away from its
 // edges, where the density is at most twice the mean in s, and 4 times (with the sine) in t.
 TEST_P(BilinearOnMaps, TheDensityDrawnIsThePdf) {
-  const auto [name, weighting] = GetParam();
+  const auto [name, density_space] = GetParam();
   constexpr double kTolerance = 4.0 * kCellMargin + 1e-12;
   for (const Extent extent : kSizes) {
-    const Bilinear sampler(make_synthetic_map(name, extent), target_of(weighting));
+    const Bilinear sampler(make_synthetic_map(name, extent), target_of(density_space));
     const RandomStream stream("drawn", 1);
     for (std::uint64_t i = 0; i < 2000; ++i) {
       const SquarePoint u = stream.point(i);
@@ -287,11 +290,11 @@ TEST_P(BilinearOnMaps, TheDensityDrawnIsThePdf) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BilinearOnMaps,
-                         testing::Combine(testing::Values("constant", "one-texel", "gradient",
-                                                          "cosine-lobe", "step", "sun-sky",
-                                                          "checker", "black-first-row"),
-                                          testing::Values(Weighting::A, Weighting::B)));
+INSTANTIATE_TEST_SUITE_P(
+    All, BilinearOnMaps,
+    testing::Combine(testing::Values("constant", "one-texel", "gradient", "cosine-lobe", "step",
+                                     "sun-sky", "checker", "black-first-row"),
+                     testing::Values(DensitySpace::texture, DensitySpace::solid_angle)));
 
 }  // namespace
 }  // namespace lightproof

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lightproof/cases/adversarial_points.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
@@ -13,25 +14,24 @@
 #include "lightproof/samplers/registry.h"
 #include "reference/slow_sampler.h"
 #include "reference/texel_masses.h"
-#include "tests/samplers/hostile_points.h"
 
 namespace lightproof {
 namespace {
 
-class InversionOnMaps : public testing::TestWithParam<std::tuple<std::string_view, Weighting>> {
+class InversionOnMaps : public testing::TestWithParam<std::tuple<std::string_view, DensitySpace>> {
  protected:
   static constexpr Extent kSizes[] = {{1, 1}, {2, 1}, {1, 5}, {31, 15}, {33, 65}, {64, 32}};
 };
 
 TEST_P(InversionOnMaps, EverySearchReturnsTheSameTexelAndPlace) {
-  const auto [name, weighting] = GetParam();
+  const auto [name, density_space] = GetParam();
   for (const Extent extent : kSizes) {
     const EnvironmentMap map = make_synthetic_map(name, extent);
-    const LinearScan scan(map, {weighting, kRec709});
-    const BinarySearch search(map, {weighting, kRec709});
-    const Eytzinger tree(map, {weighting, kRec709});
-    const GuideTable guide(map, {weighting, kRec709});
-    std::vector<SquarePoint> points = test::hostile_points(scan.table());
+    const LinearScan scan(map, {density_space, kRec709});
+    const BinarySearch search(map, {density_space, kRec709});
+    const Eytzinger tree(map, {density_space, kRec709});
+    const GuideTable guide(map, {density_space, kRec709});
+    std::vector<SquarePoint> points = adversarial_points(scan.table());
     const RandomStream stream("every search", 1);
     for (std::uint64_t i = 0; i < 10000; ++i) points.push_back(stream.point(i));
     for (const SquarePoint u : points) {
@@ -47,15 +47,15 @@ TEST_P(InversionOnMaps, EverySearchReturnsTheSameTexelAndPlace) {
 }
 
 TEST_P(InversionOnMaps, SamplesOfEverySoundSamplerStayInsideATexelWithLight) {
-  const auto [name, weighting] = GetParam();
+  const auto [name, density_space] = GetParam();
   for (const Extent extent : kSizes) {
     const EnvironmentMap map = make_synthetic_map(name, extent);
     const std::vector<SquarePoint> points =
-        test::hostile_points(CdfTable(map, {weighting, kRec709}));
+        adversarial_points(CdfTable(map, {density_space, kRec709}));
     for (const SamplerInfo& info : samplers()) {
       if (info.known_defects) continue;
       SCOPED_TRACE(info.name);
-      const Grid<double> grey = luminance(map, info.grey);
+      const Grid<double> luminance = luminance_of(map, info.weights);
       const auto stay_inside = [&](const auto& sampler) {
         for (const SquarePoint u : points) {
           const TexelSample sample = sampler.sample(u);
@@ -63,29 +63,29 @@ TEST_P(InversionOnMaps, SamplesOfEverySoundSamplerStayInsideATexelWithLight) {
           ASSERT_EQ(cell_of(sample.at.t, extent.height), sample.y) << u.s << ", " << u.t;
           ASSERT_GT(sample.at.t, 0.0);
           ASSERT_LT(sample.at.t, 1.0);
-          ASSERT_GT(look_up(grey, info.lookup, sample.at), 0.0);
+          ASSERT_GT(look_up(luminance, info.lookup, sample.at), 0.0);
           ASSERT_TRUE(sample.pdf.value > 0.0 && std::isfinite(sample.pdf.value));
           ASSERT_NEAR(sampler.pdf(sample.at).value / sample.pdf.value, 1.0, 1e-12);
         }
       };
-      std::visit(stay_inside, info.make(map, weighting));
+      std::visit(stay_inside, info.make(map, density_space));
     }
   }
 }
 
-TEST_P(InversionOnMaps, TexelsAreTheReferencesAwayFromItsKnots) {
-  const auto [name, weighting] = GetParam();
+TEST_P(InversionOnMaps, TexelsAreTheReferencesAwayFromItsEntries) {
+  const auto [name, density_space] = GetParam();
   const Extent extent = {64, 32};
   const EnvironmentMap map = make_synthetic_map(name, extent);
-  const BinarySearch sampler(map, {weighting, kRec709});
-  const reference::SlowSampler slow(map, {weighting, kRec709});
+  const BinarySearch sampler(map, {density_space, kRec709});
+  const reference::SlowSampler slow(map, {density_space, kRec709});
   const RandomStream stream("reference", 1);
-  // A knot of the table is less than one unit per cell from the exact one.
+  // A CDF entry of the table is less than one unit per cell from the exact one.
   const double tolerance = (extent.width + 1) * 0x1p-31;
   int compared = 0;
   for (std::uint64_t i = 0; i < 20000; ++i) {
     const SquarePoint u = stream.point(i);
-    if (slow.near_knot(u, tolerance)) continue;
+    if (slow.near_entry(u, tolerance)) continue;
     const TexelSample sample = sampler.sample(u);
     ++compared;
     ASSERT_EQ((reference::Texel{sample.x, sample.y}), slow.sample(u)) << u.s << ", " << u.t;
@@ -93,11 +93,11 @@ TEST_P(InversionOnMaps, TexelsAreTheReferencesAwayFromItsKnots) {
   EXPECT_GT(compared, 19900);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, InversionOnMaps,
-                         testing::Combine(testing::Values("constant", "one-texel", "gradient",
-                                                          "cosine-lobe", "step", "sun-sky",
-                                                          "checker", "black-first-row"),
-                                          testing::Values(Weighting::A, Weighting::B)));
+INSTANTIATE_TEST_SUITE_P(
+    All, InversionOnMaps,
+    testing::Combine(testing::Values("constant", "one-texel", "gradient", "cosine-lobe", "step",
+                                     "sun-sky", "checker", "black-first-row"),
+                     testing::Values(DensitySpace::texture, DensitySpace::solid_angle)));
 
 // In u.t along the map, and in u.s across the row that was found. What is not monotone must be seen
 // not to be, or nothing was tested.
@@ -106,7 +106,7 @@ TEST(Registry, MonotoneSamplersKeepTheOrderOfRandomNumbers) {
   constexpr int kSteps = 20000;
   for (const SamplerInfo& info : samplers()) {
     if (info.known_defects) continue;
-    for (const Weighting weighting : {Weighting::A, Weighting::B}) {
+    for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
       const auto turns_back = [](const auto& sampler) {
         int turns = 0;
         SquarePoint last = {0.0, 0.0};
@@ -118,7 +118,7 @@ TEST(Registry, MonotoneSamplersKeepTheOrderOfRandomNumbers) {
         }
         return turns;
       };
-      const int turns = std::visit(turns_back, info.make(map, weighting));
+      const int turns = std::visit(turns_back, info.make(map, density_space));
       EXPECT_EQ(turns == 0, info.monotone) << info.name << ": " << turns;
     }
   }
@@ -129,8 +129,8 @@ TEST(Hierarchical, DrawsTheReferencesMasses) {
   for (const SyntheticMap& entry : synthetic_maps()) {
     for (const Extent extent : {Extent{1, 1}, Extent{3, 1}, Extent{1, 6}, Extent{97, 41}}) {
       const EnvironmentMap map = entry.make(extent);
-      const Hierarchical sampler(map, {Weighting::A, kRec709});
-      const Grid<double> exact = reference::texel_masses(map, {Weighting::A, kRec709});
+      const Hierarchical sampler(map, {DensitySpace::texture, kRec709});
+      const Grid<double> exact = reference::texel_masses(map, {DensitySpace::texture, kRec709});
       for (int y = 0; y < extent.height; ++y) {
         for (int x = 0; x < extent.width; ++x) {
           const SquarePoint at = {(x + 0.5) / extent.width, (y + 0.5) / extent.height};
@@ -156,11 +156,12 @@ TEST(Registry, TablesAreAsLargeAsTheirEntries) {
   const EnvironmentMap map = make_synthetic_map("constant", {64, 64});
   const auto bytes_of = [&](const char* name) {
     return std::visit([](const auto& sampler) { return sampler.table_bytes(); },
-                      sampler_by_name(name).make(map, Weighting::A));
+                      sampler_by_name(name).make(map, DensitySpace::texture));
   };
-  const std::size_t places = TexelPlaces(map.radiance.extent(), Weighting::A).bytes();
-  EXPECT_EQ(bytes_of("alias"), 16U * 4096U + places);
-  EXPECT_EQ(bytes_of("hierarchical"), 4U * (4096U + 1024U + 256U + 64U + 16U + 4U) + places);
+  const std::size_t positions =
+      TexelPositions(map.radiance.extent(), DensitySpace::texture).bytes();
+  EXPECT_EQ(bytes_of("alias"), 16U * 4096U + positions);
+  EXPECT_EQ(bytes_of("hierarchical"), 4U * (4096U + 1024U + 256U + 64U + 16U + 4U) + positions);
   // Guides of two bytes for every sum of four.
   EXPECT_GT(bytes_of("guide_table"), bytes_of("binary_search"));
   EXPECT_LT(bytes_of("guide_table"), 2U * bytes_of("binary_search"));
@@ -168,7 +169,7 @@ TEST(Registry, TablesAreAsLargeAsTheirEntries) {
 
 TEST(Inversion, EqualSolidAnglesAreEquallyLikelyUnderB) {
   const EnvironmentMap map = make_synthetic_map("constant", {4, 2});
-  const BinarySearch sampler(map, {Weighting::B, kRec709});
+  const BinarySearch sampler(map, {DensitySpace::solid_angle, kRec709});
   // On a constant map cos(theta) is linear in u; units of 2^-31 and 4 ulp of the warp.
   for (int i = 1; i < 1000; ++i) {
     const double u = i / 1000.0;
@@ -213,7 +214,7 @@ TEST(Registry, TablesAreTheSameForAnyNumberOfThreads) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {601, 301});
   for (const SamplerInfo& info : samplers()) {
     const auto draw = [&] {
-      return whole_table(info.make(map, Weighting::A), map.radiance.extent());
+      return whole_table(info.make(map, DensitySpace::texture), map.radiance.extent());
     };
     const std::vector<TexelSample> by_all = draw();
     const ThreadLimit one(1);
@@ -229,8 +230,8 @@ TEST(Registry, EverySamplerDrawsFromEveryMap) {
   for (const SyntheticMap& entry : synthetic_maps()) {
     const EnvironmentMap map = entry.make({16, 8});
     for (const SamplerInfo& info : samplers()) {
-      for (const Weighting weighting : {Weighting::A, Weighting::B}) {
-        const AnySampler any = info.make(map, weighting);
+      for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+        const AnySampler any = info.make(map, density_space);
         const TexelSample sample = std::visit(
             [](const auto& sampler) {
               return sampler.sample({0.3, 0.6});

@@ -54,7 +54,7 @@ EnvironmentMap strip(int width) {
 TEST(GuideTable, DrawsEveryColumnThatItHasNumbersFor) {
   constexpr int kMost = 65536;
   const EnvironmentMap map = strip(kMost);
-  const TargetDensity target = {Weighting::A, kRec709};
+  const TargetDensity target = {DensitySpace::texture, kRec709};
   const GuideTable guided(map, target);
   const BinarySearch searched(map, target);
   const RandomStream stream("tests/limits", 1);
@@ -77,7 +77,7 @@ std::string refusal_of(const Work& work) {
 TEST(GuideTable, RefusesMoreColumnsThanItHasNumbersFor) {
   const EnvironmentMap map = strip(65537);
   EXPECT_THAT(refusal_of([&] {
-                GuideTable(map, {Weighting::A, kRec709});
+                GuideTable(map, {DensitySpace::texture, kRec709});
               }),
               AllOf(HasSubstr("65537"), HasSubstr("65536"), HasSubstr("scale the map down")));
 }

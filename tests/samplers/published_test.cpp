@@ -11,7 +11,7 @@
 namespace lightproof {
 namespace {
 
-constexpr TargetDensity kTarget = {Weighting::A, kPublishedLuminance};
+constexpr TargetDensity kTarget = {DensitySpace::texture, kPublishedLuminance};
 
 TEST(LinearScanPublished, BlackFirstRowAtZeroLeavesTheMap) {
   const EnvironmentMap map = make_synthetic_map("black-first-row", {64, 32});
@@ -51,7 +51,7 @@ TEST(LinearScanPublished, AwayFromTheEdgesItIsTheExactSampler) {
   for (int i = 0; i < 100; ++i) {
     for (int j = 0; j < 100; ++j) {
       const SquarePoint u = {(i + 0.31) / 100.0, (j + 0.31) / 100.0};
-      if (obvious.near_knot(u, tolerance)) continue;
+      if (obvious.near_entry(u, tolerance)) continue;
       ++compared;
       const TexelSample a = published.sample(u);
       const TexelSample b = exact.sample(u);

@@ -15,9 +15,9 @@ namespace {
 
 TEST(CellWeights, OfAMapAreThoseOfItsGrid) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {38, 19});
-  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
-    const Grid<double> grid = texel_weights(map, {weighting, kRec709});
-    const CellWeights weights(map, {weighting, kRec709});
+  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+    const Grid<double> grid = texel_weights(map, {density_space, kRec709});
+    const CellWeights weights(map, {density_space, kRec709});
     ASSERT_EQ(weights.count(), grid.values().size());
     for (const std::size_t block : {1U, 7U, 38U, 100U, 722U}) {
       std::vector<double> some(block);
@@ -43,7 +43,7 @@ TEST(Samplers, RefuseAMapWithoutLightByName) {
   for (const SamplerInfo& info : samplers()) {
     SCOPED_TRACE(info.name);
     try {
-      info.make(map, Weighting::A);
+      info.make(map, DensitySpace::texture);
       ADD_FAILURE() << "accepted";
     } catch (const InputError& error) {
       EXPECT_NE(std::string_view(error.what()).find("cellar"), std::string_view::npos);
@@ -52,7 +52,7 @@ TEST(Samplers, RefuseAMapWithoutLightByName) {
   map.radiance(69, 34) = {0.0F, 1e-30F, 0.0F};
   for (const SamplerInfo& info : samplers()) {
     SCOPED_TRACE(info.name);
-    EXPECT_NO_THROW(info.make(map, Weighting::A));
+    EXPECT_NO_THROW(info.make(map, DensitySpace::texture));
   }
 }
 

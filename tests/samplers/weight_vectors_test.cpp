@@ -33,7 +33,7 @@ std::vector<Rgb> texels_of(std::size_t count) {
 
 std::vector<double> weights_of(std::size_t count) {
   std::vector<double> weights;
-  for (const Rgb rgb : texels_of(count)) weights.push_back(luminance(rgb));
+  for (const Rgb rgb : texels_of(count)) weights.push_back(luminance_of(rgb));
   return weights;
 }
 
@@ -44,7 +44,7 @@ TEST(WeightVectors, WeighByLuminanceAndArea) {
     for (std::size_t count = 0; count <= kMost; ++count) {
       std::vector<double> weights(kMost + 1, -1.0);
       weigh(std::span(texels).first(count), kRec709, 0.3, std::span(weights).first(count));
-      for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(weights[i], 0.3 * luminance(texels[i]));
+      for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(weights[i], 0.3 * luminance_of(texels[i]));
       EXPECT_EQ(weights[count], -1.0);
     }
   });
@@ -59,7 +59,7 @@ TEST(WeightVectors, WeighNoMoreThanTheyAreAskedFor) {
     for (const std::size_t count : {std::size_t{0}, std::size_t{17}, std::size_t{3000}, kTexels}) {
       std::vector<double> weights(kTexels + 1, -1.0);
       weigh(texels, kRec709, 0.3, std::span(weights).first(count));
-      for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(weights[i], 0.3 * luminance(texels[i]));
+      for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(weights[i], 0.3 * luminance_of(texels[i]));
       EXPECT_EQ(weights[count], -1.0);
     }
   });

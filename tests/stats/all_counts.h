@@ -1,4 +1,4 @@
-// Every outcome of a small multinomial law.
+// Every outcome of a small multinomial distribution.
 #pragma once
 
 #include <cstdint>

@@ -59,7 +59,7 @@ std::vector<double> p_values(const char* name, std::size_t cells, std::uint64_t 
   return log10_p;
 }
 
-// The chi-square law holds for large expectations: 64 and more in every cell here.
+// The chi-square distribution holds for large expectations: 64 and more in every cell here.
 TEST(CressieReadCalibration, PValuesOf256CellsAreUniform) {
   expect_uniform(p_values("CressieReadCalibration.PValuesOf256CellsAreUniform", 256, 32768));
 }
@@ -69,7 +69,8 @@ TEST(CressieReadCalibration, PValuesOfFourCellsAreUniform) {
   expect_uniform(p_values("CressieReadCalibration.PValuesOfFourCellsAreUniform", 4, 4096));
 }
 
-// Cells of expectation 0.3 and 1 that follow the law only because they are pooled, into 6 pools.
+// Cells of expectation 0.3 and 1 that follow the distribution only because they are pooled, into 6
+// pools.
 TEST(CressieReadCalibration, PValuesOfPooledCellsAreUniform) {
   expect_uniform(p_values("CressieReadCalibration.PValuesOfPooledCellsAreUniform", 256, 170));
 }
@@ -92,7 +93,7 @@ TEST(TwoSamplesCalibration, PValuesAreUniform) {
 TEST(TwoSamplesPower, IsThatOfTheHarmonicSize) {
   constexpr double kAlpha = 1e-3;
   constexpr std::uint64_t kFirst = 16384;
-  const double w = detectable_w(63.0, kAlpha, 0.5, kFirst / 5.0);
+  const double w = minimum_detectable_w(63.0, kAlpha, 0.5, kFirst / 5.0);
   const TwoSteps law(64, 0.0);
   const TwoSteps defect(64, w);
   const RandomStream first("TwoSamplesPower.first", 1);
@@ -112,7 +113,7 @@ TEST(TwoSamplesPower, IsThatOfTheHarmonicSize) {
 class PlantedDefect {
  public:
   explicit PlantedDefect(double power)
-      : noncentrality_(detectable_noncentrality(kCells - 1.0, kAlpha, power)) {}
+      : noncentrality_(minimum_detectable_noncentrality(kCells - 1.0, kAlpha, power)) {}
 
   /// (q-p)/p is +-d in all cells, so w = d.
   double w() const { return std::sqrt(noncentrality_ / static_cast<double>(kSamples)); }

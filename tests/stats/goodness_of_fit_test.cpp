@@ -132,7 +132,7 @@ TEST(CressieRead, SeesALeakIntoCellsThatPoolingMightDrop) {
             ThinTail::kSamples);
   const auto fit = cressie_read(sound.counts, sound.probability, ThinTail::kSamples);
   EXPECT_GT(log10_chi_square_tail(fit.statistic, fit.dof), -6.0);
-  EXPECT_TRUE(fit.too_even) << "these counts are no random ones";
+  EXPECT_TRUE(fit.underdispersed) << "these counts are no random ones";
   EXPECT_LT(fit.log10_p, -6.0);
   const ThinTail leaking(0.01);
   EXPECT_LT(cressie_read(leaking.counts, leaking.probability, ThinTail::kSamples).log10_p, -6.0);
@@ -211,8 +211,8 @@ TEST(WorstCell, IsTheOneThatIsOff) {
 }
 
 TEST(WorstCell, HasAPValueOfTheRightSizeForEveryOutcome) {
-  // P(p <= t) <= t under the multinomial law itself, of which the Poisson law is a bound only, at
-  // every t that occurs: summed over all outcomes.
+  // P(p <= t) <= t under the multinomial distribution itself, of which the Poisson distribution is
+  // a bound only, at every t that occurs: summed over all outcomes.
   for (const std::vector<double>& probability :
        {std::vector{0.5, 0.5}, std::vector{0.9, 0.1}, std::vector{0.2, 0.3, 0.5},
         std::vector{0.98, 0.01, 0.01}, std::vector{0.1, 0.2, 0.3, 0.4}}) {
@@ -314,14 +314,14 @@ TEST(WorstCell, CriticalCountIsTheFirstWhoseTailIsBelowTheLevel) {
   }
 }
 
-// The normal law promised 99.5 % of an excess that a Poisson count shows in 28 % of runs where a
-// texel expects two samples.
+// The normal distribution promised 99.5 % of an excess that a Poisson count shows in 28 % of runs
+// where a texel expects two samples.
 TEST(WorstCell, TheExcessThatItPromisesIsFoundThatOften) {
   constexpr double kLevel = 1e-3;
   constexpr double kPower = 0.995;
   for (const double mean : {2.0, 32.0, 320.0, 32000.0}) {
     const WorstCell worst = {.cells = 1U << 17U, .likeliest = mean / 0x1p22};
-    const double excess = detectable_excess(worst, kLevel, kPower, 0x1p22);
+    const double excess = minimum_detectable_excess(worst, kLevel, kPower, 0x1p22);
     const auto critical = static_cast<int>(critical_count(mean, 0.5 * kLevel / 0x1p17));
     EXPECT_NEAR(poisson_upper(critical, mean * (1.0 + excess)), kPower, 1e-9) << mean;
   }
@@ -329,14 +329,14 @@ TEST(WorstCell, TheExcessThatItPromisesIsFoundThatOften) {
 
 TEST(WorstCell, PromisesNothingThatNeedsMoreThanAllSamples) {
   const WorstCell all = {.cells = 1, .likeliest = 1.0};
-  EXPECT_TRUE(std::isinf(detectable_excess(all, 1e-3, 0.99, 1024.0)));
+  EXPECT_TRUE(std::isinf(minimum_detectable_excess(all, 1e-3, 0.99, 1024.0)));
   const WorstCell half = {.cells = 2, .likeliest = 0.5};
-  EXPECT_TRUE(std::isinf(detectable_excess(half, 1e-3, 0.99, 16.0)));
-  EXPECT_LT(detectable_excess(half, 1e-3, 0.99, 1024.0), 1.0);
+  EXPECT_TRUE(std::isinf(minimum_detectable_excess(half, 1e-3, 0.99, 16.0)));
+  EXPECT_LT(minimum_detectable_excess(half, 1e-3, 0.99, 1024.0), 1.0);
 }
 
 // Counts equal to expectations that are not whole numbers of a double: the sum of what is 0 was
-// -1e-13, and no law knows that.
+// -1e-13, and no distribution knows that.
 TEST(CressieRead, IsNeverBelowZero) {
   for (std::uint64_t n = 1000; n < 1200; ++n) {
     for (int cells = 2; cells < 30; ++cells) {

@@ -87,7 +87,7 @@ TEST(Independence, FindsTheEffectThatItPromises) {
   constexpr std::uint64_t kCount = 1U << 14U;
   constexpr double kLevel = 1e-3;
   constexpr double kPower = 0.9;
-  const double effect = detectable_w(49.0, kLevel, kPower, kCount);
+  const double effect = minimum_detectable_w(49.0, kLevel, kPower, kCount);
   int found = 0;
   constexpr int kReplicates = 1000;
   for (int i = 0; i < kReplicates; ++i) {

@@ -1,4 +1,5 @@
-// How often a test rejects samples of a law that it should find, and what that number may be.
+// How often a test rejects samples of a distribution that it should find, and what that number may
+// be.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@ inline void expect_power_at_most(double power, int rejected, int replicates) {
   EXPECT_LE(rejected, boost::math::quantile(boost::math::complement(rejections, kChanceOfFailure)));
 }
 
-/// A law over cells, which are drawn from by inversion.
+/// A distribution over cells, which are drawn from by inversion.
 class CellLaw {
  public:
   explicit CellLaw(std::span<const double> probability) {

@@ -1,5 +1,5 @@
-// Stated powers and detectable effects, each against simulated samples of a law that is off by as
-// much.
+// Stated powers and detectable effects, each against simulated samples of a distribution that is
+// off by as much.
 #include "power.h"
 
 #include <gtest/gtest.h>
@@ -72,12 +72,12 @@ double critical_value(const Tail& tail) {
 // value at the middle, and falls below that at the ends: around both a Brownian motion with a drift
 // of 2 d sqrt N on either side, whose supremum is exponential with the mean 1 / (4 d sqrt N), the
 // larger of two of them 3/2 of that. Both together, 3 / (4 d sqrt N), raise the power to that of a
-// distance greater by it, at most: the normal law is concave above its mean.
+// distance greater by it, at most: the normal distribution is concave above its mean.
 TEST(KuiperPower, OfTheDetectableDistanceIsAsStated) {
   const double critical = critical_value(log10_kuiper_tail);
   for (const double power : kPowers) {
     SCOPED_TRACE(power);
-    const double distance = detectable_kuiper_distance(kLevel, power, kSamples);
+    const double distance = minimum_detectable_kuiper_distance(kLevel, power, kSamples);
     const int rejected = kuiper_rejections(distance);
     expect_power_at_least(power, rejected, kReplicates);
     const double mean = distance * kRootOfSamples;
@@ -88,7 +88,7 @@ TEST(KuiperPower, OfTheDetectableDistanceIsAsStated) {
 TEST(KuiperPower, IsTheInverseOfTheDetectableDistance) {
   for (const double samples : {1e3, 1e6}) {
     for (const double power : {0.1, 0.5, 0.99}) {
-      const double distance = detectable_kuiper_distance(1e-6, power, samples);
+      const double distance = minimum_detectable_kuiper_distance(1e-6, power, samples);
       EXPECT_NEAR(kuiper_power(distance, 1e-6, samples), power, 1e-9);
     }
   }
@@ -102,7 +102,7 @@ TEST(AndersonDarlingPower, OfTheDetectableDistanceIsAsStated) {
   const double critical = critical_value(log10_anderson_darling_tail);
   for (const double power : kPowers) {
     SCOPED_TRACE(power);
-    const double distance = detectable_anderson_darling_distance(kLevel, power, kSamples);
+    const double distance = minimum_detectable_anderson_darling_distance(kLevel, power, kSamples);
     const int rejected = anderson_darling_rejections(distance);
     expect_power_at_least(power, rejected, kReplicates);
     const double most =
@@ -114,7 +114,7 @@ TEST(AndersonDarlingPower, OfTheDetectableDistanceIsAsStated) {
 TEST(AndersonDarlingPower, IsTheInverseOfTheDetectableDistance) {
   for (const double samples : {1e3, 1e6}) {
     for (const double power : {0.1, 0.5, 0.99}) {
-      const double distance = detectable_anderson_darling_distance(1e-6, power, samples);
+      const double distance = minimum_detectable_anderson_darling_distance(1e-6, power, samples);
       EXPECT_NEAR(anderson_darling_power(distance, 1e-6, samples), power, 1e-9);
     }
   }
@@ -134,8 +134,8 @@ TEST(UniformityDistance, IsThatOfTheLaw) {
   }
 }
 
-/// Cells in pairs, of which the first has (1 + w) and the second (1 - w) of its share of a law that
-/// falls from cell to cell: the effect is w.
+/// Cells in pairs, of which the first has (1 + w) and the second (1 - w) of its share of a
+/// distribution that falls from cell to cell: the effect is w.
 struct PairedCells {
   PairedCells(std::size_t cells, double w) {
     double total = 0.0;
@@ -154,7 +154,8 @@ struct PairedCells {
   std::vector<double> actual;
 };
 
-/// What the law of counts lacks of a non-central chi-square, of which a rejection is a tail.
+/// What the distribution of counts lacks of a non-central chi-square, of which a rejection is a
+/// tail.
 constexpr double kChiSquareError = 0.02;
 
 void expect_power(double power, int rejected, int replicates) {
@@ -174,7 +175,7 @@ TEST(FitPower, OfTheDetectableEffectIsAsStated) {
   for (const std::size_t cells : {4U, 64U}) {
     for (const double power : {0.6, 0.9}) {
       SCOPED_TRACE(testing::Message() << cells << " cells, power " << power);
-      const double w = detectable_w(static_cast<double>(cells - 1), kLevel, power, 4096.0);
+      const double w = minimum_detectable_w(static_cast<double>(cells - 1), kLevel, power, 4096.0);
       const int rejected = fit_rejections(PairedCells(cells, w), 4096);
       expect_power(power, rejected, kReplicates);
     }
@@ -209,7 +210,7 @@ TEST(TwoSamplesPower, OfTheDetectableEffectIsAsStated) {
   constexpr int kSome = 1000;
   for (const double power : {0.6, 0.9}) {
     SCOPED_TRACE(power);
-    const double w = detectable_w(63.0, kLevel, power, 16384.0 * kShare);
+    const double w = minimum_detectable_w(63.0, kLevel, power, 16384.0 * kShare);
     const PairedCells cells(64, w);
     const CellLaw first(cells.actual);
     const CellLaw second(cells.expected);
@@ -229,7 +230,7 @@ TEST(DetectableZ, IsSeenWithTheStatedPower) {
   for (const double power : kPowers) {
     SCOPED_TRACE(power);
     const double shift =
-        detectable_z(kLevel, power) * std::sqrt(1.0 / 12.0 / static_cast<double>(kSamples));
+        minimum_detectable_z(kLevel, power) * std::sqrt(1.0 / 12.0 / static_cast<double>(kSamples));
     const int rejected =
         count_rejections("DetectableZ", kReplicates, [&](const RandomStream& stream) {
           Moments moments;
@@ -241,13 +242,13 @@ TEST(DetectableZ, IsSeenWithTheStatedPower) {
   }
 }
 
-// A symmetric law, so that its p-values are normal here.
+// A symmetric distribution, so that its p-values are normal here.
 TEST(DetectableFactor, IsSeenWithTheStatedPower) {
-  const ExactLaw uniform = {0.5, 1.0 / 12.0, 0.5};
+  const ExactMoments uniform = {0.5, 1.0 / 12.0, 0.5};
   for (const double power : kPowers) {
     SCOPED_TRACE(power);
     const double factor =
-        detectable_factor(kLevel, power, static_cast<double>(kSamples), uniform, 0.5);
+        minimum_detectable_factor(kLevel, power, static_cast<double>(kSamples), uniform, 0.5);
     const int rejected =
         count_rejections("DetectableFactor", kReplicates, [&](const RandomStream& stream) {
           Moments moments;
@@ -277,11 +278,12 @@ TEST(SequentialPower, OfTheDetectableEffectIsAtLeastAsStated) {
   const SequentialTest test(PairedCells(64, 0.0).expected);
   for (const double power : {0.6, 0.9}) {
     SCOPED_TRACE(power);
-    const double w = test.detectable_effect(kLevel, power, 4096.0);
+    const double w = test.minimum_detectable_effect(kLevel, power, 4096.0);
     expect_power_at_least(power, sequential_rejections(w, kSome), kSome);
     expect_power_at_most(power, sequential_rejections(0.75 * w, kSome), kSome);
   }
-  EXPECT_TRUE(std::isinf(SequentialTest(std::vector<double>{1.0}).detectable_effect(0.1, 0.5, 10)));
+  EXPECT_TRUE(
+      std::isinf(SequentialTest(std::vector<double>{1.0}).minimum_detectable_effect(0.1, 0.5, 10)));
 }
 
 }  // namespace

@@ -56,14 +56,14 @@ double multinomial(const Probabilities& p, const Counts& counts) {
   return probability;
 }
 
-const std::vector<Probabilities>& small_laws() {
+const std::vector<Probabilities>& small_distributions() {
   static const std::vector<Probabilities> laws = {
       {0.5, 0.5}, {0.999, 0.001}, {0.2, 0.3, 0.5}, {0.1, 0.2, 0.3, 0.4}, {0.97, 0.01, 0.01, 0.01}};
   return laws;
 }
 
 TEST(SequentialTest, HasAnExpectationOfOneUnderTheNull) {
-  for (const Probabilities& p : small_laws()) {
+  for (const Probabilities& p : small_distributions()) {
     const SequentialTest test(p);
     for (std::uint64_t samples = 1; samples <= 6; ++samples) {
       double expectation = 0.0;
@@ -77,7 +77,7 @@ TEST(SequentialTest, HasAnExpectationOfOneUnderTheNull) {
 }
 
 TEST(SequentialTest, IsAMartingaleFromWhereverItStands) {
-  for (const Probabilities& p : small_laws()) {
+  for (const Probabilities& p : small_distributions()) {
     const SequentialTest test(p);
     Counts counts(p.size());
     for_all_counts(counts, 0, 12, [&](const Counts& now) {
@@ -280,7 +280,7 @@ TEST(SequentialPower, NeedsFewerSamplesThanTheFixedTestOnMostRuns) {
   // log 28 = 3.3. What is left is above log(1 / alpha) = 13.8 by 1.2 standard deviations, in at
   // least four runs of five. Fewer than half of 100 would have a probability of 1e-10.
   constexpr double kAlpha = 1e-6;
-  const double lambda = detectable_noncentrality(255.0, kAlpha, 0.99);
+  const double lambda = minimum_detectable_noncentrality(255.0, kAlpha, 0.99);
   for (const double w : {0.5, 0.25}) {
     const auto fixed = static_cast<std::uint64_t>(lambda / (w * w));
     EXPECT_GT(stopped_within("SequentialPower.NeedsFewerSamples", EvenCells(256, w), kAlpha,

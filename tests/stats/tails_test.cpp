@@ -146,19 +146,21 @@ TEST(Detectable, NoncentralityIsThatOfTheTable) {
                             {1023, 364, 0.5},  {5049, 755, 0.5}, {16383, 1326, 0.5},
                             {65535, 2607, 0.5}};
   for (const Row& row : kTable) {
-    EXPECT_NEAR(detectable_noncentrality(row.dof, 1e-6, 0.99), row.lambda, row.half_digit)
+    EXPECT_NEAR(minimum_detectable_noncentrality(row.dof, 1e-6, 0.99), row.lambda, row.half_digit)
         << row.dof;
   }
 }
 
 TEST(Detectable, NoncentralityGrowsWithPowerAndStrictness) {
-  EXPECT_GT(detectable_noncentrality(31, 1e-6, 0.99), detectable_noncentrality(31, 1e-6, 0.9));
-  EXPECT_GT(detectable_noncentrality(31, 1e-8, 0.99), detectable_noncentrality(31, 1e-6, 0.99));
+  EXPECT_GT(minimum_detectable_noncentrality(31, 1e-6, 0.99),
+            minimum_detectable_noncentrality(31, 1e-6, 0.9));
+  EXPECT_GT(minimum_detectable_noncentrality(31, 1e-8, 0.99),
+            minimum_detectable_noncentrality(31, 1e-6, 0.99));
 }
 
 TEST(Detectable, ZIsTheSumOfTwoQuantiles) {
-  EXPECT_NEAR(detectable_z(0.05, 0.8), 1.959963984540054 + 0.841621233572914, 1e-13);
-  EXPECT_NEAR(detectable_z(1e-6, 0.99), 4.891638475698590 + 2.326347874040841, 1e-13);
+  EXPECT_NEAR(minimum_detectable_z(0.05, 0.8), 1.959963984540054 + 0.841621233572914, 1e-13);
+  EXPECT_NEAR(minimum_detectable_z(1e-6, 0.99), 4.891638475698590 + 2.326347874040841, 1e-13);
 }
 
 TEST(StudentUpper, OfOneAndTwoDegreesHasItsClosedForm) {
@@ -171,8 +173,8 @@ TEST(StudentUpper, OfOneAndTwoDegreesHasItsClosedForm) {
 
 TEST(Detectable, ZIsTheRootOfTheNoncentralityOfOneDegree) {
   // They differ by the rejections in the other tail: P(Z < -12) = 1e-33.
-  const double z = detectable_z(1e-6, 0.99);
-  EXPECT_NEAR(detectable_noncentrality(1, 1e-6, 0.99), z * z, 1e-6);
+  const double z = minimum_detectable_z(1e-6, 0.99);
+  EXPECT_NEAR(minimum_detectable_noncentrality(1, 1e-6, 0.99), z * z, 1e-6);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace lightproof {
 namespace {
 
-// Percentage points of Kuiper's V* (Stephens 1970, table 1), given to three decimals: the law falls
-// by up to 4 v of itself per unit, so half a unit of the last one is 0.4 % of p.
+// Percentage points of Kuiper's V* (Stephens 1970, table 1), given to three decimals: the
+// distribution falls by up to 4 v of itself per unit, so half a unit of the last one is 0.4 % of p.
 TEST(KuiperTail, HasTheTabulatedPercentagePoints) {
   const std::vector<std::pair<double, double>> points = {
       {1.620, 0.10}, {1.747, 0.05}, {1.862, 0.025}, {2.001, 0.01}};

@@ -59,7 +59,7 @@ TEST(DirectionsOfPlaces, AreThoseOfOnePlaceEach) {
     Numbers sine(size);
     for_each_kind_of_vector([&](const char* vectors) {
       SCOPED_TRACE(vectors);
-      const std::size_t done = directions_of_places(s, t, {x, y, z, sine});
+      const std::size_t done = directions_of_positions(s, t, {x, y, z, sine});
       expect_whole_vectors(vectors, done, size);
       for (std::size_t i = 0; i < size; ++i) {
         const Direction expected = direction_from_square({s[i], t[i]});
@@ -116,7 +116,7 @@ TEST(ApproximatePlaces, AreThoseOfOneDirectionAtATime) {
     SCOPED_TRACE(vectors);
     std::vector<double> s(kSize);
     std::vector<double> t(kSize);
-    approximate_places(x, y, z, {s, t});
+    approximate_positions(x, y, z, {s, t});
     for (std::size_t i = 0; i < kSize; ++i) {
       const SquarePoint expected = approximate_square_from_direction({x[i], y[i], z[i]});
       EXPECT_EQ(s[i], expected.s);

@@ -15,13 +15,13 @@
 #include "known_names.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/text_escapes.h"
+#include "lightproof/gate/gate.h"
+#include "lightproof/gate/sequential_gate.h"
 #include "lightproof/report/ci_outputs.h"
 #include "lightproof/report/gate_summary.h"
+#include "lightproof/report/gate_table.h"
 #include "lightproof/report/json.h"
 #include "lightproof/report/rejection_files.h"
-#include "lightproof/report/table.h"
-#include "lightproof/suite/gate.h"
-#include "lightproof/suite/sequential_gate.h"
 #include "outputs.h"
 #include "whole_number.h"
 
@@ -30,7 +30,7 @@ namespace {
 
 struct Options : CommonOptions {
   std::vector<std::string> samplers;
-  std::string weighting;
+  std::string density_space;
   std::string json;
   std::string junit;
   std::string markdown;
@@ -67,24 +67,24 @@ struct Judged {
 };
 
 /// The names of all files that --rejections may write for these problems.
-std::set<std::string> names_of_rejections(std::span<const Problem> problems) {
+std::set<std::string> names_of_rejections(std::span<const TestCase> test_cases) {
   std::set<std::string> names;
-  for (const Problem& problem : problems) {
-    for (const Candidate& candidate : problem.candidates) {
-      names.merge(rejection_file_names(candidate.name, problem.weighting, problem.map));
+  for (const TestCase& test_case : test_cases) {
+    for (const SamplerInstance& candidate : test_case.instances) {
+      names.merge(rejection_file_names(candidate.name, test_case.density_space, test_case.map));
     }
   }
   return names;
 }
 
 /// Progress is shown until it returns.
-Judged run_on(std::span<const Problem> problems, const Options& options) {
+Judged run_on(std::span<const TestCase> test_cases, const Options& options) {
   GateOptions gate = options.gate;
   gate.seed = options.seed;
   const Progress progress = progress_of(options);
   Judged judged;
-  judged.result = options.sequential ? run_sequential_gate(problems, gate, progress)
-                                     : run_gate(problems, gate, progress);
+  judged.result = options.sequential ? run_sequential_gate(test_cases, gate, progress)
+                                     : run_gate(test_cases, gate, progress);
   judged.result.input_options = input_options(options);
   // A sampler with known defects fails a run only if it was asked for by its name.
   judged.verdict.count_known_defects = !options.samplers.empty();
@@ -135,19 +135,20 @@ ExitCode exit_code_of(Outcome outcome) {
 int run(const Options& options) {
   const ThreadLimit threads(options.threads);
   const ChosenSamplers chosen = choose_samplers(
-      {options.samplers, options.weighting, options.with_published, !options.maps.empty()});
+      {options.samplers, options.density_space, options.with_published, !options.maps.empty()});
   const bool stdout_is_taken =
       check_outputs(std::vector<std::string>{options.json, options.junit, options.markdown});
   if (!options.quiet) {
     for (const std::string& note : chosen.notes) fmt::print(stderr, "{}\n", terminal_text(note));
   }
   const std::vector<EnvironmentMap> maps = load_maps(options);
-  const std::vector<Problem> problems = problems_of(maps, chosen.of_maps, chosen.of_directions);
+  const std::vector<TestCase> test_cases =
+      test_cases_of(maps, chosen.of_maps, chosen.of_directions);
   if (!options.rejections.empty()) {
-    check_folder(options.rejections, options.force, names_of_rejections(problems),
+    check_folder(options.rejections, options.force, names_of_rejections(test_cases),
                  options.command_line);
   }
-  const Judged judged = run_on(problems, options);
+  const Judged judged = run_on(test_cases, options);
   print_for_people(options, judged, stdout_is_taken);
   write_outputs(options, judged, describe_run(options, maps));
   return exit_code_of(judged.verdict.overall);
@@ -168,8 +169,8 @@ void add_sampler_options(CLI::App& command, Options& options) {
                 "show samplers that are kept with known defects as well; they decide nothing")
       ->excludes(sampler);
   command.add_flag("--sound-only", options.sound_only)->group("");
-  command.add_option("--weighting", options.weighting, "test only this weighting")
-      ->check(one_of("weighting", {"A", "B"}))
+  command.add_option("--density", options.density_space, "test only this target density")
+      ->check(one_of("density", {"A", "B"}))
       ->type_name("A|B");
 }
 

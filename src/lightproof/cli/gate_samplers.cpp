@@ -6,9 +6,9 @@
 
 #include "known_names.h"
 #include "lightproof/core/error.h"
-#include "lightproof/mutants/direction_mutant.h"
-#include "lightproof/mutants/mutant.h"
 #include "lightproof/samplers/registry.h"
+#include "lightproof/self_test/direction_mutant.h"
+#include "lightproof/self_test/mutant.h"
 
 namespace lightproof::cli {
 namespace {
@@ -49,19 +49,20 @@ void add_named(ChosenSamplers& chosen, const std::string& name) {
   const auto mutant = find_named(all_mutants, name);
   const auto sampler = find_named(all_samplers, name);
   if (mutant == all_mutants.end() && sampler == all_samplers.end()) refuse_unknown(name);
-  for (const Weighting weighting : {Weighting::A, Weighting::B}) {
-    chosen.of_maps.push_back(mutant != all_mutants.end() ? subject_of(*mutant, weighting)
-                                                         : subject_of(*sampler, weighting));
+  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+    chosen.of_maps.push_back(mutant != all_mutants.end()
+                                 ? sampler_under_test(*mutant, density_space)
+                                 : sampler_under_test(*sampler, density_space));
   }
 }
 
-/// Of directions that were named together with maps or a weighting, which they have no use for.
+/// Of directions that were named together with maps or a density, which they have no use for.
 void settle_named_directions(const SamplerChoice& choice, ChosenSamplers& chosen) {
   if (chosen.of_directions.empty()) return;
   const std::string names = listed(names_of(chosen.of_directions));
-  if (!choice.weighting.empty()) {
+  if (!choice.density_space.empty()) {
     const std::string reason =
-        fmt::format("--weighting: {} draws directions, which have no weighting", names);
+        fmt::format("--density: {} draws directions, which have no density of a map", names);
     if (chosen.of_maps.empty()) throw InputError(reason + ": leave the option out");
     chosen.notes.push_back(reason + ": left out");
     chosen.of_directions.clear();
@@ -82,15 +83,17 @@ ChosenSamplers choose_samplers(const SamplerChoice& choice) {
   for (const std::string& name : choice.names) add_named(chosen, name);
   settle_named_directions(choice, chosen);
   if (choice.names.empty()) {
-    chosen.of_maps = all_subjects();
+    chosen.of_maps = all_samplers_under_test();
     if (!choice.with_published) {
-      std::erase_if(chosen.of_maps, [](const Subject& subject) { return subject.known_defects; });
+      std::erase_if(chosen.of_maps,
+                    [](const SamplerUnderTest& under_test) { return under_test.known_defects; });
     }
-    const bool of_directions = !choice.has_maps && choice.weighting.empty();
+    const bool of_directions = !choice.has_maps && choice.density_space.empty();
     if (of_directions) chosen.of_directions = direction_samplers();
   }
-  std::erase_if(chosen.of_maps, [&](const Subject& subject) {
-    return !choice.weighting.empty() && choice.weighting != to_string(subject.target.weighting);
+  std::erase_if(chosen.of_maps, [&](const SamplerUnderTest& under_test) {
+    return !choice.density_space.empty() &&
+           choice.density_space != to_string(under_test.target.density_space);
   });
   return chosen;
 }

@@ -4,27 +4,27 @@
 #include <string>
 #include <vector>
 
-#include "lightproof/suite/direction_sampler.h"
-#include "lightproof/suite/subject.h"
+#include "lightproof/gate/direction_sampler.h"
+#include "lightproof/gate/sampler_under_test.h"
 
 namespace lightproof::cli {
 
 struct SamplerChoice {
-  std::vector<std::string> names;  ///< of samplers or mutants; empty: all that are sound
-  std::string weighting;           ///< "A", "B" or both (empty)
+  std::vector<std::string> names;  ///< of samplers or mutants; empty: all that are correct
+  std::string density_space;       ///< "A", "B" or both (empty)
   bool with_published = false;     ///< those that are kept with known defects as well
   bool has_maps = false;           ///< some were named
 };
 
 /// What is tested: samplers of maps, which need some, and samplers of directions, which need none.
 struct ChosenSamplers {
-  std::vector<Subject> of_maps;
+  std::vector<SamplerUnderTest> of_maps;
   std::vector<DirectionSampler> of_directions;
   std::vector<std::string> notes;  ///< what was chosen and ignored, one sentence each
 };
 
 /// Throws InputError if a name is unknown, or if nothing that was named can make use of the maps or
-/// of the weighting that were.
+/// of the density that were.
 ChosenSamplers choose_samplers(const SamplerChoice& choice);
 
 }  // namespace lightproof::cli

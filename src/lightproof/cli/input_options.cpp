@@ -79,7 +79,7 @@ void add_input_options(CLI::App& command, InputOptions& options) {
       ->check(CLI::Range(0, kLargestPart));
   command
       .add_option("--luminance", options.luminance,
-                  "weights of red, green and blue in the grey value that samplers draw by: rec709, "
+                  "weights of red, green and blue in the luminance that samplers draw by: rec709, "
                   "published (the lecture's), average, or file (as the header's chromaticities "
                   "imply)")
       ->check(CLI::IsMember({"rec709", "published", "average", "file"}))

@@ -10,14 +10,14 @@
 #include "common.h"
 #include "describe_run.h"
 #include "known_names.h"
+#include "lightproof/gate/direction_sampler.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/materials/material.h"
-#include "lightproof/mutants/direction_mutant.h"
-#include "lightproof/mutants/mutant.h"
 #include "lightproof/render/receiver.h"
 #include "lightproof/render/strategy.h"
 #include "lightproof/samplers/registry.h"
-#include "lightproof/suite/direction_sampler.h"
+#include "lightproof/self_test/direction_mutant.h"
+#include "lightproof/self_test/mutant.h"
 #include "lightproof/warp/preset.h"
 
 namespace lightproof::cli {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "lightproof/core/atomic_file.h"
 #include "lightproof/core/error.h"
-#include "lightproof/core/pending_file.h"
 
 namespace lightproof::cli {
 

@@ -12,9 +12,9 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/text_escapes.h"
-#include "lightproof/mutants/self_test.h"
 #include "lightproof/report/report.h"
-#include "lightproof/suite/study.h"
+#include "lightproof/self_test/self_test.h"
+#include "lightproof/study/study.h"
 #include "outputs.h"
 #include "whole_number.h"
 

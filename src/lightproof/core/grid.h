@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "lightproof/core/large_pages.h"
+#include "lightproof/core/huge_pages.h"
 
 namespace lightproof {
 

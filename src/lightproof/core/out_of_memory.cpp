@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "lightproof/core/large_pages.h"
+#include "lightproof/core/huge_pages.h"
 
 namespace lightproof {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "lightproof/core/text_escapes.h"
-#include "lightproof/report/columns.h"
-#include "lightproof/report/numbers.h"
+#include "lightproof/page/numbers.h"
+#include "lightproof/page/text_table.h"
 
 namespace lightproof {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lightproof/history/trend_page.h"
-#include "lightproof/report/chart_parts.h"
+#include "lightproof/page/chart_parts.h"
 #include "lightproof/stats/median.h"
 
 namespace lightproof {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "lightproof/report/document.h"
-#include "lightproof/report/html.h"
-#include "lightproof/report/numbers.h"
+#include "lightproof/page/document.h"
+#include "lightproof/page/html.h"
+#include "lightproof/page/numbers.h"
 
 namespace lightproof {
 namespace {
@@ -68,7 +68,7 @@ std::string changes_table(std::span<const TrendLine> lines) {
            text_cell(short_commit(line.points[change.first].commit)),
            number_cell(static_cast<double>(change.first + 1)),
            {sign + percent(std::abs(change.ratio - 1.0)), "number", ""},
-           {std::isinf(change.log10_p) ? "exact" : page_number(change.log10_p), "number", ""}});
+           {std::isinf(change.log10_p) ? "exact" : format_number(change.log10_p), "number", ""}});
     }
   }
   return any ? "<h3>Changes</h3>\n" + table.html() : "";

@@ -6,17 +6,17 @@
 
 namespace lightproof {
 
-Grid<double> luminance(const EnvironmentMap& map) { return luminance(map, map.weights); }
+Grid<double> luminance_of(const EnvironmentMap& map) { return luminance_of(map, map.weights); }
 
-Grid<double> luminance(const EnvironmentMap& map, LuminanceWeights weights) {
+Grid<double> luminance_of(const EnvironmentMap& map, LuminanceWeights weights) {
   const Extent extent = map.radiance.extent();
-  Grid<double> grey(extent);
+  Grid<double> luminance(extent);
   parallel_for(static_cast<std::size_t>(extent.height), [&](std::size_t row) {
     const int y = static_cast<int>(row);
-    std::ranges::transform(map.radiance.row(y), grey.row(y).begin(),
-                           [&](Rgb rgb) { return luminance(rgb, weights); });
+    std::ranges::transform(map.radiance.row(y), luminance.row(y).begin(),
+                           [&](Rgb rgb) { return luminance_of(rgb, weights); });
   });
-  return grey;
+  return luminance;
 }
 
 }  // namespace lightproof

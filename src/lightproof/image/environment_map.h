@@ -28,8 +28,8 @@ struct EnvironmentMap {
 };
 
 /// The luminance of every texel by the map's own weights, same shape as the map.
-Grid<double> luminance(const EnvironmentMap& map);
+Grid<double> luminance_of(const EnvironmentMap& map);
 /// The same by other weights.
-Grid<double> luminance(const EnvironmentMap& map, LuminanceWeights weights);
+Grid<double> luminance_of(const EnvironmentMap& map, LuminanceWeights weights);
 
 }  // namespace lightproof

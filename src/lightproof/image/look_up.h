@@ -12,8 +12,8 @@ namespace lightproof {
 
 /// Interpolates between the centres of texels: s wraps around, t is clamped, so that the half rows
 /// at the poles are constant in t. `at` in [0,1]^2.
-inline double look_up_bilinear(const Grid<double>& grey, SquarePoint at) {
-  const auto [width, height] = grey.extent();
+inline double look_up_bilinear(const Grid<double>& luminance, SquarePoint at) {
+  const auto [width, height] = luminance.extent();
   const double column = std::floor(at.s * width - 0.5);
   const double row = std::floor(at.t * height - 0.5);
   const double across = at.s * width - 0.5 - column;
@@ -22,19 +22,20 @@ inline double look_up_bilinear(const Grid<double>& grey, SquarePoint at) {
   const int x1 = (x0 + 1) % width;
   const int y0 = std::max(static_cast<int>(row), 0);
   const int y1 = std::min(static_cast<int>(row) + 1, height - 1);
-  return (1.0 - along) * ((1.0 - across) * grey(x0, y0) + across * grey(x1, y0)) +
-         along * ((1.0 - across) * grey(x0, y1) + across * grey(x1, y1));
+  return (1.0 - along) * ((1.0 - across) * luminance(x0, y0) + across * luminance(x1, y0)) +
+         along * ((1.0 - across) * luminance(x0, y1) + across * luminance(x1, y1));
 }
 
 /// The value of the texel that `at` lies in; a coordinate of exactly 1 belongs to the last.
-inline double look_up_nearest(const Grid<double>& grey, SquarePoint at) {
-  const auto [width, height] = grey.extent();
-  return grey(std::clamp(static_cast<int>(at.s * width), 0, width - 1),
-              std::clamp(static_cast<int>(at.t * height), 0, height - 1));
+inline double look_up_nearest(const Grid<double>& luminance, SquarePoint at) {
+  const auto [width, height] = luminance.extent();
+  return luminance(std::clamp(static_cast<int>(at.s * width), 0, width - 1),
+                   std::clamp(static_cast<int>(at.t * height), 0, height - 1));
 }
 
-inline double look_up(const Grid<double>& grey, Lookup lookup, SquarePoint at) {
-  return lookup == Lookup::nearest ? look_up_nearest(grey, at) : look_up_bilinear(grey, at);
+inline double look_up(const Grid<double>& luminance, Lookup lookup, SquarePoint at) {
+  return lookup == Lookup::nearest ? look_up_nearest(luminance, at)
+                                   : look_up_bilinear(luminance, at);
 }
 
 }  // namespace lightproof

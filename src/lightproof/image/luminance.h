@@ -1,11 +1,11 @@
-// The grey value of a linear RGB triple.
+// The luminance of a linear RGB triple.
 #pragma once
 
 #include "lightproof/core/direction.h"
 
 namespace lightproof {
 
-/// Weights of the grey value of a linear RGB triple. Any positive weights give an unbiased sampler.
+/// Weights of the luminance of a linear RGB triple. Any positive weights give an unbiased sampler.
 struct LuminanceWeights {
   double red;
   double green;
@@ -20,8 +20,8 @@ inline constexpr LuminanceWeights kPublishedLuminance = {0.2989, 0.5866, 0.1145}
 /// The mean of the three channels.
 inline constexpr LuminanceWeights kAverageLuminance = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
 
-/// Grey value of one texel, in the unit of the radiance.
-inline double luminance(Rgb rgb, LuminanceWeights weights = kRec709) {
+/// Luminance value of one texel, in the unit of the radiance.
+inline double luminance_of(Rgb rgb, LuminanceWeights weights = kRec709) {
   return weights.red * static_cast<double>(rgb.r) + weights.green * static_cast<double>(rgb.g) +
          weights.blue * static_cast<double>(rgb.b);
 }

@@ -13,11 +13,11 @@ MapFigures figures_of(const EnvironmentMap& map) {
   for (int y = 0; y < extent.height; ++y) {
     const double solid_angle = texel_solid_angle(extent, y);
     for (int x = 0; x < extent.width; ++x) {
-      const double grey = luminance(map.radiance(x, y), map.weights);
-      first += grey * solid_angle;
-      second += grey * grey * solid_angle;
-      if (grey <= figures.peak_luminance) continue;
-      figures.peak_luminance = grey;
+      const double luminance = luminance_of(map.radiance(x, y), map.weights);
+      first += luminance * solid_angle;
+      second += luminance * luminance * solid_angle;
+      if (luminance <= figures.peak_luminance) continue;
+      figures.peak_luminance = luminance;
       figures.peak_column = x;
       figures.peak_row = y;
     }

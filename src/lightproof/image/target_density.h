@@ -5,14 +5,19 @@
 
 namespace lightproof {
 
-/// How the grey value g of a texel becomes the density that is drawn.
-enum class Weighting {
-  A,  ///< the lecture's: density over (s,t) proportional to g, uniform in t inside a texel
-  B,  ///< density over directions proportional to g, uniform in cos(theta) inside a texel
+/// How the luminance g of a texel becomes the density that is drawn.
+enum class DensitySpace {
+  /// A: the texture-space density of the lecture, over (s,t) in proportion to luminance; uniform in
+  /// t inside a texel.
+  texture,
+  /// B: the solid-angle density, over directions in proportion to luminance; uniform in cos(theta)
+  /// inside a texel.
+  solid_angle,
 };
 
-constexpr const char* to_string(Weighting weighting) {
-  return weighting == Weighting::A ? "A" : "B";
+/// The label in tables: "A" or "B".
+constexpr const char* to_string(DensitySpace density_space) {
+  return density_space == DensitySpace::texture ? "A" : "B";
 }
 
 /// What the map is taken to be between the centres of its texels.
@@ -22,12 +27,12 @@ enum class Lookup {
 };
 
 /// The declared density: every sampler is held against it by the reference. With a bilinear look-up
-/// it is in proportion to the interpolated grey, at every place: over (s,t) under A, over
+/// it is in proportion to the interpolated luminance, at every position: over (s,t) under A, over
 /// directions under B.
 struct TargetDensity {
-  Weighting weighting;
+  DensitySpace density_space;
   /// Rec. 709 gives way to the map's own weights: see on_map().
-  LuminanceWeights grey = kRec709;
+  LuminanceWeights weights = kRec709;
   Lookup lookup = Lookup::nearest;
   friend bool operator==(TargetDensity, TargetDensity) = default;
 };
@@ -35,7 +40,7 @@ struct TargetDensity {
 /// The density that is declared on this map: by the map's own luminance weights, unless weights
 /// other than Rec. 709 were declared.
 inline TargetDensity on_map(TargetDensity declared, const EnvironmentMap& map) {
-  if (declared.grey == kRec709) declared.grey = map.weights;
+  if (declared.weights == kRec709) declared.weights = map.weights;
   return declared;
 }
 

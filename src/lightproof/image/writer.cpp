@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "lightproof/core/atomic_file.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
-#include "lightproof/core/pending_file.h"
 #include "lightproof/image/open_image_io.h"
 
 namespace lightproof {

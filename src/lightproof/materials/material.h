@@ -10,7 +10,7 @@
 
 namespace lightproof {
 
-/// Visit once per batch, outside the loop. Reflectances are grey: colour comes from the map.
+/// Visit once per batch, outside the loop. Reflectances are luminance: colour comes from the map.
 using Material = std::variant<Lambert, ModifiedPhong>;
 
 struct MaterialInfo {

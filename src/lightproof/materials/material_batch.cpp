@@ -86,9 +86,9 @@ struct Scatterings {
   Number pdf;
 };
 
-class LambertLanes {
+class LambertKernel {
  public:
-  LambertLanes(const Lambert& material, const ShadingPoint& at)
+  LambertKernel(const Lambert& material, const ShadingPoint& at)
       : albedo_(material.albedo), frame_(at.frame) {}
 
   HWY_INLINE Scatterings evaluate(const Directions& light) const {
@@ -105,9 +105,9 @@ class LambertLanes {
   Frame frame_;
 };
 
-class PhongLanes {
+class PhongKernel {
  public:
-  PhongLanes(const ModifiedPhong& material, const ShadingPoint& at)
+  PhongKernel(const ModifiedPhong& material, const ShadingPoint& at)
       : material_(material),
         share_(material.diffuse / (material.diffuse + material.specular)),
         frame_(at.frame),
@@ -148,16 +148,16 @@ class PhongLanes {
   Frame mirrored_;  ///< around the mirrored view
 };
 
-HWY_INLINE LambertLanes lanes_of(const Lambert& material, const ShadingPoint& at) {
+HWY_INLINE LambertKernel lanes_of(const Lambert& material, const ShadingPoint& at) {
   return {material, at};
 }
-HWY_INLINE PhongLanes lanes_of(const ModifiedPhong& material, const ShadingPoint& at) {
+HWY_INLINE PhongKernel lanes_of(const ModifiedPhong& material, const ShadingPoint& at) {
   return {material, at};
 }
 
 /// Whole vectors from the front; returns how many directions that were.
-template <class Lanes>
-HWY_INLINE std::size_t evaluate_vectors(const Lanes& lanes, const DirectionArrays& light,
+template <class Kernel>
+HWY_INLINE std::size_t evaluate_vectors(const Kernel& lanes, const DirectionArrays& light,
                                         std::span<double> out) {
   const Numbers d;
   std::size_t i = 0;
@@ -169,8 +169,8 @@ HWY_INLINE std::size_t evaluate_vectors(const Lanes& lanes, const DirectionArray
   return i;
 }
 
-template <class Lanes>
-HWY_INLINE std::size_t sample_vectors(const Lanes& lanes, std::span<const double> s,
+template <class Kernel>
+HWY_INLINE std::size_t sample_vectors(const Kernel& lanes, std::span<const double> s,
                                       std::span<const double> t, const MaterialSamples& samples) {
   const Numbers d;
   std::size_t i = 0;

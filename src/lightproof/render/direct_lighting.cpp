@@ -47,9 +47,10 @@ void LightBatch::draw(const Lighting& lighting, const ShadingPoint& at, const Ra
       fill_points(stream, first, std::span(s_).first(count), std::span(u_).first(count));
       return fill_from_material(count, lighting.material, at);
     case Strategy::environment_a:
-      return fill_from_map(count, lighting.light->sampler(Weighting::A), stream, first);
+      return fill_from_map(count, lighting.light->sampler(DensitySpace::texture), stream, first);
     case Strategy::environment_b:
-      return fill_from_map(count, lighting.light->sampler(Weighting::B), stream, first);
+      return fill_from_map(count, lighting.light->sampler(DensitySpace::solid_angle), stream,
+                           first);
   }
 }
 
@@ -65,8 +66,8 @@ void LightBatch::shade(const Lighting& lighting, const ShadingPoint& at) {
   const DirectionArrays directions = {std::span(x_).first(count_), std::span(y_).first(count_),
                                       std::span(z_).first(count_)};
   if (lighting.strategy == Strategy::material) {
-    approximate_places(directions.x, directions.y, directions.z,
-                       {std::span(s_).first(count_), std::span(t_).first(count_)});
+    approximate_positions(directions.x, directions.y, directions.z,
+                          {std::span(s_).first(count_), std::span(t_).first(count_)});
   } else {
     reflected_cosines(lighting.material, at, directions,
                       std::span(reflected_cosine_).first(count_));

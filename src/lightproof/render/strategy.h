@@ -22,7 +22,8 @@ struct StrategyInfo {
 inline constexpr std::array<StrategyInfo, 4> kStrategies = {{
     {Strategy::uniform, "uniform", "uniform over the sphere, density 1/4pi"},
     {Strategy::material, "brdf", "the material's own lobes"},
-    {Strategy::environment_a, "environment A", "the map, density over (s,t) proportional to grey"},
+    {Strategy::environment_a, "environment A",
+     "the map, density over (s,t) proportional to luminance"},
     {Strategy::environment_b, "environment B", "the map, density over directions so"},
 }};
 

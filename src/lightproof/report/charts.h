@@ -5,20 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "lightproof/page/chart_parts.h"
 #include "lightproof/report/pareto.h"
-#include "lightproof/suite/results.h"
+#include "lightproof/results/study_result.h"
 
 namespace lightproof {
-
-/// How a strategy or sampler is told apart: by colour and by shape.
-struct SeriesStyle {
-  std::string name;
-  std::string colour;  ///< "#rrggbb"
-  std::string shape;   ///< a Vega symbol: "circle", "square", …
-};
-
-/// Styles in order of first appearance; they repeat after eight names.
-std::vector<SeriesStyle> series_styles(const std::vector<std::string>& names);
 
 /// The strategies of the records, styled.
 std::vector<SeriesStyle> strategy_styles(const std::vector<ConvergenceRecord>& records);
@@ -37,7 +28,7 @@ std::string small_convergence_chart(const std::vector<ConvergenceRecord>& record
 std::string variance_chart(const std::vector<ConvergenceRecord>& records);
 
 /// ns per sample against the size of the map, log-log, with the fitted growth in the legend. Points
-/// at which a table leaves a cache, and measured knees, are framed.
+/// at which a table leaves a cache, and measured breakpoints, are framed.
 std::string throughput_chart(const StudyResult& study);
 
 /// ms of a build against the number of texels, likewise, without frames: a build reads the map from

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "lightproof/core/text_escapes.h"
+#include "lightproof/page/html.h"
+#include "lightproof/page/numbers.h"
 #include "lightproof/report/effects.h"
 #include "lightproof/report/gate_summary.h"
-#include "lightproof/report/html.h"
-#include "lightproof/report/numbers.h"
 
 namespace lightproof {
 namespace {
@@ -28,7 +28,7 @@ std::string probability_of(const TestRecord& test) {
 
 std::string diagnosis_of(const GateResult& gate, const TestRecord& test) {
   for (const Rejection& r : gate.rejections) {
-    if (r.sampler == test.sampler && r.weighting == test.weighting && r.map == test.map) {
+    if (r.sampler == test.sampler && r.density_space == test.density_space && r.map == test.map) {
       return r.diagnosis + " (" + r.looks_like + ")";
     }
   }
@@ -60,7 +60,7 @@ std::string message_of(const GateResult& gate, const TestRecord& test) {
 std::string junit_case(const GateResult& gate, const TestRecord& test, bool count_known_defects) {
   std::string xml = fmt::format(
       "    <testcase classname=\"{}\" name=\"{}\">\n      <properties>\n", escaped(test.sampler),
-      escaped(fmt::format("{}/{}/{}/{}", test.weighting, test.map, test.oracle, test.test)));
+      escaped(fmt::format("{}/{}/{}", test.density_space, test.map, full_name(test.test))));
   const auto property = [&](std::string_view name, const std::string& value) {
     xml += fmt::format("        <property name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
   };
@@ -69,7 +69,7 @@ std::string junit_case(const GateResult& gate, const TestRecord& test, bool coun
     property("log10_p", fmt::format("{:.6g}", *test.log10_p));
   }
   property("effect", effect_text(test));
-  if (test.detectable_effect) property("detectable", detectable_text(test));
+  if (test.minimum_detectable_effect) property("detectable", minimum_detectable_text(test));
   property("samples", std::to_string(test.samples));
   property("seed", std::to_string(test.seed));
   property("replay", replay_command(gate, test));
@@ -91,9 +91,9 @@ std::string junit_case(const GateResult& gate, const TestRecord& test, bool coun
 }
 
 std::string markdown_row(const GateResult& gate, const TestRecord& test) {
-  return fmt::format("| {} | {} | {}/{} | {} | {} | {} |\n",
-                     markdown_text(configuration_name(test)), markdown_text(test.map), test.oracle,
-                     markdown_text(test.test), probability_of(test), effect_text(test),
+  return fmt::format("| {} | {} | {} | {} | {} | {} |\n", markdown_text(sampler_and_density(test)),
+                     markdown_text(test.map), markdown_text(full_name(test.test)),
+                     probability_of(test), effect_text(test),
                      markdown_text(diagnosis_of(gate, test)));
 }
 
@@ -112,17 +112,17 @@ std::string annotation(const GateResult& gate, const GateCell& cell) {
   const TestRecord& worst = *cell.worst;
   const std::string title = fmt::format("lightproof: {} on {}", cell.configuration, cell.map);
   const std::string message =
-      fmt::format("{} of {} rejected, the worst {}/{}: {}. Again: {}", cell.tally.rejected,
-                  counted(cell.tally.tests, "test"), worst.oracle, worst.test,
-                  message_of(gate, worst), replay_command(gate, worst));
+      fmt::format("{} of {} rejected, the worst {}: {}. Again: {}", cell.tally.rejected,
+                  counted(cell.tally.tests, "test"), full_name(worst.test), message_of(gate, worst),
+                  replay_command(gate, worst));
   return fmt::format("::error title={}::{}\n", workflow_property(title), workflow_message(message));
 }
 
 }  // namespace
 
 std::string replay_command(const GateResult& gate, const TestRecord& test) {
-  // Laws over directions have no weighting and need no map.
-  const bool of_map = !test.weighting.empty();
+  // ScoredAlternatives over directions have no density and need no map.
+  const bool of_map = !test.density_space.empty();
   std::string options = gate.sequential ? " --sequential" : "";
   if (gate.family > 0) options += fmt::format(" --family {}", gate.family);
   if (gate.must_detect != kMustDetect)
@@ -130,13 +130,13 @@ std::string replay_command(const GateResult& gate, const TestRecord& test) {
   const std::string map = shell_word(test.source.empty() ? test.map : test.source);
   return fmt::format("lightproof gate{} --sampler {}{} --samples {} --seed {}{}",
                      of_map ? " " + map : "", shell_word(test.sampler),
-                     of_map ? " --weighting " + test.weighting + gate.input_options : "",
+                     of_map ? " --density " + test.density_space + gate.input_options : "",
                      gate.samples, gate.seed, options);
 }
 
 std::string replay_command(const GateResult& gate, const Rejection& rejection) {
   const auto test = std::find_if(gate.tests.begin(), gate.tests.end(), [&](const TestRecord& t) {
-    return t.sampler == rejection.sampler && t.weighting == rejection.weighting &&
+    return t.sampler == rejection.sampler && t.density_space == rejection.density_space &&
            t.map == rejection.map;
   });
   return test == gate.tests.end() ? "" : replay_command(gate, *test);

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "lightproof/suite/results.h"
+#include "lightproof/results/gate_result.h"
 
 namespace lightproof {
 
@@ -12,7 +12,7 @@ std::string replay_command(const GateResult& gate, const TestRecord& test);
 /// Of the rejected sampler.
 std::string replay_command(const GateResult& gate, const Rejection& rejection);
 
-/// JUnit XML: one test case per sampler, weighting, map and test, with `p` and `log10_p` (numbers;
+/// JUnit XML: one test case per sampler, density, map and test, with `p` and `log10_p` (numbers;
 /// not there for an exact check), effect, seed and replay command in its properties and, where it
 /// failed, in its message. Rejections of samplers with known defects are skipped cases unless they
 /// count.

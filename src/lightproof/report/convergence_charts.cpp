@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "lightproof/report/chart_parts.h"
+#include "lightproof/page/chart_parts.h"
 #include "lightproof/report/charts.h"
 #include "lightproof/report/findings.h"
 #include "lightproof/report/gate_summary.h"

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
+#include "lightproof/page/html.h"
+#include "lightproof/page/numbers.h"
 #include "lightproof/report/charts.h"
 #include "lightproof/report/csv.h"
 #include "lightproof/report/findings.h"
 #include "lightproof/report/gate_summary.h"
-#include "lightproof/report/html.h"
-#include "lightproof/report/numbers.h"
 #include "lightproof/report/sections.h"
 
 namespace lightproof {

@@ -70,12 +70,14 @@ std::optional<double> dof_of(const TestRecord& test) {
 
 std::string gate_csv(const GateResult& gate) {
   std::string csv =
-      "sampler,weighting,map,oracle,test,samples,statistic,dof,log10_p,effect,detectable_effect,"
+      "sampler,density,map,oracle,test,samples,statistic,dof,log10_p,effect,minimum_detectable_"
+      "effect,"
       "outcome,known_defect,detail\n";
   for (const TestRecord& t : gate.tests) {
-    csv += row(t.sampler, t.weighting, t.map, t.oracle, t.test, t.samples, t.statistic, dof_of(t),
-               t.log10_p, t.effect, t.detectable_effect, to_string(t.outcome),
-               t.known_defect ? "yes" : "no", t.detail);
+    csv += row(t.sampler, t.density_space, t.map, to_string(describe(t.test).oracle),
+               describe(t.test).name, t.samples, t.statistic, dof_of(t), t.log10_p, t.effect,
+               t.minimum_detectable_effect, to_string(t.outcome), t.known_defect ? "yes" : "no",
+               t.detail);
   }
   return csv;
 }
@@ -84,10 +86,10 @@ std::string mutants_csv(const std::vector<KillRecord>& mutants) {
   std::string csv = "mutant,oracle,test,samples,looks_like\n";
   for (const KillRecord& m : mutants) {
     for (const auto& [test, samples] : m.kills) {
-      csv += row(m.mutant, m.oracle, test, samples, m.looks_like);
+      csv += row(m.mutant, to_string(m.oracle), full_name(test), samples, m.looks_like);
     }
     if (m.sequential) {
-      csv += row(m.mutant, m.oracle, "sequential gate", *m.sequential, m.looks_like);
+      csv += row(m.mutant, to_string(m.oracle), "sequential gate", *m.sequential, m.looks_like);
     }
   }
   return csv;
@@ -129,19 +131,20 @@ std::string throughput_csv(const std::vector<ThroughputRecord>& records) {
 std::string growth_csv(const std::vector<GrowthFit>& growth) {
   std::string csv =
       "sampler,steps,exponent,exponent_error,build_exponent,build_exponent_error,leaves_l2,"
-      "leaves_l3,exponent_before_knees,knees,exponents_after,knees_p\n";
+      "leaves_l3,exponent_before,breakpoints,exponents_after,breakpoints_p\n";
   for (const GrowthFit& fit : growth) {
     std::vector<std::string> places;
     std::vector<std::string> exponents;
-    for (const StepKnee& knee : fit.knees.value_or(StepKnees{}).knees) {
-      places.push_back(field(knee.extent));
-      exponents.push_back(field(knee.exponent_after));
+    for (const GrowthBreakpoint& breakpoint :
+         fit.breakpoints.value_or(SegmentedGrowth{}).breakpoints) {
+      places.push_back(field(breakpoint.extent));
+      exponents.push_back(field(breakpoint.exponent_after));
     }
     csv += row(fit.sampler, fit.model, fit.exponent, fit.exponent_error,
                member(fit.build_exponent, &FittedExponent::value),
                member(fit.build_exponent, &FittedExponent::error), fit.leaves_l2, fit.leaves_l3,
-               member(fit.knees, &StepKnees::exponent_before), joined(places), joined(exponents),
-               member(fit.knees, &StepKnees::p_value));
+               member(fit.breakpoints, &SegmentedGrowth::exponent_before), joined(places),
+               joined(exponents), member(fit.breakpoints, &SegmentedGrowth::p_value));
   }
   return csv;
 }

@@ -6,7 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "lightproof/suite/results.h"
+#include "lightproof/results/convergence_record.h"
+#include "lightproof/results/gate_result.h"
+#include "lightproof/results/growth_fit.h"
+#include "lightproof/results/map_record.h"
+#include "lightproof/results/render_record.h"
+#include "lightproof/results/self_test_result.h"
+#include "lightproof/results/throughput_record.h"
 
 namespace lightproof {
 
@@ -16,7 +22,7 @@ std::string convergence_csv(const std::vector<ConvergenceRecord>& records);
 /// One row per record: variance, its prediction, their ratio, and the fitted slope.
 std::string variance_csv(const std::vector<ConvergenceRecord>& records);
 std::string throughput_csv(const std::vector<ThroughputRecord>& records);
-/// One row per sampler: exponents, sizes at which its table outgrows a cache, and its knee.
+/// One row per sampler: exponents, sizes at which its table outgrows a cache, and its breakpoint.
 std::string growth_csv(const std::vector<GrowthFit>& growth);
 /// One row per record: the time to build.
 std::string build_csv(const std::vector<ThroughputRecord>& records);

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "lightproof/report/numbers.h"
+#include "lightproof/page/numbers.h"
 
 namespace lightproof {
 namespace {
@@ -13,17 +13,19 @@ std::string times_expected(double excess) { return significant(1.0 + excess) + "
 
 }  // namespace
 
-bool is_of_worst_cell(const TestRecord& test) { return test.test.starts_with("worst "); }
+bool is_of_worst_cell(const TestRecord& test) {
+  return describe(test.test).effect == EffectMeasure::worst_cell;
+}
 
 std::string effect_text(const TestRecord& test) {
   if (!is_of_worst_cell(test)) return significant(test.effect);
   return test.effect <= -1.0 ? "never drawn" : times_expected(test.effect);
 }
 
-std::string detectable_text(const TestRecord& test) {
-  if (!test.detectable_effect) return "-";
-  return is_of_worst_cell(test) ? times_expected(*test.detectable_effect)
-                                : significant(*test.detectable_effect);
+std::string minimum_detectable_text(const TestRecord& test) {
+  if (!test.minimum_detectable_effect) return "-";
+  return is_of_worst_cell(test) ? times_expected(*test.minimum_detectable_effect)
+                                : significant(*test.minimum_detectable_effect);
 }
 
 std::string p_text(double log10_p) {

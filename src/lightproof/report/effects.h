@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "lightproof/suite/results.h"
+#include "lightproof/results/test_record.h"
 
 namespace lightproof {
 
@@ -14,9 +14,9 @@ bool is_of_worst_cell(const TestRecord& test);
 /// "0.0123"; of a worst cell "13.6x expected" or "never drawn".
 std::string effect_text(const TestRecord& test);
 
-/// The same of the detectable effect: "0.0123", of a worst cell "1.2x expected"; "-" if there is
-/// none.
-std::string detectable_text(const TestRecord& test);
+/// The same of the minimum detectable effect: "0.0123", of a worst cell "1.2x expected"; "-" if
+/// there is none.
+std::string minimum_detectable_text(const TestRecord& test);
 
 /// A p-value as a decimal number, also where a double would be 0: "0.2084", "3.16e-401".
 std::string p_text(double log10_p);

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightproof/page/chart_parts.h"
+#include "lightproof/page/numbers.h"
 #include "lightproof/report/gate_summary.h"
 #include "lightproof/report/names.h"
-#include "lightproof/report/numbers.h"
 
 namespace lightproof {
 namespace {
@@ -17,7 +18,8 @@ constexpr double kExpectedSlope = -0.5;
 constexpr double kAllButExact = 1e-8;   // relative variance
 constexpr double kTelling = 1.0 / 3.0;  // standard error of a point over its prediction
 constexpr double kAgreement = 3.0;      // standard errors
-constexpr double kBeyond = 0.0026998;   // share of a normal law beyond 3 standard deviations
+constexpr double kBeyond =
+    0.0026998;  // share of a normal distribution beyond 3 standard deviations
 
 std::string capitalised(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
@@ -55,7 +57,7 @@ struct Agreement {
 
 std::string by_chance(std::size_t all) {
   return fmt::format("normal errors would leave {} outside",
-                     page_number(kBeyond * static_cast<double>(all), 2));
+                     format_number(kBeyond * static_cast<double>(all), 2));
 }
 
 /// "all 128 ratios", "the one ratio".
@@ -78,8 +80,9 @@ std::string slope_sentence(const Agreement& slopes, Range range, Range errors) {
     return capitalised(fmt::format(
         "{} {} with slope \u22120.5 as predicted: fitted slopes from {} to {}, each within 3 of "
         "its standard errors ({} to {})",
-        all_of(slopes.all, "estimator"), slopes.all == 1 ? "falls" : "fall", page_number(range.low),
-        page_number(range.high), page_number(errors.low, 2), page_number(errors.high, 2)));
+        all_of(slopes.all, "estimator"), slopes.all == 1 ? "falls" : "fall",
+        format_number(range.low), format_number(range.high), format_number(errors.low, 2),
+        format_number(errors.high, 2)));
   }
   const ConvergenceRecord& worst = *slopes.worst;
   return fmt::format(
@@ -133,7 +136,7 @@ std::string prediction_finding(const std::vector<ConvergenceRecord>& records) {
       "{} of {} lie within 3 standard errors of the predicted error ({}); the farthest is {} "
       "standard errors away ({}).",
       with_thousands(points.within), counted(points.all, "measured point"), by_chance(points.all),
-      page_number(points.farthest, 2), place_of(*points.worst));
+      format_number(points.farthest, 2), place_of(*points.worst));
   if (vague == 0) return text;
   return text + fmt::format(
                     " Left out of this count: {} whose standard error is unknown or more "
@@ -167,7 +170,7 @@ std::string variance_finding(const std::vector<ConvergenceRecord>& records) {
   if (ratios.within == ratios.all) {
     return capitalised(fmt::format(
         "{} of measured to predicted variance within 3 standard errors of 1: from {} to {}{}",
-        all_of(ratios.all, "ratio"), page_number(range.low), page_number(range.high), rest));
+        all_of(ratios.all, "ratio"), format_number(range.low), format_number(range.high), rest));
   }
   const ConvergenceRecord& worst = *ratios.worst;
   return fmt::format(
@@ -191,7 +194,7 @@ std::string saving_finding(const std::vector<const ConvergenceRecord*>& records)
   const double digit = std::pow(10.0, std::floor(std::log10(factor)) - 1.0);
   const std::string times =
       factor < 100.0
-          ? page_number(factor, 2)
+          ? format_number(factor, 2)
           : with_thousands(static_cast<std::uint64_t>(std::round(factor / digit) * digit));
   return fmt::format("{} needs {} times fewer samples than {}", best.strategy, times,
                      worst.strategy);
@@ -208,10 +211,10 @@ std::string render_finding(const std::vector<const RenderRecord*>& scene) {
   std::string text =
       fmt::format("{}{} has the smallest error, {} of the mean",
                   equal ? fmt::format("At {} per pixel ", counted(best.samples, "sample")) : "",
-                  best.strategy, page_number(best.rmse));
+                  best.strategy, format_number(best.rmse));
   if (&best != &worst && best.rmse > 0.0) {
     text += fmt::format("; that of {} is {} times as large", worst.strategy,
-                        page_number(worst.rmse / best.rmse, 2));
+                        format_number(worst.rmse / best.rmse, 2));
   }
   return text;
 }
@@ -246,7 +249,7 @@ std::string map_finding(const MapRecord& map) {
   text += fmt::format(
       "so directions drawn uniformly have a variance of {} \u00d7 mean\u00b2 "
       "per sample; ",
-      page_number(variance, 2));
+      format_number(variance, 2));
   if (fraction < 0.05) return text + "sampling the map pays off a lot.";
   return text + (fraction < 0.5 ? "sampling the map pays off." : "sampling the map gains little.");
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lightproof/report/pareto.h"
-#include "lightproof/suite/results.h"
+#include "lightproof/results/study_result.h"
 
 namespace lightproof {
 
@@ -20,7 +20,8 @@ struct SamplerFinding {
   bool is_demonstration = false;  ///< kept as published, with its known defects: decides nothing
 };
 
-/// One sentence per sampler, with the most suspicious test of those that are not accepted.
+/// One sentence per sampler, with the most below the screening level test of those that are not
+/// accepted.
 std::vector<SamplerFinding> sampler_findings(const GateResult& gate);
 
 /// Do the errors fall as N^(-1/2)? Judged at 3 standard errors of each fitted slope.
@@ -33,8 +34,9 @@ std::string prediction_finding(const std::vector<ConvergenceRecord>& records);
 /// Is the measured variance the predicted one? Judged at 3 standard errors of each ratio.
 std::string variance_finding(const std::vector<ConvergenceRecord>& records);
 
-/// How much faster the fastest sound sampler on the largest map is than the baseline (the published
-/// linear scan where there is one, else the slowest sampler), and whether that grows with the map.
+/// How much faster the fastest correct sampler on the largest map is than the baseline (the
+/// published linear scan where there is one, else the slowest sampler), and whether that grows with
+/// the map.
 std::string throughput_finding(const StudyResult& study);
 
 /// The sizes at which a sampler's steps are fastest and slowest. The fit has at least one size.
@@ -50,8 +52,8 @@ std::string growth_finding(const std::vector<GrowthFit>& growth);
 /// From where to where tables outgrow L2 and L3, with the first sampler and the last.
 std::string caches_finding(const std::vector<GrowthFit>& growth, const CacheSizes& caches);
 
-/// The samplers whose time of a step has a knee, and where.
-std::string knees_finding(const std::vector<GrowthFit>& growth);
+/// The samplers whose time of a step has a breakpoint, and where.
+std::string breakpoints_finding(const std::vector<GrowthFit>& growth);
 
 /// How the time to build grows, and who takes longest on the largest map; empty if nothing was
 /// measured.

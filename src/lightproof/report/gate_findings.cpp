@@ -5,9 +5,10 @@
 #include <functional>
 #include <string_view>
 
+#include "lightproof/page/chart_parts.h"
+#include "lightproof/page/numbers.h"
 #include "lightproof/report/findings.h"
 #include "lightproof/report/gate_summary.h"
-#include "lightproof/report/numbers.h"
 
 namespace lightproof {
 namespace {
@@ -72,8 +73,8 @@ SamplerFinding sampler_finding(const GateResult& gate, const std::string& sample
   }
   for (const GateCell& cell : summarise(gate)) {
     if (cell.sampler != sampler || cell.worst->outcome != finding.outcome) continue;
-    finding.sentence += fmt::format("; for example {} {} of {} on {}", cell.worst->oracle,
-                                    cell.worst->test, cell.configuration, cell.map);
+    finding.sentence += fmt::format("; for example {} of {} on {}", full_name(cell.worst->test),
+                                    cell.configuration, cell.map);
     if (!cell.worst->detail.empty()) finding.sentence += " (" + cell.worst->detail + ")";
     break;
   }
@@ -100,9 +101,11 @@ std::string verdict_on(const GateResult& gate, const Judged& judged, const Tally
 std::string headline(const StudyResult& study) {
   const GateResult& gate = study.gate;
   if (gate.tests.empty()) return "No test was run";
-  const bool any_sound = std::any_of(gate.tests.begin(), gate.tests.end(),
-                                     [](const TestRecord& t) { return !t.known_defect; });
-  const Judged judged = [any_sound](const TestRecord& t) { return !any_sound || !t.known_defect; };
+  const bool any_correct = std::any_of(gate.tests.begin(), gate.tests.end(),
+                                       [](const TestRecord& t) { return !t.known_defect; });
+  const Judged judged = [any_correct](const TestRecord& t) {
+    return !any_correct || !t.known_defect;
+  };
   const Tally tally = tally_of(gate, judged);
   const std::vector<std::string> samplers = samplers_of(gate, judged);
   const std::size_t maps = map_count(gate);
@@ -114,7 +117,7 @@ std::string headline(const StudyResult& study) {
       return fmt::format("{}, {} the right distribution{}: {} {}", where,
                          samplers.size() == 1
                              ? samplers.front() + " draws"
-                             : fmt::format("all {} sound samplers draw", samplers.size()),
+                             : fmt::format("all {} correct samplers draw", samplers.size()),
                          tally.limited > 0 ? " as far as rounding lets be seen" : "",
                          tests_of(tally, "rejected"), error);
     case Outcome::reject:

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightproof/page/chart_parts.h"
+#include "lightproof/page/html.h"
+#include "lightproof/page/numbers.h"
 #include "lightproof/report/csv.h"
 #include "lightproof/report/effects.h"
 #include "lightproof/report/gate_summary.h"
-#include "lightproof/report/html.h"
-#include "lightproof/report/numbers.h"
 #include "lightproof/report/sections.h"
 
 namespace lightproof {
@@ -27,8 +28,7 @@ Cell tally_cell(const GateCell& cell) {
     text += fmt::format(" {}/{}", tally.limited, tally.tests);
   }
   const std::string worst = fmt::format(
-      "{}; most suspicious: {}/{}, log10 p {}", counted(tally.tests, "test"), cell.worst->oracle,
-      cell.worst->test,
+      "{}; least likely: {}, log10 p {}", counted(tally.tests, "test"), full_name(cell.worst->test),
       cell.worst->log10_p ? significant(*cell.worst->log10_p) : std::string("none (exact check)"));
   return {text, to_string(tally.outcome()), worst};
 }
@@ -82,21 +82,21 @@ Cell effect_cell(const TestRecord& test) {
   return is_of_worst_cell(test) ? Cell{effect_text(test), "number", ""} : number_cell(test.effect);
 }
 
-Cell detectable_cell(const TestRecord& test) {
-  if (!test.detectable_effect) return {"\u2013", "number", ""};
-  return is_of_worst_cell(test) ? Cell{detectable_text(test), "number", ""}
-                                : number_cell(*test.detectable_effect);
+Cell minimum_detectable_cell(const TestRecord& test) {
+  if (!test.minimum_detectable_effect) return {"\u2013", "number", ""};
+  return is_of_worst_cell(test) ? Cell{minimum_detectable_text(test), "number", ""}
+                                : number_cell(*test.minimum_detectable_effect);
 }
 
 std::vector<Cell> test_row(const TestRecord& t) {
-  return {text_cell(configuration_name(t)),
+  return {text_cell(sampler_and_density(t)),
           text_cell(t.map),
-          text_cell(t.oracle + ": " + t.test),
+          text_cell(full_name(t.test)),
           outcome_cell(t.outcome),
           {t.detail, t.detail.empty() ? "" : "detail", ""},
           log10_p_cell(t),
           effect_cell(t),
-          detectable_cell(t),
+          minimum_detectable_cell(t),
           number_cell(t.statistic, 5),
           t.dof > 0.0 ? number_cell(t.dof, 6) : Cell{"\u2013", "number", ""},
           {with_thousands(t.samples), "number", ""}};
@@ -114,8 +114,7 @@ std::string test_table(const GateResult& gate, const std::string& caption,
 
 /// What one kind of test saw over all samplers and maps.
 struct Sight {
-  std::string oracle;
-  std::string test;
+  TestId test;
   Tally tally;
   double detectable = std::nan("");  ///< the largest over its runs
 };
@@ -123,12 +122,12 @@ struct Sight {
 std::vector<Sight> sights(const GateResult& gate) {
   std::vector<Sight> kinds;
   for (const TestRecord& t : gate.tests) {
-    auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const Sight& s) {
-      return s.oracle == t.oracle && s.test == t.test;
-    });
-    if (kind == kinds.end()) kind = kinds.insert(kinds.end(), Sight{t.oracle, t.test, {}});
+    auto kind =
+        std::find_if(kinds.begin(), kinds.end(), [&](const Sight& s) { return s.test == t.test; });
+    if (kind == kinds.end()) kind = kinds.insert(kinds.end(), Sight{t.test, {}});
     kind->tally.add(t.outcome);
-    if (t.detectable_effect) kind->detectable = std::fmax(kind->detectable, *t.detectable_effect);
+    if (t.minimum_detectable_effect)
+      kind->detectable = std::fmax(kind->detectable, *t.minimum_detectable_effect);
   }
   return kinds;
 }
@@ -136,22 +135,22 @@ std::vector<Sight> sights(const GateResult& gate) {
 TestRecord worst_run_of(const Sight& sight) {
   TestRecord record;
   record.test = sight.test;
-  if (!std::isnan(sight.detectable)) record.detectable_effect = sight.detectable;
+  if (!std::isnan(sight.detectable)) record.minimum_detectable_effect = sight.detectable;
   return record;
 }
 
 std::string sight_table(const GateResult& gate) {
   Table table("What each kind of test saw and could have seen",
               {"Oracle", "Test", "Runs", "Rejected", "Inconclusive", "Not run",
-               "Detectable effect, worst run"});
+               "Minimum minimum detectable effect, worst run"});
   for (const Sight& s : sights(gate)) {
-    table.add({text_cell(s.oracle),
-               text_cell(s.test),
+    table.add({text_cell(std::string(to_string(describe(s.test).oracle))),
+               text_cell(std::string(describe(s.test).name)),
                {with_thousands(s.tally.tests), "number", ""},
                {with_thousands(s.tally.rejected), "number", ""},
                {with_thousands(s.tally.inconclusive), "number", ""},
                {with_thousands(s.tally.not_run), "number", ""},
-               detectable_cell(worst_run_of(s))});
+               minimum_detectable_cell(worst_run_of(s))});
   }
   return table.html();
 }
@@ -177,7 +176,7 @@ std::string diagnoses(const GateResult& gate) {
               {"Sampler", "Map", "Looks like", "Worst bin (column, row)", "Standard deviations"});
   for (const Rejection& r : gate.rejections) {
     const std::vector<WorstBin> worst = worst_bins(r, 1);
-    table.add({text_cell(r.weighting.empty() ? r.sampler : r.sampler + " " + r.weighting),
+    table.add({text_cell(r.density_space.empty() ? r.sampler : r.sampler + " " + r.density_space),
                text_cell(r.map),
                {r.diagnosis, "detail", r.looks_like},
                worst.empty() ? text_cell("\u2013")
@@ -213,7 +212,8 @@ std::string demonstration(const GateResult& known_defects) {
 }
 
 constexpr std::string_view kLegend =
-    "A and B are the weightings: A draws texels in proportion to their grey value, B to grey value "
+    "A and B are the target densities: A draws texels in proportion to their luminance, B to "
+    "luminance "
     "times solid angle. Oracles: self compares the samples with the sampler's own pdf, reference "
     "with the map itself, mean and variance with integrals of the map; check needs no statistics. "
     "A fraction behind a verdict counts the tests that led to it. Effects are relative deviations, "

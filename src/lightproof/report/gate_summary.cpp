@@ -40,36 +40,14 @@ bool worse(const TestRecord& a, const TestRecord& b) {
 
 }  // namespace
 
-void Tally::add(Outcome outcome) {
-  if (outcome == Outcome::not_run) {
-    ++not_run;
-    return;
-  }
-  ++tests;
-  if (outcome == Outcome::reject) ++rejected;
-  if (outcome == Outcome::inconclusive) ++inconclusive;
-  if (outcome == Outcome::resolution_limited) ++limited;
-}
-
-Outcome Tally::outcome() const {
-  if (rejected > 0) return Outcome::reject;
-  if (inconclusive > 0 || tests == 0) return Outcome::inconclusive;
-  return limited > 0 ? Outcome::resolution_limited : Outcome::accept;
-}
-
-std::string limited_text(const Tally& tally) {
-  return (tally.limited > 0 ? fmt::format(", {} resolution-limited", tally.limited) : "") +
-         (tally.not_run > 0 ? fmt::format(", {} not run", tally.not_run) : "");
-}
-
-std::string configuration_name(const TestRecord& test) {
-  return test.weighting.empty() ? test.sampler : test.sampler + " " + test.weighting;
+std::string sampler_and_density(const TestRecord& test) {
+  return test.density_space.empty() ? test.sampler : test.sampler + " " + test.density_space;
 }
 
 std::vector<GateCell> summarise(const GateResult& gate) {
   std::vector<GateCell> cells;
   for (const TestRecord& test : gate.tests) {
-    const std::string name = configuration_name(test);
+    const std::string name = sampler_and_density(test);
     auto cell = std::find_if(cells.begin(), cells.end(), [&](const GateCell& c) {
       return c.configuration == name && c.map == test.map;
     });
@@ -81,14 +59,6 @@ std::vector<GateCell> summarise(const GateResult& gate) {
     if (worse(test, *cell->worst)) cell->worst = &test;
   }
   return cells;
-}
-
-Tally deciding_tally(const GateResult& gate) {
-  return tally_of(gate, [](const TestRecord& test) { return !test.known_defect; });
-}
-
-Tally known_defect_tally(const GateResult& gate) {
-  return tally_of(gate, [](const TestRecord& test) { return test.known_defect; });
 }
 
 bool is_known_defect(const GateResult& gate, const Rejection& rejection) {
@@ -137,14 +107,6 @@ std::string outcome_text(Outcome outcome) {
       return "- not run";
   }
   return "";
-}
-
-std::vector<std::string> unique_names(const std::vector<std::string>& names) {
-  std::vector<std::string> unique;
-  for (const std::string& name : names) {
-    if (std::find(unique.begin(), unique.end(), name) == unique.end()) unique.push_back(name);
-  }
-  return unique;
 }
 
 }  // namespace lightproof

@@ -7,10 +7,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "lightproof/report/chart_parts.h"
+#include "lightproof/page/chart_parts.h"
+#include "lightproof/page/numbers.h"
 #include "lightproof/report/charts.h"
 #include "lightproof/report/findings.h"
-#include "lightproof/report/numbers.h"
 
 namespace lightproof {
 namespace {
@@ -75,7 +75,7 @@ std::string label_of(const std::string& sampler, const StudyResult& study, const
   const GrowthFit* fit = fit_of(sampler, study.growth);
   const auto exponent = fit == nullptr ? std::nullopt : costs.exponent(*fit);
   if (!exponent) return sampler;
-  return fmt::format("{}, exponent {}", sampler, page_number(*exponent, 2));
+  return fmt::format("{}, exponent {}", sampler, format_number(*exponent, 2));
 }
 
 /// Labels stand at powers of two, where there are any: with those between they would overlap.
@@ -137,9 +137,11 @@ struct FramedPoints {
   Json rows = Json::array();
 };
 
-bool is_knee(Extent extent, const std::optional<StepKnees>& knees) {
-  return knees && std::any_of(knees->knees.begin(), knees->knees.end(),
-                              [&](const StepKnee& knee) { return knee.extent == extent; });
+bool is_breakpoint(Extent extent, const std::optional<SegmentedGrowth>& breakpoints) {
+  return breakpoints &&
+         std::any_of(
+             breakpoints->breakpoints.begin(), breakpoints->breakpoints.end(),
+             [&](const GrowthBreakpoint& breakpoint) { return breakpoint.extent == extent; });
 }
 
 std::vector<FramedPoints> framed_points(const StudyResult& study) {
@@ -148,7 +150,7 @@ std::vector<FramedPoints> framed_points(const StudyResult& study) {
   };
   const std::array<std::string, 3> names = {beyond("L2", study.caches.l2),
                                             beyond("L3", study.caches.l3),
-                                            "measured knee of the time of a step"};
+                                            "measured breakpoint of the time of a step"};
   std::vector<FramedPoints> all;
   for (std::size_t i = 0; i < names.size(); ++i) {
     all.push_back({{names[i], kFrameColour, kFrames[i].outline}, kFrames[i].area});
@@ -157,7 +159,7 @@ std::vector<FramedPoints> framed_points(const StudyResult& study) {
     const GrowthFit* fit = fit_of(r.sampler, study.growth);
     if (fit == nullptr || !drawable(r.ns_per_sample)) continue;
     const std::array<bool, 3> is_framed = {fit->leaves_l2 == r.extent, fit->leaves_l3 == r.extent,
-                                           is_knee(r.extent, fit->knees)};
+                                           is_breakpoint(r.extent, fit->breakpoints)};
     for (std::size_t i = 0; i < is_framed.size(); ++i) {
       if (!is_framed[i]) continue;
       Json row = row_of(r, kTimePerSample, names[i]);

@@ -1,12 +1,12 @@
-// The findings on growth: exponents, caches, knees, and the time to build.
+// The findings on growth: exponents, caches, breakpoints, and the time to build.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string_view>
 #include <vector>
 
+#include "lightproof/page/numbers.h"
 #include "lightproof/report/findings.h"
-#include "lightproof/report/numbers.h"
 
 namespace lightproof {
 namespace {
@@ -20,7 +20,7 @@ struct NamedExponent {
 std::string exponent_range(const std::vector<NamedExponent>& exponents) {
   const auto [least, most] = std::ranges::minmax_element(exponents, {}, &NamedExponent::value);
   const auto text = [](const NamedExponent& e) {
-    return fmt::format("{} ({})", page_number(e.value, 2), e.sampler);
+    return fmt::format("{} ({})", format_number(e.value, 2), e.sampler);
   };
   return exponents.size() == 1 ? text(*least) : text(*least) + " to " + text(*most);
 }
@@ -45,7 +45,7 @@ std::string outgrown(const std::vector<GrowthFit>& growth, std::optional<Extent>
 
 /// "350 ms", "1.20 s".
 std::string duration_text(double ms) {
-  return ms < 1000.0 ? page_number(ms) + " ms" : page_number(1e-3 * ms) + " s";
+  return ms < 1000.0 ? format_number(ms) + " ms" : format_number(1e-3 * ms) + " s";
 }
 
 }  // namespace
@@ -72,18 +72,18 @@ std::string caches_finding(const std::vector<GrowthFit>& growth, const CacheSize
   return "Tables outgrow " + (l2.empty() || l3.empty() ? l2 + l3 : l2 + ", " + l3) + ". ";
 }
 
-std::string knees_finding(const std::vector<GrowthFit>& growth) {
+std::string breakpoints_finding(const std::vector<GrowthFit>& growth) {
   std::string all;
   for (const GrowthFit& fit : growth) {
-    if (!fit.knees) continue;
+    if (!fit.breakpoints) continue;
     std::string places;
-    for (const StepKnee& knee : fit.knees->knees) {
-      places += (places.empty() ? "" : " and ") + extent_text(knee.extent);
+    for (const GrowthBreakpoint& breakpoint : fit.breakpoints->breakpoints) {
+      places += (places.empty() ? "" : " and ") + extent_text(breakpoint.extent);
     }
     all += fmt::format("{}{} at {}", all.empty() ? "" : ", ", fit.sampler, places);
   }
-  return all.empty() ? "The time of a step has no measured knee."
-                     : "The time of a step has measured knees: " + all + ".";
+  return all.empty() ? "The time of a step has no measured breakpoint."
+                     : "The time of a step has measured breakpoints: " + all + ".";
 }
 
 std::string build_finding(const StudyResult& study) {

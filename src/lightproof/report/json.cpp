@@ -24,15 +24,15 @@ Json json_of(const FittedExponent& fit) {
   return {{"value", number(fit.value)}, {"error", number(fit.error)}};
 }
 
-Json json_of(const StepKnees& knees) {
+Json json_of(const SegmentedGrowth& breakpoints) {
   Json list = Json::array();
-  for (const StepKnee& knee : knees.knees) {
-    list.push_back(
-        {{"size", json_of(knee.extent)}, {"exponent_after", number(knee.exponent_after)}});
+  for (const GrowthBreakpoint& breakpoint : breakpoints.breakpoints) {
+    list.push_back({{"size", json_of(breakpoint.extent)},
+                    {"exponent_after", number(breakpoint.exponent_after)}});
   }
-  return {{"exponent_before", number(knees.exponent_before)},
-          {"places", list},
-          {"p_value", number(knees.p_value)}};
+  return {{"exponent_before", number(breakpoints.exponent_before)},
+          {"breakpoints", list},
+          {"p_value", number(breakpoints.p_value)}};
 }
 
 /// null if there is none.
@@ -43,16 +43,16 @@ Json json_of(const std::optional<Value>& value) {
 
 Json json_of(const TestRecord& t) {
   return {{"sampler", t.sampler},
-          {"weighting", t.weighting},
+          {"density", t.density_space},
           {"map", t.map},
-          {"oracle", t.oracle},
-          {"test", t.test},
+          {"oracle", to_string(describe(t.test).oracle)},
+          {"test", describe(t.test).name},
           {"samples", t.samples},
           {"statistic", number(t.statistic)},
           {"dof", t.dof > 0.0 ? number(t.dof) : Json(nullptr)},
           {"log10_p", number(t.log10_p)},
           {"effect", number(t.effect)},
-          {"detectable_effect", number(t.detectable_effect)},
+          {"minimum_detectable_effect", number(t.minimum_detectable_effect)},
           {"resolution_floor", number(t.resolution_floor)},
           {"outcome", to_string(t.outcome)},
           {"known_defect", t.known_defect},
@@ -119,7 +119,7 @@ Json json_of(const GateResult& gate, const Rejection& r) {
     worst.push_back({{"column", bin.x}, {"row", bin.y}, {"residual", number(bin.residual)}});
   }
   return {{"sampler", r.sampler},
-          {"weighting", r.weighting},
+          {"density", r.density_space},
           {"map", r.map},
           {"looks_like", r.looks_like},
           {"diagnosis", r.diagnosis},
@@ -181,7 +181,7 @@ Json json_of(const GrowthFit& fit) {
           {"steps", list_of(fit.steps)},
           {"leaves_l2", json_of(fit.leaves_l2)},
           {"leaves_l3", json_of(fit.leaves_l3)},
-          {"knees", json_of(fit.knees)},
+          {"segmented", json_of(fit.breakpoints)},
           {"build_exponent", json_of(fit.build_exponent)}};
 }
 
@@ -228,7 +228,7 @@ Json renders_json(const std::vector<RenderRecord>& renders) {
 }
 
 Json json_of(const CalibrationRecord& r) {
-  return {{"test", r.test},
+  return {{"test", full_name(r.test)},
           {"is_bound", r.is_bound},
           {"replicates", r.replicates},
           {"ks_distance", number(r.ks_distance)},
@@ -247,21 +247,17 @@ Json json_of(const FamilyRecord& r) {
 }
 
 Json json_of(const PowerRecord& r) {
-  return {{"test", r.test},
-          {"effect", number(r.effect)},
-          {"level", number(r.level)},
-          {"samples", r.samples},
-          {"replicates", r.replicates},
-          {"rejected", r.rejected},
-          {"predicted", number(r.predicted)},
-          {"is_bound", r.is_bound}};
+  return {{"test", full_name(r.test)},        {"effect", number(r.effect)},
+          {"level", number(r.level)},         {"samples", r.samples},
+          {"replicates", r.replicates},       {"rejected", r.rejected},
+          {"predicted", number(r.predicted)}, {"is_bound", r.is_bound}};
 }
 
 Json json_of(const KillRecord& r) {
   Json kills = Json::object();
-  for (const auto& [test, samples] : r.kills) kills[test] = samples;
+  for (const auto& [test, samples] : r.kills) kills[full_name(test)] = samples;
   return {{"mutant", r.mutant},
-          {"oracle", r.oracle},
+          {"oracle", to_string(r.oracle)},
           {"looks_like", r.looks_like},
           {"expected_diagnosis", r.expected_diagnosis},
           {"kills", kills},

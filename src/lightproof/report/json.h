@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "lightproof/core/run_description.h"
-#include "lightproof/suite/results.h"
+#include "lightproof/results/study_result.h"
 
 namespace lightproof {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "lightproof/image/writer.h"
+#include "lightproof/page/html.h"
+#include "lightproof/page/numbers.h"
 #include "lightproof/report/csv.h"
 #include "lightproof/report/findings.h"
-#include "lightproof/report/html.h"
-#include "lightproof/report/numbers.h"
 #include "lightproof/report/pictures.h"
 #include "lightproof/report/sections.h"
 
@@ -68,8 +68,8 @@ std::string quantities(const MapRecord& record) {
   return fmt::format(
       "{}, {} texels. Mean luminance over the sphere {}; the brightest texel is {} times the "
       "mean. ",
-      record.source, extent_text(record.map.radiance.extent()), page_number(record.mean_luminance),
-      page_number(record.peak_ratio));
+      record.source, extent_text(record.map.radiance.extent()),
+      format_number(record.mean_luminance), format_number(record.peak_ratio));
 }
 
 std::string notes(const std::vector<std::string>& texts) {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lightproof/suite/results.h"
+#include "lightproof/results/render_record.h"
 
 namespace lightproof {
 

@@ -1,10 +1,10 @@
 // The headline, what was found, and how to read the rest.
 #include <fmt/format.h>
 
+#include "lightproof/page/html.h"
+#include "lightproof/page/numbers.h"
 #include "lightproof/report/findings.h"
 #include "lightproof/report/gate_summary.h"
-#include "lightproof/report/html.h"
-#include "lightproof/report/numbers.h"
 #include "lightproof/report/sections.h"
 
 namespace lightproof {

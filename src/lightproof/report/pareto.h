@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lightproof/suite/results.h"
+#include "lightproof/results/throughput_record.h"
 
 namespace lightproof {
 

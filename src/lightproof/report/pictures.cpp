@@ -56,9 +56,9 @@ double grey_exposure(const Grid<Rgb>& picture) {
   double sum = 0.0;
   double pixels = 0.0;
   for (const Rgb& rgb : picture.values()) {
-    const double grey = luminance(rgb);
-    if (!counts(grey)) continue;
-    sum += std::log(grey);
+    const double luminance = luminance_of(rgb);
+    if (!counts(luminance)) continue;
+    sum += std::log(luminance);
     pixels += 1.0;
   }
   return pixels > 0.0 ? kMiddleGrey / std::exp(sum / pixels) : 1.0;
@@ -68,9 +68,9 @@ double mean_exposure(const Grid<Rgb>& picture) {
   double sum = 0.0;
   double pixels = 0.0;
   for (const Rgb& rgb : picture.values()) {
-    const double grey = luminance(rgb);
-    if (!counts(grey)) continue;
-    sum += grey;
+    const double luminance = luminance_of(rgb);
+    if (!counts(luminance)) continue;
+    sum += luminance;
     pixels += 1.0;
   }
   return pixels > 0.0 ? kLitMean * pixels / sum : 1.0;

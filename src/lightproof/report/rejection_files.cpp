@@ -1,6 +1,6 @@
 #include "lightproof/report/rejection_files.h"
 
-#include "lightproof/core/pending_file.h"
+#include "lightproof/core/atomic_file.h"
 #include "lightproof/image/writer.h"
 #include "lightproof/report/json.h"
 #include "lightproof/report/names.h"
@@ -13,9 +13,9 @@ namespace {
 constexpr double kFullColour = 10.0;
 constexpr int kPixelsPerBin = 16;
 
-std::string stem_of(const std::string& sampler, const std::string& weighting,
+std::string stem_of(const std::string& sampler, const std::string& density_space,
                     const std::string& map) {
-  return file_name_part(sampler + (weighting.empty() ? "" : "-" + weighting) + "-" + map);
+  return file_name_part(sampler + (density_space.empty() ? "" : "-" + density_space) + "-" + map);
 }
 
 Grid<Rgb> enlarged(const Grid<Rgb>& picture, int factor) {
@@ -30,9 +30,10 @@ Grid<Rgb> enlarged(const Grid<Rgb>& picture, int factor) {
 
 }  // namespace
 
-std::set<std::string> rejection_file_names(const std::string& sampler, const std::string& weighting,
+std::set<std::string> rejection_file_names(const std::string& sampler,
+                                           const std::string& density_space,
                                            const std::string& map) {
-  const std::string stem = stem_of(sampler, weighting, map);
+  const std::string stem = stem_of(sampler, density_space, map);
   return {stem + "-residual.exr", stem + "-residual.png", stem + ".json"};
 }
 
@@ -41,7 +42,7 @@ void write_rejections(const GateResult& gate, const std::filesystem::path& folde
   ResultFolder results(folder, overwriting);
   for (const Rejection& rejection : gate.rejections) {
     const std::filesystem::path stem =
-        results.temporary() / stem_of(rejection.sampler, rejection.weighting, rejection.map);
+        results.temporary() / stem_of(rejection.sampler, rejection.density_space, rejection.map);
     write_exr(stem.string() + "-residual.exr", flip_rows(grey_picture(rejection.residual)));
     const Grid<Rgb> colours = flip_rows(diverging_picture(rejection.residual, kFullColour));
     write_png(stem.string() + "-residual.png", enlarged(colours, kPixelsPerBin));

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "lightproof/report/result_folder.h"
-#include "lightproof/suite/results.h"
+#include "lightproof/results/gate_result.h"
 
 namespace lightproof {
 
-/// For every rejection three files named <sampler>-<weighting>-<map>:
+/// For every rejection three files named <sampler>-<density>-<map>:
 ///   …-residual.exr  (O - E) / sqrt(E) of the 32 x 16 bins over (phi, theta), zenith at the top
 ///   …-residual.png  the same in colours: red too many, blue too few, full at ten; 16 pixels a bin
 ///   ….json          diagnosis, worst 20 bins, divergence of the rows added up from t = 0, command
@@ -22,7 +22,8 @@ void write_rejections(const GateResult& gate, const std::filesystem::path& folde
                       Overwriting overwriting = Overwriting::refused);
 
 /// The names of these files for one sampler on one map, whether it will be rejected or not.
-std::set<std::string> rejection_file_names(const std::string& sampler, const std::string& weighting,
+std::set<std::string> rejection_file_names(const std::string& sampler,
+                                           const std::string& density_space,
                                            const std::string& map);
 
 }  // namespace lightproof

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "lightproof/image/writer.h"
+#include "lightproof/page/html.h"
+#include "lightproof/page/numbers.h"
 #include "lightproof/report/csv.h"
 #include "lightproof/report/findings.h"
-#include "lightproof/report/html.h"
 #include "lightproof/report/names.h"
-#include "lightproof/report/numbers.h"
 #include "lightproof/report/pictures.h"
 #include "lightproof/report/sections.h"
 
@@ -26,7 +26,7 @@ std::string image(const Grid<Rgb>& encoded, std::string_view alternative) {
 }
 
 std::string seconds_text(double seconds) {
-  return seconds > 0.0 ? page_number(seconds) + " s" : "time not measured";
+  return seconds > 0.0 ? format_number(seconds) + " s" : "time not measured";
 }
 
 std::string strategy_figure(const RenderRecord& r, double scale, double range) {
@@ -37,7 +37,7 @@ std::string strategy_figure(const RenderRecord& r, double scale, double range) {
       image(
           diverging_picture(r.error, range),
           fmt::format("Signed error of {}, from blue (too dark) to red (too bright)", r.strategy)),
-      escaped(r.strategy), page_number(r.rmse), seconds_text(r.seconds),
+      escaped(r.strategy), format_number(r.rmse), seconds_text(r.seconds),
       counted(r.samples, "sample"));
 }
 
@@ -55,7 +55,7 @@ std::string colour_bar(double range) {
       "</linearGradient></defs><rect width=\"100\" height=\"6\" fill=\"url(#signed)\"/></svg>"
       "<p><span>\u2264 {0}<br>too dark</span><span>0</span><span>\u2265 {1}<br>too bright</span>"
       "</p></div>\n",
-      page_number(-range, 1), "+" + page_number(range, 1), hex(diverging_colour(-range, range)),
+      format_number(-range, 1), "+" + format_number(range, 1), hex(diverging_colour(-range, range)),
       hex(diverging_colour(0.0, range)), hex(diverging_colour(range, range)));
 }
 

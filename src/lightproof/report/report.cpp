@@ -3,14 +3,14 @@
 #include <utility>
 #include <vector>
 
+#include "lightproof/core/atomic_file.h"
 #include "lightproof/core/error.h"
-#include "lightproof/core/pending_file.h"
 #include "lightproof/image/writer.h"
 #include "lightproof/report/csv.h"
 #include "lightproof/report/json.h"
 #include "lightproof/report/names.h"
-#include "lightproof/report/page.h"
 #include "lightproof/report/pictures.h"
+#include "lightproof/report/report_page.h"
 
 namespace lightproof {
 namespace fs = std::filesystem;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "lightproof/report/result_folder.h"
-#include "lightproof/suite/results.h"
+#include "lightproof/results/study_result.h"
 
 namespace lightproof {
 

@@ -137,7 +137,7 @@ void check_result_folder(const fs::path& folder, Overwriting overwriting,
 }
 
 ResultFolder::ResultFolder(fs::path folder, Overwriting overwriting)
-    : folder_(std::move(folder)), pending_(folder_) {
+    : folder_(std::move(folder)), file_(folder_) {
   if (overwriting == Overwriting::of_listed_files) earlier_ = listed_files(folder_);
 }
 
@@ -150,7 +150,7 @@ void ResultFolder::commit(const RunDescription& run) {
   both.erase(std::string(kManifestName));
   both.insert(written.begin(), written.end());
   write_manifest(folder_, run, both, false);
-  pending_.commit();
+  file_.commit();
   for (const std::string& name : both) {
     if (written.count(name) == 0) remove_file(folder_ / name);
   }

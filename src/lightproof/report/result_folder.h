@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "lightproof/core/pending_file.h"
+#include "lightproof/core/atomic_file.h"
 #include "lightproof/core/run_description.h"
 
 namespace lightproof {
@@ -39,7 +39,7 @@ class ResultFolder {
   ResultFolder(std::filesystem::path folder, Overwriting overwriting);
 
   /// Write here.
-  const std::filesystem::path& temporary() const { return pending_.temporary(); }
+  const std::filesystem::path& temporary() const { return file_.temporary(); }
 
   /// Moves the files into the folder, removes those of the earlier run that were not written again,
   /// and writes the manifest last. Throws InputError, with nothing changed, if a file that no
@@ -50,7 +50,7 @@ class ResultFolder {
  private:
   std::filesystem::path folder_;
   std::set<std::string> earlier_;
-  PendingFolder pending_;
+  PendingFolder file_;
 };
 
 }  // namespace lightproof

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "lightproof/suite/results.h"
+#include "lightproof/results/study_result.h"
 
 namespace lightproof {
 

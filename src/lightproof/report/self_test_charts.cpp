@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "lightproof/report/chart_parts.h"
-#include "lightproof/report/numbers.h"
+#include "lightproof/page/chart_parts.h"
+#include "lightproof/page/numbers.h"
 
 namespace lightproof {
 namespace {
@@ -17,9 +17,9 @@ Json kill_rows(const std::vector<KillRecord>& mutants) {
   Json rows = Json::array();
   for (const KillRecord& mutant : mutants) {
     for (const KillRecord::Kill& kill : mutant.kills) {
-      const bool named = kill.test.starts_with(mutant.oracle + "/");
+      const bool named = describe(kill.test).oracle == mutant.oracle;
       rows.push_back({{"mutant", mutant.mutant},
-                      {"test", kill.test},
+                      {"test", full_name(kill.test)},
                       {"samples", kill.samples},
                       {"needs", with_thousands(kill.samples)},
                       {"named", named ? "yes" : "no"}});
@@ -39,7 +39,7 @@ Json deviation_rows(const std::vector<CalibrationRecord>& tests) {
   for (const CalibrationRecord& test : tests) {
     for (std::size_t i = 0; i < test.quantiles.size(); ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(test.quantiles.size() - 1);
-      rows.push_back({{"test", test.test},
+      rows.push_back({{"test", full_name(test.test)},
                       {"series", test.is_bound ? "bound: may be too large" : "exact"},
                       {"p", rounded(test.quantiles[i])},
                       {"deviation", rounded(share - test.quantiles[i])}});
@@ -60,7 +60,7 @@ Json power_rows(const std::vector<PowerRecord>& power) {
   for (const PowerRecord& r : power) {
     const double measured = static_cast<double>(r.rejected) / static_cast<double>(r.replicates);
     const double error = std::sqrt(measured * (1.0 - measured) / static_cast<double>(r.replicates));
-    rows.push_back({{"series", r.test + (r.is_bound ? " (at least)" : "")},
+    rows.push_back({{"series", full_name(r.test) + (r.is_bound ? " (at least)" : "")},
                     {"samples", r.samples},
                     {"measured", rounded(measured)},
                     {"low", rounded(measured - kBarHalfLength * error)},
@@ -133,7 +133,7 @@ std::string power_chart(const std::vector<PowerRecord>& power) {
   std::vector<std::string> names;
   LogRange range;
   for (const PowerRecord& r : power) {
-    names.push_back(r.test + (r.is_bound ? " (at least)" : ""));
+    names.push_back(full_name(r.test) + (r.is_bound ? " (at least)" : ""));
     range.add(static_cast<double>(r.samples));
   }
   const std::vector<SeriesStyle> styles = series_styles(names);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lightproof/suite/results.h"
+#include "lightproof/results/self_test_result.h"
 
 namespace lightproof {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightproof/page/html.h"
+#include "lightproof/page/numbers.h"
 #include "lightproof/report/csv.h"
-#include "lightproof/report/html.h"
-#include "lightproof/report/numbers.h"
 #include "lightproof/report/sections.h"
 #include "lightproof/report/self_test_charts.h"
 
@@ -17,7 +17,7 @@ namespace {
 std::optional<std::uint64_t> own_kill(const KillRecord& mutant) {
   std::optional<std::uint64_t> fewest;
   for (const KillRecord::Kill& kill : mutant.kills) {
-    if (!kill.test.starts_with(mutant.oracle + "/")) continue;
+    if (describe(kill.test).oracle != mutant.oracle) continue;
     fewest = std::min(fewest.value_or(kill.samples), kill.samples);
   }
   return fewest;
@@ -32,7 +32,7 @@ std::string kill_finding(const std::vector<KillRecord>& mutants) {
   std::uint64_t most = 0;
   for (const KillRecord& mutant : mutants) most = std::max(most, own_kill(mutant).value_or(0));
   return fmt::format(
-      "{} of {} planted defects are rejected by the oracle that should, with at most {} samples; "
+      "{} of {} injected defects are rejected by the oracle that should, with at most {} samples; "
       "{} are called by their right name",
       killed, mutants.size(), with_thousands(most), named);
 }
@@ -42,12 +42,12 @@ Cell samples_cell(const std::optional<std::uint64_t>& samples) {
 }
 
 std::string kill_table(const std::vector<KillRecord>& mutants) {
-  Table table("Planted defects", {"Mutant", "Oracle", "Samples for its oracle", "Sequential gate",
-                                  "Looks like", "Tests that reject"});
+  Table table("Injected defects", {"Mutant", "Oracle", "Samples for its oracle", "Sequential gate",
+                                   "Looks like", "Tests that reject"});
   for (const KillRecord& m : mutants) {
     const bool right = m.looks_like == m.expected_diagnosis;
     table.add({text_cell(m.mutant),
-               text_cell(m.oracle),
+               text_cell(std::string(to_string(m.oracle))),
                samples_cell(own_kill(m)),
                samples_cell(m.sequential),
                {m.looks_like + (right ? "" : " (should be " + m.expected_diagnosis + ")"),
@@ -115,7 +115,7 @@ std::string calibration_finding(const std::vector<CalibrationRecord>& tests) {
       "p-values of a right sampler {} uniform: of {} the largest deviation over {} is {}, where "
       "{} would be chance with a probability of one in a million",
       worst.ks_distance <= limit ? "are" : "are not", counted(tests.size(), "test"),
-      with_thousands(worst.replicates), page_number(worst.ks_distance), page_number(limit));
+      with_thousands(worst.replicates), format_number(worst.ks_distance), format_number(limit));
 }
 
 std::string calibration_table(const CalibrationResult& calibration) {
@@ -123,7 +123,7 @@ std::string calibration_table(const CalibrationResult& calibration) {
               {"Test", "p-values", "Kind", "Largest deviation", "log10 p (Kolmogorov-Smirnov)",
                "log10 p (Anderson-Darling)", "Below 0.01"});
   for (const CalibrationRecord& r : calibration.tests) {
-    tests.add({text_cell(r.test),
+    tests.add({text_cell(full_name(r.test)),
                {with_thousands(r.replicates), "number", ""},
                text_cell(r.is_bound ? "bound" : "exact"),
                number_cell(r.ks_distance),
@@ -163,22 +163,23 @@ std::string power_table(const std::vector<PowerRecord>& power) {
   Table table("Power", {"Test", "Effect", "Samples", "Rejected", "Predicted"});
   for (const PowerRecord& r : power) {
     const double measured = static_cast<double>(r.rejected) / static_cast<double>(r.replicates);
-    table.add({text_cell(r.test),
+    table.add({text_cell(full_name(r.test)),
                number_cell(r.effect),
                {with_thousands(r.samples), "number", ""},
                number_cell(measured),
-               {(r.is_bound ? "at least " : "") + page_number(r.predicted), "number", ""}});
+               {(r.is_bound ? "at least " : "") + format_number(r.predicted), "number", ""}});
   }
   return table.html();
 }
 
 constexpr std::string_view kIntroduction =
     "A gate that accepts everything passes everything. So it is tested itself: on samplers with "
-    "one planted defect each, which it must reject and name; on a sampler that is right, whose "
-    "p-values must be uniform; and on a law that is a little off, which it must find as often as "
+    "one injected defect each, which it must reject and name; on a sampler that is right, whose "
+    "p-values must be uniform; and on a distribution that is a little off, which it must find as "
+    "often as "
     "it claims.";
 constexpr std::string_view kKillNote =
-    "Columns are the gate's tests, rows the planted defects; a dark frame marks tests of the "
+    "Columns are the gate's tests, rows the injected defects; a dark frame marks tests of the "
     "oracle "
     "that has to reject. Where a cell is empty the test does not see the defect with 262,144 "
     "samples.";
@@ -186,7 +187,8 @@ constexpr std::string_view kCalibrationNote =
     "One line for each test; dashed lines are the limits. The worst of many cells has a bound in "
     "place of a p-value: it may run far below zero, never above.";
 constexpr std::string_view kPowerNote =
-    "Lines are predicted from the exact law, points are measured, bars are two standard errors. "
+    "Lines are predicted from the exact distribution, points are measured, bars are two standard "
+    "errors. "
     "Tests at a level of 0.001.";
 
 }  // namespace
@@ -204,9 +206,9 @@ std::string self_test_section(const std::optional<SelfTestResult>& self_test) {
   const auto& [calibration, power, mutants, naming] = *self_test;
   html += paragraph(kIntroduction, "note");
   html += chart_figure({"kill-chart", kill_finding(mutants),
-                        "Fewest samples with which each test rejects each planted defect",
+                        "Fewest samples with which each test rejects each injected defect",
                         std::string(kKillNote), kill_chart(mutants)},
-                       collapsible("Planted defects as a table", kill_table(mutants)) +
+                       collapsible("Injected defects as a table", kill_table(mutants)) +
                            download_link("mutants.csv", mutants_csv(mutants)));
   if (!naming.empty()) {
     html += paragraph(naming_finding(naming), "note") +
@@ -219,8 +221,9 @@ std::string self_test_section(const std::optional<SelfTestResult>& self_test) {
                            collapsible("Calibration as a table", calibration_table(calibration)));
   html += chart_figure(
       {"power-chart",
-       fmt::format("The tests reject a law that is off as often as predicted, to within {}",
-                   page_number(largest_miss(power), 2)),
+       fmt::format(
+           "The tests reject a distribution that is off as often as predicted, to within {}",
+           format_number(largest_miss(power), 2)),
        "Share of rejections against the number of samples", std::string(kPowerNote),
        power_chart(power)},
       collapsible("Power as a table", power_table(power)));

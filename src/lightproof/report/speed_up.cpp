@@ -5,15 +5,16 @@
 #include <string_view>
 #include <tuple>
 
+#include "lightproof/page/chart_parts.h"
+#include "lightproof/page/numbers.h"
 #include "lightproof/report/findings.h"
 #include "lightproof/report/gate_summary.h"
-#include "lightproof/report/numbers.h"
 
 namespace lightproof {
 namespace {
 
 struct SpeedUp {
-  const ThroughputRecord* subject;
+  const ThroughputRecord* under_test;
   double factor;
 };
 
@@ -36,16 +37,16 @@ const ThroughputRecord* fastest(const std::vector<ThroughputRecord>& records) {
 }
 
 /// Whether nothing is known against a sampler.
-bool is_sound(const GateResult& gate, const std::string& sampler) {
+bool is_correct(const GateResult& gate, const std::string& sampler) {
   return std::none_of(gate.tests.begin(), gate.tests.end(), [&](const TestRecord& test) {
     return test.sampler == sampler && (test.known_defect || test.outcome == Outcome::reject);
   });
 }
 
-/// The fastest sampler on the largest map, of the sound ones if there are any.
-std::string subject_name(const StudyResult& study) {
+/// The fastest sampler on the largest map, of the correct ones if there are any.
+std::string sampler_name(const StudyResult& study) {
   const auto rank = [&](const ThroughputRecord& r) {
-    return std::tuple(is_sound(study.gate, r.sampler), r.extent.count(), -r.ns_per_sample);
+    return std::tuple(is_correct(study.gate, r.sampler), r.extent.count(), -r.ns_per_sample);
   };
   const std::vector<ThroughputRecord>& records = study.throughput;
   return std::max_element(records.begin(), records.end(),
@@ -74,17 +75,17 @@ std::string baseline_name(const StudyResult& study) {
 
 /// Ascending by size.
 std::vector<SpeedUp> speed_ups(const std::vector<ThroughputRecord>& records,
-                               const std::string& subject, const std::string& baseline) {
+                               const std::string& under_test, const std::string& baseline) {
   std::vector<SpeedUp> factors;
   for (const ThroughputRecord& a : records) {
     for (const ThroughputRecord& b : records) {
-      if (a.sampler != subject || b.sampler != baseline) continue;
+      if (a.sampler != under_test || b.sampler != baseline) continue;
       if (a.map != b.map || !(a.extent == b.extent) || !(a.ns_per_sample > 0.0)) continue;
       factors.push_back({&a, b.ns_per_sample / a.ns_per_sample});
     }
   }
   std::stable_sort(factors.begin(), factors.end(), [](const SpeedUp& a, const SpeedUp& b) {
-    return a.subject->extent.count() < b.subject->extent.count();
+    return a.under_test->extent.count() < b.under_test->extent.count();
   });
   return factors;
 }
@@ -93,10 +94,10 @@ std::vector<SpeedUp> speed_ups(const std::vector<ThroughputRecord>& records,
 bool grows(const std::vector<SpeedUp>& factors) {
   double last = 0.0;
   for (std::size_t i = 0; i < factors.size();) {
-    const std::size_t size = factors[i].subject->extent.count();
+    const std::size_t size = factors[i].under_test->extent.count();
     double low = factors[i].factor;
     double high = low;
-    for (; i < factors.size() && factors[i].subject->extent.count() == size; ++i) {
+    for (; i < factors.size() && factors[i].under_test->extent.count() == size; ++i) {
       low = std::min(low, factors[i].factor);
       high = std::max(high, factors[i].factor);
     }
@@ -106,7 +107,7 @@ bool grows(const std::vector<SpeedUp>& factors) {
   return true;
 }
 
-std::string times(double factor) { return page_number(factor, 2); }
+std::string times(double factor) { return format_number(factor, 2); }
 
 std::string range_text(double low, double high) {
   return times(low) == times(high) ? times(low) + " times"
@@ -117,22 +118,23 @@ std::string range_text(double low, double high) {
 
 std::string throughput_finding(const StudyResult& study) {
   if (study.throughput.empty()) return "Throughput was not measured";
-  const std::string subject = subject_name(study);
+  const std::string under_test = sampler_name(study);
   const std::string baseline = baseline_name(study);
-  const std::vector<SpeedUp> all = speed_ups(study.throughput, subject, baseline);
-  if (subject == baseline || all.empty()) {
+  const std::vector<SpeedUp> all = speed_ups(study.throughput, under_test, baseline);
+  if (under_test == baseline || all.empty()) {
     const ThroughputRecord& best = *fastest(study.throughput);
     return fmt::format("{} takes {} ns per sample on {}", best.sampler,
-                       page_number(best.ns_per_sample), extent_text(best.extent));
+                       format_number(best.ns_per_sample), extent_text(best.extent));
   }
   const auto [low, high] = std::minmax_element(
       all.begin(), all.end(), [](const auto& a, const auto& b) { return a.factor < b.factor; });
-  const std::string sizes = fmt::format("from {} to {}", extent_text(all.front().subject->extent),
-                                        extent_text(all.back().subject->extent));
-  const bool one_size = all.front().subject->extent == all.back().subject->extent;
-  const std::string where = one_size ? "at " + extent_text(all.front().subject->extent) : sizes;
-  return fmt::format("{} is {} as fast as {}, {}{}", subject, range_text(low->factor, high->factor),
-                     baseline, where,
+  const std::string sizes =
+      fmt::format("from {} to {}", extent_text(all.front().under_test->extent),
+                  extent_text(all.back().under_test->extent));
+  const bool one_size = all.front().under_test->extent == all.back().under_test->extent;
+  const std::string where = one_size ? "at " + extent_text(all.front().under_test->extent) : sizes;
+  return fmt::format("{} is {} as fast as {}, {}{}", under_test,
+                     range_text(low->factor, high->factor), baseline, where,
                      !one_size && grows(all) ? ", and the gap grows with the map" : "");
 }
 
@@ -147,7 +149,7 @@ std::string tables_finding(const std::vector<TableRecord>& records, TableCost co
   }
   return fmt::format("At {}, {} is the fastest table, {} ns a sample; {}",
                      extent_text(fastest.extent), fastest.sampler,
-                     page_number(fastest.ns_per_sample),
+                     format_number(fastest.ns_per_sample),
                      others.empty() ? fmt::format("none is {}", better)
                                     : fmt::format("{} and not beaten: {}", better, others));
 }

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "lightproof/report/chart_parts.h"
+#include "lightproof/page/chart_parts.h"
+#include "lightproof/page/numbers.h"
 #include "lightproof/report/charts.h"
-#include "lightproof/report/numbers.h"
 #include "lightproof/report/pareto.h"
 
 namespace lightproof {

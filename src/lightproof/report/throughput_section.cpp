@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "lightproof/page/html.h"
+#include "lightproof/page/numbers.h"
 #include "lightproof/report/charts.h"
 #include "lightproof/report/csv.h"
 #include "lightproof/report/findings.h"
-#include "lightproof/report/html.h"
-#include "lightproof/report/numbers.h"
 #include "lightproof/report/sections.h"
 
 namespace lightproof {
@@ -35,14 +35,14 @@ Cell leaving_cell(const std::optional<Extent>& place, const std::optional<double
 }
 
 /// "0.02, from 1024×512 on 0.31".
-Cell knees_cell(const std::optional<StepKnees>& knees) {
-  if (!knees) return text_cell("none");
-  std::string text = page_number(knees->exponent_before, 2);
-  for (const StepKnee& knee : knees->knees) {
-    text += fmt::format(", from {} on {}", extent_text(knee.extent),
-                        page_number(knee.exponent_after, 2));
+Cell breakpoints_cell(const std::optional<SegmentedGrowth>& breakpoints) {
+  if (!breakpoints) return text_cell("none");
+  std::string text = format_number(breakpoints->exponent_before, 2);
+  for (const GrowthBreakpoint& breakpoint : breakpoints->breakpoints) {
+    text += fmt::format(", from {} on {}", extent_text(breakpoint.extent),
+                        format_number(breakpoint.exponent_after, 2));
   }
-  return {text, "detail", fmt::format("p = {}", page_number(knees->p_value, 2))};
+  return {text, "detail", fmt::format("p = {}", format_number(breakpoints->p_value, 2))};
 }
 
 constexpr std::string_view kGrowthNote =
@@ -54,14 +54,15 @@ constexpr std::string_view kGrowthNote =
     "bends that fits the time of a step so much better than a straight one that straight ones with "
     "random errors would hardly seem to bend as clearly: where all samplers are straight, any of "
     "them "
-    "has a knee with a probability of at most 1 % (Holm's procedure over all samplers). At least "
-    "two sizes lie on either side of a knee; few sizes, or much scatter, show none.";
+    "has a breakpoint with a probability of at most 1 % (Holm's procedure over all samplers). At "
+    "least "
+    "two sizes lie on either side of a breakpoint; few sizes, or much scatter, show none.";
 
 std::string growth_table(const std::vector<GrowthFit>& growth, const CacheSizes& caches) {
   if (growth.empty()) return "";
   Table table("Fitted growth",
               {"Sampler", "Steps", "Fastest, ns", "Slowest, ns", "Exponent", "Outgrows L2",
-               "Outgrows L3", "Exponents of a step, and its knees"});
+               "Outgrows L3", "Exponents of a step, and its breakpoints"});
   for (const GrowthFit& fit : growth) {
     const StepRange range = step_range(fit);
     table.add({text_cell(fit.sampler),
@@ -71,10 +72,10 @@ std::string growth_table(const std::vector<GrowthFit>& growth, const CacheSizes&
                {with_error(fit.exponent, fit.exponent_error), "number", ""},
                leaving_cell(fit.leaves_l2, caches.l2),
                leaving_cell(fit.leaves_l3, caches.l3),
-               knees_cell(fit.knees)});
+               breakpoints_cell(fit.breakpoints)});
   }
   return "<h4>" + escaped(growth_finding(growth)) + "</h4>\n" +
-         paragraph(caches_finding(growth, caches) + knees_finding(growth)) +
+         paragraph(caches_finding(growth, caches) + breakpoints_finding(growth)) +
          paragraph(kGrowthNote, "note") + table.html() +
          download_link("growth.csv", growth_csv(growth));
 }

@@ -1,7 +1,7 @@
 // Variance against its prediction.
 #include <nlohmann/json.hpp>
 
-#include "lightproof/report/chart_parts.h"
+#include "lightproof/page/chart_parts.h"
 #include "lightproof/report/charts.h"
 #include "lightproof/report/findings.h"
 

@@ -3,6 +3,6 @@
 namespace lightproof {
 
 Alias::Alias(const EnvironmentMap& map, TargetDensity target)
-    : table_(CellWeights(map, target)), places_(map.radiance.extent(), target.weighting) {}
+    : table_(CellWeights(map, target)), positions_(map.radiance.extent(), target.density_space) {}
 
 }  // namespace lightproof

@@ -6,7 +6,7 @@
 #include "lightproof/samplers/alias_table.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/sampler.h"
-#include "lightproof/samplers/texel_places.h"
+#include "lightproof/samplers/texel_positions.h"
 
 namespace lightproof {
 
@@ -18,31 +18,31 @@ class Alias {
   /// u.s names the column and the place across, u.t chooses, and gives the place along.
   TexelSample sample(SquarePoint u) const {
     const AliasTable::Drawn drawn = table_.draw(u.s, u.t);
-    const auto width = static_cast<std::uint32_t>(places_.extent().width);
-    return places_.sample(static_cast<int>(drawn.cell % width),
-                          static_cast<int>(drawn.cell / width), drawn.column, drawn.choice,
-                          drawn.mass);
+    const auto width = static_cast<std::uint32_t>(positions_.extent().width);
+    return positions_.sample(static_cast<int>(drawn.cell % width),
+                             static_cast<int>(drawn.cell / width), drawn.column, drawn.choice,
+                             drawn.mass);
   }
 
   PerSquare pdf(SquarePoint at) const {
-    const Extent extent = places_.extent();
+    const Extent extent = positions_.extent();
     const int y = cell_of(at.t, extent.height);
     const auto x = static_cast<std::size_t>(cell_of(at.s, extent.width));
     const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(extent.width);
-    return places_.pdf(y, table_.mass(row + x), at);
+    return positions_.pdf(y, table_.mass(row + x), at);
   }
 
   struct View {
     std::span<const AliasTable::Entry> entries;
-    TexelPlacesView places;
+    TexelPositionsView positions;
   };
-  View view() const { return {table_.entries(), places_.view()}; }
+  View view() const { return {table_.entries(), positions_.view()}; }
 
-  std::size_t table_bytes() const { return table_.bytes() + places_.bytes(); }
+  std::size_t table_bytes() const { return table_.bytes() + positions_.bytes(); }
 
  private:
   AliasTable table_;
-  TexelPlaces places_;
+  TexelPositions positions_;
 };
 static_assert(EnvSampler<Alias>);
 

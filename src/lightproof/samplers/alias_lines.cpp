@@ -5,11 +5,11 @@
 namespace lightproof {
 
 AliasLines::AliasLines(const EnvironmentMap& map, TargetDensity target)
-    : AliasLines(texel_weights(map, target), target.weighting) {}
+    : AliasLines(texel_weights(map, target), target.density_space) {}
 
-AliasLines::AliasLines(const Grid<double>& weights, Weighting weighting)
+AliasLines::AliasLines(const Grid<double>& weights, DensitySpace density_space)
     : lines_(weights),
       table_(std::span<const double>(run_weights(weights).values())),
-      places_(weights.extent(), weighting) {}
+      positions_(weights.extent(), density_space) {}
 
 }  // namespace lightproof

@@ -1,6 +1,6 @@
 // Two levels at 2.5 bytes a texel: the alias method chooses among runs of 32 texels, whose 16-bit
-// knots are then compared with what is left of the random number. One line of the cache a sample
-// of the larger table, and three in runs of much contrast; not monotone, so it loses
+// CDF entries are then compared with what is left of the random number. One line of the cache a
+// sample of the larger table, and three in runs of much contrast; not monotone, so it loses
 // stratification.
 #pragma once
 
@@ -8,7 +8,7 @@
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/cdf_lines.h"
 #include "lightproof/samplers/sampler.h"
-#include "lightproof/samplers/texel_places.h"
+#include "lightproof/samplers/texel_positions.h"
 
 namespace lightproof {
 
@@ -23,33 +23,33 @@ class AliasLines {
     const AliasTable::Drawn drawn = table_.draw(u.s, u.t);
     const RunTexel found = lines_.find(drawn.cell, drawn.choice);
     const auto across = static_cast<std::uint32_t>(lines_.extent().width);
-    return places_.sample(static_cast<int>(drawn.cell % across) * kRunTexels + found.index,
-                          static_cast<int>(drawn.cell / across), found.fraction, drawn.column,
-                          drawn.mass * found.mass);
+    return positions_.sample(static_cast<int>(drawn.cell % across) * kRunTexels + found.index,
+                             static_cast<int>(drawn.cell / across), found.fraction, drawn.column,
+                             drawn.mass * found.mass);
   }
 
   PerSquare pdf(SquarePoint at) const {
-    const int y = cell_of(at.t, places_.extent().height);
-    const int x = cell_of(at.s, places_.extent().width);
+    const int y = cell_of(at.t, positions_.extent().height);
+    const int x = cell_of(at.s, positions_.extent().width);
     const std::size_t run = lines_.index(x / kRunTexels, y);
-    return places_.pdf(y, table_.mass(run) * lines_.mass(run, x % kRunTexels), at);
+    return positions_.pdf(y, table_.mass(run) * lines_.mass(run, x % kRunTexels), at);
   }
 
   struct View {
     std::span<const AliasTable::Entry> runs;
     CdfLines::View lines;
-    TexelPlacesView places;
+    TexelPositionsView positions;
   };
-  View view() const { return {table_.entries(), lines_.view(), places_.view()}; }
+  View view() const { return {table_.entries(), lines_.view(), positions_.view()}; }
 
-  std::size_t table_bytes() const { return lines_.bytes() + table_.bytes() + places_.bytes(); }
+  std::size_t table_bytes() const { return lines_.bytes() + table_.bytes() + positions_.bytes(); }
 
  private:
-  AliasLines(const Grid<double>& weights, Weighting weighting);
+  AliasLines(const Grid<double>& weights, DensitySpace density_space);
 
   CdfLines lines_;
   AliasTable table_;
-  TexelPlaces places_;
+  TexelPositions positions_;
 };
 static_assert(EnvSampler<AliasLines>);
 

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "lightproof/core/large_pages.h"
+#include "lightproof/core/huge_pages.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/samplers/texel_weights.h"
 #include "lightproof/samplers/weight_vectors.h"

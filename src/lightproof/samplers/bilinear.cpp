@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lightproof/core/parallel.h"
-#include "lightproof/samplers/texel_places.h"
+#include "lightproof/samplers/texel_positions.h"
 #include "lightproof/samplers/texel_weights.h"
 
 namespace lightproof {
@@ -24,15 +24,15 @@ double inside(double share) { return std::clamp(share, kCellMargin, 1.0 - kCellM
 }  // namespace
 
 BilinearPatches::BilinearPatches(const EnvironmentMap& map, TargetDensity target)
-    : weighting_(target.weighting), grey_(map.radiance.extent()) {
+    : density_space_(target.density_space), luminance_(map.radiance.extent()) {
   const Extent extent = texels();
   parallel_for(static_cast<std::size_t>(extent.height), [&](std::size_t row) {
     const int y = static_cast<int>(row);
-    std::ranges::transform(map.radiance.row(y), grey_.row(y).begin(), [&](Rgb rgb) {
-      return static_cast<float>(luminance(rgb, target.grey));
+    std::ranges::transform(map.radiance.row(y), luminance_.row(y).begin(), [&](Rgb rgb) {
+      return static_cast<float>(luminance_of(rgb, target.weights));
     });
   });
-  if (std::ranges::none_of(grey_.values(), [](float grey) { return grey > 0.0F; })) {
+  if (std::ranges::none_of(luminance_.values(), [](float luminance) { return luminance > 0.0F; })) {
     refuse_black(map);
   }
   for (int row = 0; row <= extent.height; ++row) rows_.push_back(weigh(row));
@@ -48,7 +48,7 @@ LinearTimesSine BilinearPatches::from_pole(int row) const {
 
 BilinearPatches::Row BilinearPatches::weigh(int row) const {
   const double height = part(row, texels().height).length / texels().height;
-  if (weighting_ == Weighting::A) return {0.5 * height, 0.5 * height};
+  if (density_space_ == DensitySpace::texture) return {0.5 * height, 0.5 * height};
   const LinearTimesSine sine = from_pole(row);
   const double steradian = solid_angle_per_square(0.5) * height;
   const double away = steradian * sine.integral(1.0, 0.0, 1.0);
@@ -64,10 +64,10 @@ BilinearPatches::Corners BilinearPatches::corners(int column, int row) const {
   Corners found;
   for (int k = 0; k < 2; ++k) {
     const int y = std::clamp(row - 1 + k, 0, height - 1);
-    const auto a = static_cast<double>(grey_(left, y));
-    const auto b = static_cast<double>(grey_(right, y));
-    found.grey[k][0] = covered.begin > 0.0 ? 0.5 * (a + b) : a;
-    found.grey[k][1] = covered.begin + covered.length < 1.0 ? 0.5 * (a + b) : b;
+    const auto a = static_cast<double>(luminance_(left, y));
+    const auto b = static_cast<double>(luminance_(right, y));
+    found.luminance[k][0] = covered.begin > 0.0 ? 0.5 * (a + b) : a;
+    found.luminance[k][1] = covered.begin + covered.length < 1.0 ? 0.5 * (a + b) : b;
   }
   return found;
 }
@@ -83,10 +83,10 @@ Grid<double> BilinearPatches::weights() const {
   return weights;
 }
 
-double BilinearPatches::place_along(const Corners& corners, int row, double share) const {
+double BilinearPatches::position_along(const Corners& corners, int row, double share) const {
   const double low = corners.low();
   const double high = corners.high();
-  if (weighting_ == Weighting::A) return invert_linear(low, high, share);
+  if (density_space_ == DensitySpace::texture) return invert_linear(low, high, share);
   const LinearTimesSine sine = from_pole(row);
   return is_upper(row) ? 1.0 - sine.invert(high, low, 1.0 - share) : sine.invert(low, high, share);
 }
@@ -95,9 +95,10 @@ TexelSample BilinearPatches::sample(int column, int row, double across, double a
                                     double mass) const {
   const auto [width, height] = texels();
   const Corners corner = corners(column, row);
-  const double q = inside(place_along(corner, row, along));
-  const double p = inside(invert_linear(between(corner.grey[0][0], corner.grey[1][0], q),
-                                        between(corner.grey[0][1], corner.grey[1][1], q), across));
+  const double q = inside(position_along(corner, row, along));
+  const double p =
+      inside(invert_linear(between(corner.luminance[0][0], corner.luminance[1][0], q),
+                           between(corner.luminance[0][1], corner.luminance[1][1], q), across));
   const Part in_s = part(column, width);
   const Part in_t = part(row, height);
   const SquarePoint at = {(column - 0.5 + in_s.begin + in_s.length * p) / width,
@@ -114,10 +115,11 @@ PerSquare BilinearPatches::density(const Corners& corners, int column, int row, 
   const auto [width, height] = texels();
   const double p = share_of_part(at.s * width + 0.5 - column, part(column, width));
   const double q = share_of_part(at.t * height + 0.5 - row, part(row, height));
-  const double grey = between(between(corners.grey[0][0], corners.grey[0][1], p),
-                              between(corners.grey[1][0], corners.grey[1][1], p), q);
-  const double density = mass / integral(corners, column, row) * grey;
-  return weighting_ == Weighting::A ? PerSquare{density} : to_square(PerSteradian{density}, at);
+  const double luminance = between(between(corners.luminance[0][0], corners.luminance[0][1], p),
+                                   between(corners.luminance[1][0], corners.luminance[1][1], p), q);
+  const double density = mass / integral(corners, column, row) * luminance;
+  return density_space_ == DensitySpace::texture ? PerSquare{density}
+                                                 : to_square(PerSteradian{density}, at);
 }
 
 }  // namespace lightproof

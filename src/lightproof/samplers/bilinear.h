@@ -29,8 +29,8 @@ class BilinearPatches {
 
   /// In patches.
   Extent extent() const { return {texels().width + 1, texels().height + 1}; }
-  Extent texels() const { return grey_.extent(); }
-  /// ∫ of the interpolated grey: over the square under A, in steradian under B.
+  Extent texels() const { return luminance_.extent(); }
+  /// ∫ of the interpolated luminance: over the square under A, in steradian under B.
   Grid<double> weights() const;
   /// The sample in patch (column, row), which is drawn with probability `mass`, below which lie
   /// these shares of the patch: along of its mass, across of that at the same t.
@@ -42,7 +42,7 @@ class BilinearPatches {
     return density(corners(column, row), column, row, mass, at);
   }
   std::size_t bytes() const {
-    return grey_.values().size() * sizeof(float) + rows_.size() * sizeof(Row);
+    return luminance_.values().size() * sizeof(float) + rows_.size() * sizeof(Row);
   }
 
  private:
@@ -64,11 +64,11 @@ class BilinearPatches {
     double falling;
     double rising;
   };
-  /// The grey at the corners of a patch: low and high in s, in t.
+  /// The luminance at the corners of a patch: low and high in s, in t.
   struct Corners {
-    double grey[2][2];  ///< [t][s]
-    double low() const { return 0.5 * (grey[0][0] + grey[0][1]); }
-    double high() const { return 0.5 * (grey[1][0] + grey[1][1]); }
+    double luminance[2][2];  ///< [t][s]
+    double low() const { return 0.5 * (luminance[0][0] + luminance[0][1]); }
+    double high() const { return 0.5 * (luminance[1][0] + luminance[1][1]); }
   };
 
   Row weigh(int row) const;
@@ -84,10 +84,10 @@ class BilinearPatches {
   }
   /// What is returned with a sample and what is asked for later are the same bits.
   PerSquare density(const Corners& corners, int column, int row, double mass, SquarePoint at) const;
-  double place_along(const Corners& corners, int row, double share) const;
+  double position_along(const Corners& corners, int row, double share) const;
 
-  Weighting weighting_;
-  Grid<float> grey_;
+  DensitySpace density_space_;
+  Grid<float> luminance_;
   std::vector<Row> rows_;
 };
 
@@ -119,7 +119,7 @@ class Bilinear {
  private:
   BilinearPatches patches_;
   CdfTable table_;
-  GuidedKnots guides_;
+  GuidedEntries guides_;
 };
 static_assert(EnvSampler<Bilinear>);
 

@@ -9,27 +9,27 @@ namespace lightproof {
 /// Halves the range. Which half is chosen by arithmetic, not by a branch: the outcome is random, so
 /// a processor would mispredict every second one. What a guessed branch would have read ahead is
 /// prefetched instead, for both outcomes.
-inline int search_by_bisection(CdfKnots knots, std::uint32_t u) {
-  const std::uint32_t* cell = knots.data();
-  for (std::size_t cells = knots.size() - 1; cells > 1;) {
+inline int search_by_bisection(CdfEntries entries, std::uint32_t u) {
+  const std::uint32_t* cell = entries.data();
+  for (std::size_t cells = entries.size() - 1; cells > 1;) {
     const std::size_t half = cells / 2;
     __builtin_prefetch(cell + half / 2);
     __builtin_prefetch(cell + half + half / 2);
     cell += cell[half] <= u ? half : 0;
     cells -= half;
   }
-  return static_cast<int>(cell - knots.data());
+  return static_cast<int>(cell - entries.data());
 }
 
-class BisectedKnots : public SortedKnots<search_by_bisection> {
+class BisectedEntries : public SortedEntries<search_by_bisection> {
  public:
-  using SortedKnots::SortedKnots;
+  using SortedEntries::SortedEntries;
   struct View {};  ///< all that is needed is the table
   View view() const { return {}; }
 };
 
-using BinarySearch = CdfInversion<BisectedKnots>;
-using BinarySearchView = CdfInversionView<BisectedKnots::View>;
+using BinarySearch = CdfInversion<BisectedEntries>;
+using BinarySearchView = CdfInversionView<BisectedEntries::View>;
 static_assert(EnvSampler<BinarySearch>);
 
 /// Whole vectors of a batch; returns how many samples these are.

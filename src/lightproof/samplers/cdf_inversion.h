@@ -7,13 +7,13 @@
 
 #include "lightproof/samplers/cdf_table.h"
 #include "lightproof/samplers/sampler.h"
-#include "lightproof/samplers/texel_places.h"
+#include "lightproof/samplers/texel_positions.h"
 
 namespace lightproof {
 
-/// The cell of a distribution that u lies in: low <= u < high, its knots.
-/// The knots come first: a pair that is read at once is then returned in one register, and does not
-/// take a way through memory whose parts the processor would wait for.
+/// The cell of a distribution that u lies in: low <= u < high, its CDF entries.
+/// The CDF entries come first: a pair that is read at once is then returned in one register, and
+/// does not take a way through memory whose parts the processor would wait for.
 struct CdfCell {
   std::uint32_t low;
   std::uint32_t high;
@@ -25,8 +25,8 @@ struct CdfCell {
   double fraction(double u) const { return (u - low) / units(); }
 };
 
-/// Finds the first cell whose upper knot lies above u, u < kCdfOne, with whatever it keeps beside
-/// the table. Cells without mass are never found.
+/// Finds the first cell whose upper CDF entry lies above u, u < kCdfOne, with whatever it keeps
+/// beside the table. Cells without mass are never found.
 template <class T>
 concept CellFinder = requires(const T finder, const CdfTable& table, int y, std::uint32_t u) {
   T(table);
@@ -40,7 +40,7 @@ template <class FinderView>
 struct CdfInversionView {
   CdfTable::View table;
   FinderView finder;
-  TexelPlacesView places;
+  TexelPositionsView positions;
 };
 
 /// An inversion sampler. Monotone: it keeps stratification.
@@ -48,20 +48,20 @@ template <CellFinder Finder>
 class CdfInversion {
  public:
   CdfInversion(const EnvironmentMap& map, TargetDensity target)
-      : table_(map, target), finder_(table_), places_(table_.extent(), target.weighting) {}
+      : table_(map, target), finder_(table_), positions_(table_.extent(), target.density_space) {}
 
   TexelSample sample(SquarePoint u) const {
     const double scaled_t = u.t * kCdfOne;
     const double scaled_s = u.s * kCdfOne;
     const CdfCell row = finder_.row(table_, static_cast<std::uint32_t>(scaled_t));
     const CdfCell column = finder_.column(table_, row.index, static_cast<std::uint32_t>(scaled_s));
-    return places_.sample(column.index, row.index, column.fraction(scaled_s),
-                          row.fraction(scaled_t), cdf_mass(row.units(), column.units()));
+    return positions_.sample(column.index, row.index, column.fraction(scaled_s),
+                             row.fraction(scaled_t), cdf_mass(row.units(), column.units()));
   }
 
   PerSquare pdf(SquarePoint at) const {
     const int y = cell_of(at.t, table_.extent().height);
-    return places_.pdf(y, table_.mass(cell_of(at.s, table_.extent().width), y), at);
+    return positions_.pdf(y, table_.mass(cell_of(at.s, table_.extent().width), y), at);
   }
 
   const CdfTable& table() const { return table_; }
@@ -70,24 +70,24 @@ class CdfInversion {
   auto view() const requires requires(const Finder& finder) { finder.view(); }
   {
     return CdfInversionView<decltype(finder_.view())>{table_.view(), finder_.view(),
-                                                      places_.view()};
+                                                      positions_.view()};
   }
 
-  std::size_t table_bytes() const { return table_.bytes() + finder_.bytes() + places_.bytes(); }
+  std::size_t table_bytes() const { return table_.bytes() + finder_.bytes() + positions_.bytes(); }
 
  private:
   CdfTable table_;
   Finder finder_;
-  TexelPlaces places_;
+  TexelPositions positions_;
 };
 
-/// A search of sorted knots, which needs nothing beside them.
-using KnotSearch = int (*)(CdfKnots knots, std::uint32_t u);
+/// A search of sorted CDF entries, which needs nothing beside them.
+using EntrySearch = int (*)(CdfEntries entries, std::uint32_t u);
 
-template <KnotSearch kSearch>
-class SortedKnots {
+template <EntrySearch kSearch>
+class SortedEntries {
  public:
-  explicit SortedKnots(const CdfTable& /*table*/) {}
+  explicit SortedEntries(const CdfTable& /*table*/) {}
   CdfCell row(const CdfTable& table, std::uint32_t u) const { return find(table.rows(), u); }
   CdfCell column(const CdfTable& table, int y, std::uint32_t u) const {
     return find(table.columns(y), u);
@@ -95,10 +95,10 @@ class SortedKnots {
   std::size_t bytes() const { return 0; }
 
  private:
-  static CdfCell find(CdfKnots knots, std::uint32_t u) {
-    const int index = kSearch(knots, u);
+  static CdfCell find(CdfEntries entries, std::uint32_t u) {
+    const int index = kSearch(entries, u);
     const auto k = static_cast<std::size_t>(index);
-    return {knots[k], knots[k + 1], index};
+    return {entries[k], entries[k + 1], index};
   }
 };
 

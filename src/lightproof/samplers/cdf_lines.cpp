@@ -30,21 +30,21 @@ double sum(std::span<const double> weights) {
 }
 
 template <class Integer, std::uint32_t kOne>
-void set_knots(RunKnots<Integer, kOne>& run, std::span<const double> weights) {
-  std::array<std::uint32_t, kRunTexels + 1> knots{};
-  quantise_cdf(weights, std::span(knots).first(weights.size() + 1), kOne);
+void set_entries(RunEntries<Integer, kOne>& run, std::span<const double> weights) {
+  std::array<std::uint32_t, kRunTexels + 1> entries{};
+  quantise_cdf(weights, std::span(entries).first(weights.size() + 1), kOne);
   run.upper.fill(run.kLast);
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    run.upper[i] = static_cast<Integer>(std::min<std::uint32_t>(knots[i + 1], run.kLast));
+    run.upper[i] = static_cast<Integer>(std::min<std::uint32_t>(entries[i + 1], run.kLast));
   }
 }
 
-template <class Knots>
-bool is_close(const Knots& knots, std::span<const double> weights) {
+template <class Entries>
+bool is_close(const Entries& entries, std::span<const double> weights) {
   const double total = sum(weights);
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const double share = weights[i] / total;
-    if (std::abs(knots.mass(static_cast<int>(i)) - share) > kNarrowError * share) return false;
+    if (std::abs(entries.mass(static_cast<int>(i)) - share) > kNarrowError * share) return false;
   }
   return true;
 }
@@ -60,18 +60,18 @@ CdfLines::CdfLines(const Grid<double>& weights)
     const int y = static_cast<int>(row);
     for (int column = 0; column < extent_.width; ++column) {
       const auto texels = run(weights, column, y);
-      Narrow& knots = narrow_[kBefore + index(column, y)];
+      Narrow& entries = narrow_[kBefore + index(column, y)];
       // As it stays without light: the run itself has no mass then.
-      knots.upper.fill(Narrow::kLast);
+      entries.upper.fill(Narrow::kLast);
       if (!(sum(texels) > 0.0)) continue;
-      set_knots(knots, texels);
-      if (!is_close(knots, texels)) wide_in_row[row].push_back(column);
+      set_entries(entries, texels);
+      if (!is_close(entries, texels)) wide_in_row[row].push_back(column);
     }
   });
   for (int y = 0; y < extent_.height; ++y) {
     for (const int column : wide_in_row[static_cast<std::size_t>(y)]) {
       const std::size_t at = wide_.size();
-      set_knots(wide_.emplace_back(), run(weights, column, y));
+      set_entries(wide_.emplace_back(), run(weights, column, y));
       narrow_[kBefore + index(column, y)] = where_wide(at);
     }
   }

@@ -1,6 +1,6 @@
 // The distribution inside every run of 32 texels of a row, in the smallest form that the run needs:
-// one line of the cache with 16-bit knots; where these would be too coarse, beside a lamp or the
-// sun, two more with 32-bit knots.
+// one line of the cache with 16-bit CDF entries; where these would be too coarse, beside a lamp or
+// the sun, two more with 32-bit CDF entries.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "lightproof/core/grid.h"
-#include "lightproof/core/large_pages.h"
+#include "lightproof/core/huge_pages.h"
 
 namespace lightproof {
 
@@ -24,11 +24,11 @@ struct RunTexel {
   double fraction;  ///< of the way through it, in [0,1)
 };
 
-/// Upper knots of a run in units of 1/kOne. From the last texel with mass on they are 1, which is
-/// kept as kLast: of kOne, what an Integer holds. Narrow knots that give
-/// it one unit alone say so of its neighbour: they are too coarse, and not kept.
+/// Upper CDF entries of a run in units of 1/kOne. From the last texel with mass on they are 1,
+/// which is kept as kLast: of kOne, what an Integer holds. Narrow CDF entries that give it one unit
+/// alone say so of its neighbour: they are too coarse, and not kept.
 template <class Integer, std::uint32_t kOne>
-struct alignas(64) RunKnots {
+struct alignas(64) RunEntries {
   static constexpr Integer kLast =
       std::min<std::uint32_t>(kOne, std::numeric_limits<Integer>::max());
   std::array<Integer, kRunTexels> upper;
@@ -45,7 +45,7 @@ struct alignas(64) RunKnots {
   /// The texel of a number below kLast.
   int find(std::uint32_t number) const {
     int index = 0;
-    for (const Integer knot : upper) index += knot <= number ? 1 : 0;
+    for (const Integer entry : upper) index += entry <= number ? 1 : 0;
     return index;
   }
   /// Share of the run's mass.
@@ -53,8 +53,8 @@ struct alignas(64) RunKnots {
 
  private:
   double high(int index) const {
-    const Integer knot = upper[static_cast<std::size_t>(index)];
-    return knot == kLast ? kOne : knot;
+    const Integer entry = upper[static_cast<std::size_t>(index)];
+    return entry == kLast ? kOne : entry;
   }
   double low(int index) const { return index == 0 ? 0.0 : high(index - 1); }
 };
@@ -71,19 +71,19 @@ class CdfLines {
            static_cast<std::size_t>(column);
   }
   RunTexel find(std::size_t run, double u) const {
-    const Narrow& knots = narrow(run);
-    return is_wide(knots) ? wide_[wide_index(knots)].find(u) : knots.find(u);
+    const Narrow& entries = narrow(run);
+    return is_wide(entries) ? wide_[wide_index(entries)].find(u) : entries.find(u);
   }
   /// Share of the run's mass; of a run without any it says nothing.
   double mass(std::size_t run, int texel) const {
-    const Narrow& knots = narrow(run);
-    return is_wide(knots) ? wide_[wide_index(knots)].mass(texel) : knots.mass(texel);
+    const Narrow& entries = narrow(run);
+    return is_wide(entries) ? wide_[wide_index(entries)].mass(texel) : entries.mass(texel);
   }
   std::size_t bytes() const {
     return narrow_.size() * sizeof(Narrow) + wide_.size() * sizeof(Wide);
   }
-  using Narrow = RunKnots<std::uint16_t, 1U << 16U>;
-  using Wide = RunKnots<std::uint32_t, 1U << 31U>;
+  using Narrow = RunEntries<std::uint16_t, 1U << 16U>;
+  using Wide = RunEntries<std::uint32_t, 1U << 31U>;
 
   struct View {
     const Narrow* narrow;
@@ -92,15 +92,16 @@ class CdfLines {
   };
   View view() const { return {&narrow(0), wide_.data(), extent_.width}; }
 
-  /// The last upper knot of a narrow run is 1; of a wide one all that is kept in its place is where
-  /// it is. Whatever is looked for in these, what is found has the upper knot 0, as in no other.
+  /// The last upper CDF entry of a narrow run is 1; of a wide one all that is kept in its place is
+  /// where it is. Whatever is looked for in these, what is found has the upper CDF entry 0, as in
+  /// no other.
   static Narrow where_wide(std::size_t index) {
     return {{static_cast<std::uint16_t>(index), static_cast<std::uint16_t>(index >> 16U),
              Narrow::kLast}};
   }
-  static bool is_wide(const Narrow& knots) { return knots.upper.back() != Narrow::kLast; }
-  static std::size_t wide_index(const Narrow& knots) {
-    return knots.upper[0] | std::size_t{knots.upper[1]} << 16U;
+  static bool is_wide(const Narrow& entries) { return entries.upper.back() != Narrow::kLast; }
+  static std::size_t wide_index(const Narrow& entries) {
+    return entries.upper[0] | std::size_t{entries.upper[1]} << 16U;
   }
 
   /// Runs that need the longer form.
@@ -109,7 +110,7 @@ class CdfLines {
  private:
   const Narrow& narrow(std::size_t run) const { return narrow_[kBefore + run]; }
 
-  /// Vectors read a knot together with the one before it, of a run's first one too.
+  /// Vectors read a CDF entry together with the one before it, of a run's first one too.
   static constexpr std::size_t kBefore = 1;
 
   Extent extent_;

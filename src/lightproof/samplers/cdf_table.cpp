@@ -20,13 +20,13 @@ constexpr std::size_t kBlock = 512;
 
 }  // namespace
 
-double quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> knots,
+double quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> entries,
                     std::uint32_t one) {
-  knots[0] = 0;
+  entries[0] = 0;
   const WeightSums sums(weights);
   const double total = sums.sum();
   if (!(total > 0.0)) {
-    std::ranges::fill(knots, 0U);
+    std::ranges::fill(entries, 0U);
     return total;
   }
   const auto shared = static_cast<double>(one - static_cast<std::uint32_t>(sums.positive()));
@@ -41,7 +41,7 @@ double quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> kn
     to_fixed_point(block, form, std::span(shares).first(block.size()));
     for (std::size_t i = 0; i < block.size(); ++i) {
       sum += shares[i];
-      knots[first + i + 1] = static_cast<std::uint32_t>(sum >> kFractionBits);
+      entries[first + i + 1] = static_cast<std::uint32_t>(sum >> kFractionBits);
     }
   }
   return total;
@@ -50,10 +50,10 @@ double quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> kn
 /// weigh(y, weights) writes the weights of a row.
 template <class Weigh>
 void CdfTable::fill(const Weigh& weigh) {
-  const std::size_t stride = knots_of(extent_.width);
-  rows_.resize(knots_of(extent_.height) + kKnotsAfter);
-  columns_.resize(stride * static_cast<std::size_t>(extent_.height) + kKnotsAfter);
-  std::fill_n(columns_.end() - kKnotsAfter, kKnotsAfter, 0U);
+  const std::size_t stride = entries_of(extent_.width);
+  rows_.resize(entries_of(extent_.height) + kEntriesAfter);
+  columns_.resize(stride * static_cast<std::size_t>(extent_.height) + kEntriesAfter);
+  std::fill_n(columns_.end() - kEntriesAfter, kEntriesAfter, 0U);
   std::vector<double> row_weights(static_cast<std::size_t>(extent_.height));
   parallel_for(row_weights.size(), [&](std::size_t row) {
     const auto width = static_cast<std::size_t>(extent_.width);
@@ -62,7 +62,7 @@ void CdfTable::fill(const Weigh& weigh) {
     weigh(static_cast<int>(row), weights);
     row_weights[row] = quantise_cdf(weights, {columns_.data() + row * stride, stride});
   });
-  quantise_cdf(row_weights, std::span(rows_).first(knots_of(extent_.height)));
+  quantise_cdf(row_weights, std::span(rows_).first(entries_of(extent_.height)));
 }
 
 CdfTable::CdfTable(const EnvironmentMap& map, TargetDensity target)

@@ -12,21 +12,23 @@
 #include <vector>
 
 #include "lightproof/core/grid.h"
-#include "lightproof/core/large_pages.h"
+#include "lightproof/core/huge_pages.h"
 #include "lightproof/image/target_density.h"
 
 namespace lightproof {
 
-/// Knots of a whole distribution: knots[k] is the mass before cell k, knots.back() == kCdfOne.
-using CdfKnots = std::span<const std::uint32_t>;
+/// Knots of a whole distribution: CDF entries[k] is the mass before cell k, CDF entries.back() ==
+/// kCdfOne.
+using CdfEntries = std::span<const std::uint32_t>;
 inline constexpr std::uint32_t kCdfOne = 1U << 31U;
 
 /// Probability of a row and of a column in it, both in units of 2^-31.
 inline double cdf_mass(double row, double column) { return 0x1p-62 * row * column; }
 
-/// Writes weights.size() + 1 knots, the last of which is `one`, more than there are weights, of
-/// which there are at most 2^18. All zero if every weight is zero. Returns the sum of the weights.
-double quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> knots,
+/// Writes weights.size() + 1 CDF entries, the last of which is `one`, more than there are weights,
+/// of which there are at most 2^18. All zero if every weight is zero. Returns the sum of the
+/// weights.
+double quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> entries,
                     std::uint32_t one = kCdfOne);
 
 /// Marginal over rows and conditional over columns of a map's target density.
@@ -38,9 +40,9 @@ class CdfTable {
   explicit CdfTable(const Grid<double>& weights);
 
   Extent extent() const { return extent_; }
-  CdfKnots rows() const { return CdfKnots(rows_).first(knots_of(extent_.height)); }
-  CdfKnots columns(int y) const {
-    const std::size_t stride = knots_of(extent_.width);
+  CdfEntries rows() const { return CdfEntries(rows_).first(entries_of(extent_.height)); }
+  CdfEntries columns(int y) const {
+    const std::size_t stride = entries_of(extent_.width);
     return {columns_.data() + static_cast<std::size_t>(y) * stride, stride};
   }
   /// Probability of texel (x, y) as drawn.
@@ -48,14 +50,14 @@ class CdfTable {
   struct View {
     const std::uint32_t* rows;
     const std::uint32_t* columns;
-    std::size_t stride;  ///< knots of a row
+    std::size_t stride;  ///< CDF entries of a row
 
     const std::uint32_t* row(std::size_t y) const { return columns + y * stride; }
   };
-  View view() const { return {rows_.data(), columns_.data(), knots_of(extent_.width)}; }
+  View view() const { return {rows_.data(), columns_.data(), entries_of(extent_.width)}; }
 
-  /// Numbers behind the last knot of all rows, and of all columns, that may be read.
-  static constexpr std::size_t kKnotsAfter = 2;
+  /// Numbers behind the last CDF entry of all rows, and of all columns, that may be read.
+  static constexpr std::size_t kEntriesAfter = 2;
 
   std::size_t bytes() const { return (rows_.size() + columns_.size()) * sizeof(std::uint32_t); }
 
@@ -63,11 +65,11 @@ class CdfTable {
   template <class Weigh>
   void fill(const Weigh& weigh);
 
-  static std::size_t knots_of(int cells) { return static_cast<std::size_t>(cells) + 1; }
+  static std::size_t entries_of(int cells) { return static_cast<std::size_t>(cells) + 1; }
   /// Mass of a cell in units of 2^-31.
-  static double units(CdfKnots knots, int cell) {
+  static double units(CdfEntries entries, int cell) {
     const auto k = static_cast<std::size_t>(cell);
-    return static_cast<double>(knots[k + 1] - knots[k]);
+    return static_cast<double>(entries[k + 1] - entries[k]);
   }
 
   Extent extent_;

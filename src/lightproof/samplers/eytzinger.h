@@ -1,14 +1,15 @@
-// Inversion by descent of an implicit tree: the knots of a row in the order of a breadth-first walk
-// (Khuong and Morin 2017, "Array layouts for comparison-based searching"). Every step goes one
-// level down; the sixteen knots four levels below a knot are one line of the cache, which is
-// fetched ahead. O(log W + log H) per sample, texel for texel the same as LinearScan.
+// Inversion by descent of an implicit tree: the CDF entries of a row in the order of a
+// breadth-first walk (Khuong and Morin 2017, "Array layouts for comparison-based searching"). Every
+// step goes one level down; the sixteen CDF entries four levels below a CDF entry are one line of
+// the cache, which is fetched ahead. O(log W + log H) per sample, texel for texel the same as
+// LinearScan.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
 
-#include "lightproof/core/large_pages.h"
+#include "lightproof/core/huge_pages.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/cdf_inversion.h"
 
@@ -19,14 +20,14 @@ struct alignas(64) CacheLine {
   std::uint32_t words[16];
 };
 
-/// The inner knots of distributions of the same number of cells, as complete trees: filled up with
-/// kCdfOne, which no random number reaches.
-class KnotTrees {
+/// The inner CDF entries of distributions of the same number of cells, as complete trees: filled up
+/// with kCdfOne, which no random number reaches.
+class CdfTrees {
  public:
-  KnotTrees(std::size_t count, std::size_t cells);
+  CdfTrees(std::size_t count, std::size_t cells);
   /// Knots as of CdfTable.
-  void set(std::size_t tree, CdfKnots knots);
-  /// The knots on the way down are the nearest ones on either side.
+  void set(std::size_t tree, CdfEntries entries);
+  /// The CDF entries on the way down are the nearest ones on either side.
   CdfCell find(std::size_t tree, std::uint32_t u) const {
     const CacheLine* lines = &lines_[tree * lines_per_tree_];
     std::uint32_t low = 0;
@@ -34,10 +35,10 @@ class KnotTrees {
     std::size_t node = 1;
     for (unsigned level = 0; level < levels_; ++level) {
       if (level + 4 < levels_) __builtin_prefetch(lines + node);
-      const std::uint32_t knot = lines[node / 16].words[node % 16];
-      const bool right = knot <= u;
-      low = right ? knot : low;
-      high = right ? high : knot;
+      const std::uint32_t entry = lines[node / 16].words[node % 16];
+      const bool right = entry <= u;
+      low = right ? entry : low;
+      high = right ? high : entry;
       node = 2 * node + (right ? 1 : 0);
     }
     return {low, high, static_cast<int>(node - (std::size_t{1} << levels_))};
@@ -59,9 +60,9 @@ class KnotTrees {
   TableVector<CacheLine> lines_;
 };
 
-class EytzingerKnots {
+class EytzingerEntries {
  public:
-  explicit EytzingerKnots(const CdfTable& table);
+  explicit EytzingerEntries(const CdfTable& table);
   CdfCell row(const CdfTable& /*table*/, std::uint32_t u) const { return rows_.find(0, u); }
   CdfCell column(const CdfTable& /*table*/, int y, std::uint32_t u) const {
     return columns_.find(static_cast<std::size_t>(y), u);
@@ -69,18 +70,18 @@ class EytzingerKnots {
   std::size_t bytes() const { return rows_.bytes() + columns_.bytes(); }
 
   struct View {
-    KnotTrees::View rows;
-    KnotTrees::View columns;
+    CdfTrees::View rows;
+    CdfTrees::View columns;
   };
   View view() const { return {rows_.view(), columns_.view()}; }
 
  private:
-  KnotTrees rows_;
-  KnotTrees columns_;
+  CdfTrees rows_;
+  CdfTrees columns_;
 };
 
-using Eytzinger = CdfInversion<EytzingerKnots>;
-using EytzingerView = CdfInversionView<EytzingerKnots::View>;
+using Eytzinger = CdfInversion<EytzingerEntries>;
+using EytzingerView = CdfInversionView<EytzingerEntries::View>;
 static_assert(EnvSampler<Eytzinger>);
 
 /// Whole vectors of a batch; returns how many samples these are.

@@ -1,14 +1,14 @@
 // Inversion in three steps at about 2.3 bytes a texel: guide tables find the row and the run of 32
-// texels in it, and the run's 16-bit knots are compared with what is left of the random number.
-// Monotone: it keeps stratification. Of the larger table it reads one line of the cache a sample,
-// and three in runs of much contrast.
+// texels in it, and the run's 16-bit CDF entries are compared with what is left of the random
+// number. Monotone: it keeps stratification. Of the larger table it reads one line of the cache a
+// sample, and three in runs of much contrast.
 #pragma once
 
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/cdf_lines.h"
 #include "lightproof/samplers/guide_table.h"
 #include "lightproof/samplers/sampler.h"
-#include "lightproof/samplers/texel_places.h"
+#include "lightproof/samplers/texel_positions.h"
 
 namespace lightproof {
 
@@ -23,36 +23,37 @@ class GuideLines {
     const CdfCell row = guides_.row(table_, static_cast<std::uint32_t>(scaled_t));
     const CdfCell run = guides_.column(table_, row.index, static_cast<std::uint32_t>(scaled_s));
     const RunTexel found = lines_.find(lines_.index(run.index, row.index), run.fraction(scaled_s));
-    return places_.sample(run.index * kRunTexels + found.index, row.index, found.fraction,
-                          row.fraction(scaled_t), cdf_mass(row.units(), run.units()) * found.mass);
+    return positions_.sample(run.index * kRunTexels + found.index, row.index, found.fraction,
+                             row.fraction(scaled_t),
+                             cdf_mass(row.units(), run.units()) * found.mass);
   }
 
   PerSquare pdf(SquarePoint at) const {
-    const int y = cell_of(at.t, places_.extent().height);
-    const int x = cell_of(at.s, places_.extent().width);
+    const int y = cell_of(at.t, positions_.extent().height);
+    const int x = cell_of(at.s, positions_.extent().width);
     const double share = lines_.mass(lines_.index(x / kRunTexels, y), x % kRunTexels);
-    return places_.pdf(y, table_.mass(x / kRunTexels, y) * share, at);
+    return positions_.pdf(y, table_.mass(x / kRunTexels, y) * share, at);
   }
 
   struct View {
     CdfTable::View runs;
-    GuidedKnots::View guides;
+    GuidedEntries::View guides;
     CdfLines::View lines;
-    TexelPlacesView places;
+    TexelPositionsView positions;
   };
-  View view() const { return {table_.view(), guides_.view(), lines_.view(), places_.view()}; }
+  View view() const { return {table_.view(), guides_.view(), lines_.view(), positions_.view()}; }
 
   std::size_t table_bytes() const {
-    return lines_.bytes() + table_.bytes() + guides_.bytes() + places_.bytes();
+    return lines_.bytes() + table_.bytes() + guides_.bytes() + positions_.bytes();
   }
 
  private:
-  GuideLines(const Grid<double>& weights, Weighting weighting);
+  GuideLines(const Grid<double>& weights, DensitySpace density_space);
 
   CdfLines lines_;
   CdfTable table_;  ///< of the runs
-  GuidedKnots guides_;
-  TexelPlaces places_;
+  GuidedEntries guides_;
+  TexelPositions positions_;
 };
 static_assert(EnvSampler<GuideLines>);
 

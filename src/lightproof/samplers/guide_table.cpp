@@ -36,8 +36,8 @@ Guides::Guides(std::size_t count, std::size_t cells, std::size_t parts_per_cell)
       parts_((std::size_t{1} << guide_bits(cells * parts_per_cell)) + 1),
       first_(count * parts_) {}
 
-void Guides::set(std::size_t guide, CdfKnots knots) {
-  if (knots.back() == 0) {  // without mass, and so never asked
+void Guides::set(std::size_t guide, CdfEntries entries) {
+  if (entries.back() == 0) {  // without mass, and so never asked
     std::fill_n(first_.begin() + static_cast<std::ptrdiff_t>(guide * parts_), parts_,
                 std::uint16_t{0});
     return;
@@ -45,15 +45,15 @@ void Guides::set(std::size_t guide, CdfKnots knots) {
   std::size_t cell = 0;
   for (std::size_t part = 0; part + 1 < parts_; ++part) {
     const auto u = static_cast<std::uint32_t>(part << shift_);
-    while (knots[cell + 1] <= u) ++cell;
+    while (entries[cell + 1] <= u) ++cell;
     first_[guide * parts_ + part] = static_cast<std::uint16_t>(cell);
   }
   // The last random number's.
-  while (knots[cell + 1] < kCdfOne) ++cell;
+  while (entries[cell + 1] < kCdfOne) ++cell;
   first_[guide * parts_ + parts_ - 1] = static_cast<std::uint16_t>(cell);
 }
 
-GuidedKnots::GuidedKnots(const CdfTable& table, std::size_t parts_per_column)
+GuidedEntries::GuidedEntries(const CdfTable& table, std::size_t parts_per_column)
     : rows_(1, static_cast<std::size_t>(table.extent().height), kPartsPerRow),
       columns_(static_cast<std::size_t>(table.extent().height),
                static_cast<std::size_t>(table.extent().width), parts_per_column) {

@@ -1,14 +1,14 @@
 // Inversion through a guide table (Chen and Asau 1974, "On generating random variates from an
 // empirical distribution"): the first bits of the random number name a cell to begin with, and
-// bisection of the knots up to the next one's cell finds the right one. On average O(1) per sample,
-// never worse than O(log W + log H): a scan inside a guide's cell would be, under a sun. Texel for
-// texel the same as LinearScan.
+// bisection of the CDF entries up to the next one's cell finds the right one. On average O(1) per
+// sample, never worse than O(log W + log H): a scan inside a guide's cell would be, under a sun.
+// Texel for texel the same as LinearScan.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-#include "lightproof/core/large_pages.h"
+#include "lightproof/core/huge_pages.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/cdf_inversion.h"
 
@@ -21,12 +21,12 @@ class Guides {
   /// `parts_per_cell` is a power of two: the more there are, the more often the first cell is the
   /// one that is sought, or the next. Throws InputError if there are more than 65536 cells.
   Guides(std::size_t count, std::size_t cells, std::size_t parts_per_cell);
-  void set(std::size_t guide, CdfKnots knots);
-  /// Of the distribution that was set with these knots.
-  CdfCell find(std::size_t guide, CdfKnots knots, std::uint32_t u) const {
+  void set(std::size_t guide, CdfEntries entries);
+  /// Of the distribution that was set with these CDF entries.
+  CdfCell find(std::size_t guide, CdfEntries entries, std::uint32_t u) const {
     const View all = view();
-    const std::size_t cell = all.find(all.part(guide, u), knots.data(), u);
-    return {knots[cell], knots[cell + 1], static_cast<int>(cell)};
+    const std::size_t cell = all.find(all.part(guide, u), entries.data(), u);
+    return {entries[cell], entries[cell + 1], static_cast<int>(cell)};
   }
 
   struct View {
@@ -39,18 +39,18 @@ class Guides {
       return guide * parts + (u >> shift);
     }
     /// By bisection, from a cell of the part on that u lies in or after.
-    std::size_t find_from(std::size_t cell, std::size_t part, const std::uint32_t* knots,
+    std::size_t find_from(std::size_t cell, std::size_t part, const std::uint32_t* entries,
                           std::uint32_t u) const {
       for (std::size_t cells = first[part + 1] - cell + 1; cells > 1;) {
         const std::size_t half = cells / 2;
-        cell += knots[cell + half] <= u ? half : 0;
+        cell += entries[cell + half] <= u ? half : 0;
         cells -= half;
       }
       return cell;
     }
-    /// One sample at a time: no knot is read, and waited for, where a part has one cell alone.
-    std::size_t find(std::size_t part, const std::uint32_t* knots, std::uint32_t u) const {
-      return find_from(first[part], part, knots, u);
+    /// One sample at a time: no CDF entry is read, and waited for, where a part has one cell alone.
+    std::size_t find(std::size_t part, const std::uint32_t* entries, std::uint32_t u) const {
+      return find_from(first[part], part, entries, u);
     }
   };
   View view() const { return {shift_, parts_, first_.data()}; }
@@ -62,10 +62,10 @@ class Guides {
   TableVector<std::uint16_t> first_;
 };
 
-class GuidedKnots {
+class GuidedEntries {
  public:
   /// Parts of each cell in the guides of columns; rows are few, and have more.
-  explicit GuidedKnots(const CdfTable& table, std::size_t parts_per_column = 1);
+  explicit GuidedEntries(const CdfTable& table, std::size_t parts_per_column = 1);
   CdfCell row(const CdfTable& table, std::uint32_t u) const {
     return rows_.find(0, table.rows(), u);
   }
@@ -85,8 +85,8 @@ class GuidedKnots {
   Guides columns_;
 };
 
-using GuideTable = CdfInversion<GuidedKnots>;
-using GuideTableView = CdfInversionView<GuidedKnots::View>;
+using GuideTable = CdfInversion<GuidedEntries>;
+using GuideTableView = CdfInversionView<GuidedEntries::View>;
 static_assert(EnvSampler<GuideTable>);
 
 /// Whole vectors of a batch; returns how many samples these are.

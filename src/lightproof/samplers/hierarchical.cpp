@@ -9,7 +9,7 @@
 namespace lightproof {
 namespace {
 
-Grid<double> halved(const Grid<double>& fine) {
+Grid<double> binary_steps(const Grid<double>& fine) {
   const Extent extent = fine.extent();
   Grid<double> coarse =
       Grid<double>::without_values({(extent.width + 1) / 2, (extent.height + 1) / 2});
@@ -27,10 +27,10 @@ Grid<double> halved(const Grid<double>& fine) {
 }  // namespace
 
 Hierarchical::Hierarchical(const EnvironmentMap& map, TargetDensity target)
-    : places_(map.radiance.extent(), target.weighting) {
+    : positions_(map.radiance.extent(), target.density_space) {
   std::vector<Grid<double>> pyramid;
   pyramid.push_back(texel_weights(map, target));
-  while (pyramid.back().extent().count() > 1) pyramid.push_back(halved(pyramid.back()));
+  while (pyramid.back().extent().count() > 1) pyramid.push_back(binary_steps(pyramid.back()));
   const double scale =
       static_cast<double>(pyramid.front().extent().count()) / pyramid.back().values().front();
   std::size_t count = 0;
@@ -59,7 +59,7 @@ void Hierarchical::set_sums(const Level& level, const Grid<double>& sums, double
 }
 
 PerSquare Hierarchical::pdf(SquarePoint at) const {
-  const Extent extent = places_.extent();
+  const Extent extent = positions_.extent();
   const int x = cell_of(at.s, extent.width);
   const int y = cell_of(at.t, extent.height);
   double mass = 1.0;
@@ -73,7 +73,7 @@ PerSquare Hierarchical::pdf(SquarePoint at) const {
         children.sum[0][0] + children.sum[0][1] + children.sum[1][0] + children.sum[1][1];
     mass *= row / all * (sums[(x >> (finer - 1)) - children.x] / row);
   }
-  return places_.pdf(y, mass, at);
+  return positions_.pdf(y, mass, at);
 }
 
 }  // namespace lightproof

@@ -8,10 +8,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "lightproof/core/large_pages.h"
+#include "lightproof/core/huge_pages.h"
 #include "lightproof/samplers/alias_table.h"
 #include "lightproof/samplers/sampler.h"
-#include "lightproof/samplers/texel_places.h"
+#include "lightproof/samplers/texel_positions.h"
 
 namespace lightproof {
 
@@ -35,12 +35,12 @@ class Hierarchical {
       u = {column.rest, row.rest};
       mass *= row.share * column.share;
     }
-    return places_.sample(x, y, u.s, u.t, mass);
+    return positions_.sample(x, y, u.s, u.t, mass);
   }
 
   PerSquare pdf(SquarePoint at) const;
 
-  std::size_t table_bytes() const { return sums_.size() * sizeof(float) + places_.bytes(); }
+  std::size_t table_bytes() const { return sums_.size() * sizeof(float) + positions_.bytes(); }
 
  private:
   /// Sums of squares of 2^k texels; those at the edges may reach beyond the map. The last one holds
@@ -88,7 +88,7 @@ class Hierarchical {
 
   void set_sums(const Level& level, const Grid<double>& sums, double scale);
 
-  TexelPlaces places_;
+  TexelPositions positions_;
   std::vector<Level> levels_;  ///< from the coarsest to the texels
   TableVector<float> sums_;    ///< over the mean texel
 };

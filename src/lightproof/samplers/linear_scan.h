@@ -8,13 +8,13 @@
 namespace lightproof {
 
 /// Walks from the first cell.
-inline int search_by_scan(CdfKnots knots, std::uint32_t u) {
+inline int search_by_scan(CdfEntries entries, std::uint32_t u) {
   std::size_t cell = 0;
-  while (knots[cell + 1] <= u) ++cell;
+  while (entries[cell + 1] <= u) ++cell;
   return static_cast<int>(cell);
 }
 
-using LinearScan = CdfInversion<SortedKnots<search_by_scan>>;
+using LinearScan = CdfInversion<SortedEntries<search_by_scan>>;
 static_assert(EnvSampler<LinearScan>);
 
 }  // namespace lightproof

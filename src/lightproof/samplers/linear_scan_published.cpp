@@ -34,15 +34,16 @@ float to_shader_random(double u) { return static_cast<float>(std::floor(u * 0x1p
 
 LinearScanPublished::LinearScanPublished(const EnvironmentMap& map, TargetDensity target)
     : map_(&map),
-      weighting_(target.weighting),
+      density_space_(target.density_space),
       solid_angle_rows_(map.radiance.extent()),
-      grey_(target.grey.red, target.grey.green, target.grey.blue) {
+      luminance_(target.weights.red, target.weights.green, target.weights.blue) {
   const Extent extent = map.radiance.extent();
   const auto columns = static_cast<float>(extent.width);
   float total = 0.0F;
   for (int y = 0; y < extent.height; ++y) {
-    row_factor_.push_back(
-        weighting_ == Weighting::A ? 1.0F : static_cast<float>(texel_solid_angle(extent, y)));
+    row_factor_.push_back(density_space_ == DensitySpace::texture
+                              ? 1.0F
+                              : static_cast<float>(texel_solid_angle(extent, y)));
     float sum = 0.0F;
     for (int x = 0; x < extent.width; ++x) sum += weight(x, y);
     row_average_.push_back(sum / columns);
@@ -53,7 +54,7 @@ LinearScanPublished::LinearScanPublished(const EnvironmentMap& map, TargetDensit
 }
 
 float LinearScanPublished::weight(int x, int y) const {
-  return glm::dot(grey_, map_->radiance(x, y)) * row_factor_[static_cast<std::size_t>(y)];
+  return glm::dot(luminance_, map_->radiance(x, y)) * row_factor_[static_cast<std::size_t>(y)];
 }
 
 float LinearScanPublished::average_of(int y) const {
@@ -79,7 +80,7 @@ TexelSample LinearScanPublished::sample(SquarePoint u) const {
   const bool on_map = column.index < extent.width && row.index < extent.height && at.s >= 0.0 &&
                       at.s < 1.0 && at.t >= 0.0 && at.t < 1.0;
   if (!on_map) return {at, column.index, row.index, PerSquare{0.0}};
-  if (weighting_ == Weighting::B) {
+  if (density_space_ == DensitySpace::solid_angle) {
     at.t = solid_angle_rows_.place(row.index, static_cast<double>(row.fraction));
   }
   return {at, column.index, row.index, pdf_in(column.index, row.index, at)};
@@ -91,7 +92,7 @@ PerSquare LinearScanPublished::pdf(SquarePoint at) const {
 }
 
 PerSquare LinearScanPublished::pdf_in(int x, int y, SquarePoint at) const {
-  if (weighting_ == Weighting::A) {
+  if (density_space_ == DensitySpace::texture) {
     return {static_cast<double>(weight(x, y) / total_average_)};
   }
   const double mass = static_cast<double>(weight(x, y) / total_average_) /

@@ -1,5 +1,5 @@
 // The sampler of the lecture "Image-based Lighting", as published: float sums over precomputed row
-// averages, then over the grey values of the row, stopping where the sum *reaches* the random
+// averages, then over the luminances of the row, stopping where the sum *reaches* the random
 // number. Its edge behaviour is kept: the first row or column is chosen at u = 0 even without mass
 // (0/0), a sum that rounds below the random number runs off the end, a fetch outside reads black.
 // The only liberty: our maps are linear, so its decoding of 8-bit texels (^2.2) has been done.
@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "lightproof/samplers/texel_places.h"
+#include "lightproof/samplers/texel_positions.h"
 
 namespace lightproof {
 
@@ -27,9 +27,9 @@ class LinearScanPublished {
   PerSquare pdf_in(int x, int y, SquarePoint at) const;
 
   const EnvironmentMap* map_;
-  Weighting weighting_;
+  DensitySpace density_space_;
   SolidAngleRows solid_angle_rows_;
-  glm::vec3 grey_;
+  glm::vec3 luminance_;
   std::vector<float> row_factor_;   ///< 1 under A; the texel's solid angle under B
   std::vector<float> row_average_;  ///< of the weights
   float total_average_ = 0.0F;

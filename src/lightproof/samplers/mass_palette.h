@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lightproof/core/large_pages.h"
+#include "lightproof/core/huge_pages.h"
 
 namespace lightproof {
 

@@ -29,7 +29,7 @@ PackedAliasLayout::PackedAliasLayout(std::size_t texels)
 }
 
 PackedAlias::PackedAlias(const EnvironmentMap& map, TargetDensity target)
-    : places_(map.radiance.extent(), target.weighting),
+    : positions_(map.radiance.extent(), target.density_space),
       layout_(map.radiance.extent().count()),
       words_(map.radiance.extent().count()) {
   const unsigned threshold_bits = layout_.threshold_bits;

@@ -12,11 +12,11 @@
 #include <span>
 #include <vector>
 
-#include "lightproof/core/large_pages.h"
+#include "lightproof/core/huge_pages.h"
 #include "lightproof/samplers/alias_table.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/sampler.h"
-#include "lightproof/samplers/texel_places.h"
+#include "lightproof/samplers/texel_positions.h"
 
 namespace lightproof {
 
@@ -49,30 +49,31 @@ class PackedAlias {
     const bool own = u.t < share;
     const std::uint64_t cell = own ? column : word & layout_.alias_mask;
     const double mass = palette_mass(word >> (own ? layout_.own_at : layout_.alias_at));
-    const auto width = static_cast<std::uint64_t>(places_.extent().width);
-    return places_.sample(static_cast<int>(cell % width), static_cast<int>(cell / width),
-                          scaled - static_cast<double>(column), rest_of_choice(u.t, share), mass);
+    const auto width = static_cast<std::uint64_t>(positions_.extent().width);
+    return positions_.sample(static_cast<int>(cell % width), static_cast<int>(cell / width),
+                             scaled - static_cast<double>(column), rest_of_choice(u.t, share),
+                             mass);
   }
 
   PerSquare pdf(SquarePoint at) const {
-    const Extent extent = places_.extent();
+    const Extent extent = positions_.extent();
     const int y = cell_of(at.t, extent.height);
     const auto x = static_cast<std::size_t>(cell_of(at.s, extent.width));
     const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(extent.width);
-    return places_.pdf(y, palette_mass(words_[row + x] >> layout_.own_at), at);
+    return positions_.pdf(y, palette_mass(words_[row + x] >> layout_.own_at), at);
   }
 
   struct View {
     std::span<const std::uint64_t> words;
     std::span<const float> palette;
     PackedAliasLayout layout;
-    TexelPlacesView places;
+    TexelPositionsView positions;
   };
-  View view() const { return {words_, palette_, layout_, places_.view()}; }
+  View view() const { return {words_, palette_, layout_, positions_.view()}; }
 
   std::size_t table_bytes() const {
     return words_.size() * sizeof(std::uint64_t) + palette_.size() * sizeof(float) +
-           places_.bytes();
+           positions_.bytes();
   }
 
  private:
@@ -80,7 +81,7 @@ class PackedAlias {
     return static_cast<double>(palette_[code & layout_.code_mask]);
   }
 
-  TexelPlaces places_;
+  TexelPositions positions_;
   PackedAliasLayout layout_;
   TableVector<std::uint64_t> words_;
   std::vector<float> palette_;  ///< probabilities, to 2^-24 of themselves

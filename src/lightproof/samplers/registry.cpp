@@ -20,17 +20,17 @@ std::string text_of(const EnvironmentMap& map) {
 }
 
 template <class Sampler, const LuminanceWeights& kGrey, Lookup kLookup = Lookup::nearest>
-AnySampler make(const EnvironmentMap& map, Weighting weighting) {
+AnySampler make(const EnvironmentMap& map, DensitySpace density_space) {
   return with_memory_for([&] { return "the table of a sampler of " + text_of(map); },
                          [&]() -> AnySampler {
-                           return Sampler(map, on_map({weighting, kGrey, kLookup}, map));
+                           return Sampler(map, on_map({density_space, kGrey, kLookup}, map));
                          });
 }
 
-double scanned(Extent map) { return map.width + map.height; }
-double halved(Extent map) { return std::log2(map.width) + std::log2(map.height); }
-double quartered(Extent map) { return std::log2(std::max(map.width, map.height)); }
-double looked_up(Extent /*map*/) { return 1.0; }
+double linear_steps(Extent map) { return map.width + map.height; }
+double binary_steps(Extent map) { return std::log2(map.width) + std::log2(map.height); }
+double quadtree_steps(Extent map) { return std::log2(std::max(map.width, map.height)); }
+double constant_steps(Extent /*map*/) { return 1.0; }
 
 /// Knots in steps of `step`, each rounded to the nearest, after every lit cell got one step of its
 /// own out of the whole: two steps a cell, and a share of the cells for all of them.
@@ -71,8 +71,8 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
     {.name = "linear_scan_published",
      .source = "lecture \"Image-based Lighting\", GLSL listing",
      .growth = "S + T",
-     .steps = scanned,
-     .grey = kPublishedLuminance,
+     .steps = linear_steps,
+     .weights = kPublishedLuminance,
      .resolution = 0x1p-24,
      .rounding = summed_in_floats,
      .monotone = true,
@@ -82,8 +82,8 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
     {.name = "linear_scan",
      .source = "the lecture's scan, corrected, over stored sums",
      .growth = "S + T",
-     .steps = scanned,
-     .grey = kRec709,
+     .steps = linear_steps,
+     .weights = kRec709,
      .resolution = 0x1p-31,
      .rounding = summed_in_31_bits,
      .monotone = true,
@@ -94,8 +94,8 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
     {.name = "binary_search",
      .source = "bisection of the same sums (Knuth, TAOCP 3, 6.2.1)",
      .growth = "log2 S + log2 T",
-     .steps = halved,
-     .grey = kRec709,
+     .steps = binary_steps,
+     .weights = kRec709,
      .resolution = 0x1p-31,
      .rounding = summed_in_31_bits,
      .monotone = true,
@@ -106,8 +106,8 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
     {.name = "eytzinger",
      .source = "descent of the same sums in breadth-first order (Khuong and Morin 2017)",
      .growth = "log2 S + log2 T",
-     .steps = halved,
-     .grey = kRec709,
+     .steps = binary_steps,
+     .weights = kRec709,
      .resolution = 0x1p-31,
      .rounding = summed_in_31_bits,
      .monotone = true,
@@ -118,8 +118,8 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
     {.name = "guide_table",
      .source = "guide table (Chen and Asau 1974), then bisection of the same sums",
      .growth = "1",
-     .steps = looked_up,
-     .grey = kRec709,
+     .steps = constant_steps,
+     .weights = kRec709,
      .resolution = 0x1p-31,
      .rounding = summed_in_31_bits,
      .monotone = true,
@@ -130,8 +130,8 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
     {.name = "guide_lines",
      .source = "guide table to a run of 32 texels, then its 16-bit sums",
      .growth = "1",
-     .steps = looked_up,
-     .grey = kRec709,
+     .steps = constant_steps,
+     .weights = kRec709,
      .resolution = 0.0,
      .rounding = of_runs,
      .monotone = true,
@@ -142,8 +142,8 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
     {.name = "alias",
      .source = "alias method (Walker 1974), 16 bytes a texel",
      .growth = "1",
-     .steps = looked_up,
-     .grey = kRec709,
+     .steps = constant_steps,
+     .weights = kRec709,
      .resolution = 0.0,
      .rounding = of_alias,
      .monotone = false,
@@ -153,8 +153,8 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
     {.name = "packed_alias",
      .source = "alias method, 8 bytes a texel with a palette of probabilities",
      .growth = "1",
-     .steps = looked_up,
-     .grey = kRec709,
+     .steps = constant_steps,
+     .weights = kRec709,
      .resolution = 0.0,
      .rounding = of_palette,
      .monotone = false,
@@ -164,8 +164,8 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
     {.name = "alias_lines",
      .source = "alias method over runs of 32 texels, then their 16-bit sums",
      .growth = "1",
-     .steps = looked_up,
-     .grey = kRec709,
+     .steps = constant_steps,
+     .weights = kRec709,
      .resolution = 0.0,
      .rounding = of_alias_runs,
      .monotone = false,
@@ -175,8 +175,8 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
     {.name = "hierarchical",
      .source = "quarter by quarter, by their sums (Clarberg et al. 2005)",
      .growth = "log2 max(S, T)",
-     .steps = quartered,
-     .grey = kRec709,
+     .steps = quadtree_steps,
+     .weights = kRec709,
      .resolution = 0.0,
      .rounding = of_levels,
      .monotone = true,
@@ -186,8 +186,8 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
     {.name = "bilinear",
      .source = "the bilinear look-up itself: guide table to a patch between four centres, inverted",
      .growth = "1",
-     .steps = looked_up,
-     .grey = kRec709,
+     .steps = constant_steps,
+     .weights = kRec709,
      .lookup = Lookup::bilinear,
      .resolution = 0x1p-31,
      .rounding = summed_in_31_bits,

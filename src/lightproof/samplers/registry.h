@@ -28,10 +28,10 @@ using AnySampler =
 
 struct SamplerInfo {
   std::string_view name;
-  std::string_view source;  ///< paper or lecture
-  std::string_view growth;  ///< steps of one sample on a map of S x T texels, up to a constant
-  double (*steps)(Extent);  ///< the same as a function
-  LuminanceWeights grey;    ///< the grey value that the sampler declares; Rec. 709: the map's own
+  std::string_view source;   ///< paper or lecture
+  std::string_view growth;   ///< steps of one sample on a map of S x T texels, up to a constant
+  double (*steps)(Extent);   ///< the same as a function
+  LuminanceWeights weights;  ///< the luminance that the sampler declares; Rec. 709: the map's own
   Lookup lookup = Lookup::nearest;  ///< the look-up whose density it declares
   /// Step of its sums of rows and columns, and of the random numbers that it reads; 0 if it
   /// searches no such sums.
@@ -42,10 +42,12 @@ struct SamplerInfo {
   bool known_defects;         ///< kept as published, to show what the gate finds
   bool inverts_shared_cdf;    ///< must return the texel of LinearScan for every point
   /// The map must outlive the sampler. Throws InputError if it is black.
-  AnySampler (*make)(const EnvironmentMap& map, Weighting weighting);
+  AnySampler (*make)(const EnvironmentMap& map, DensitySpace density_space);
 
   /// On a map it is on_map() of this.
-  TargetDensity target(Weighting weighting) const { return {weighting, grey, lookup}; }
+  TargetDensity target(DensitySpace density_space) const {
+    return {density_space, weights, lookup};
+  }
 };
 
 std::span<const SamplerInfo> samplers();

@@ -12,7 +12,7 @@
 
 namespace lightproof {
 
-/// One drawn point. A sound sampler keeps `at` strictly inside its texel and pdf > 0; a published
+/// One drawn point. A correct sampler keeps `at` strictly inside its texel and pdf > 0; a published
 /// one may leave the map (x = width, y = height, not a number), which the gate reports.
 struct TexelSample {
   SquarePoint at;

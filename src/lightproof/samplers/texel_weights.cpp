@@ -23,12 +23,13 @@ struct Texel {
 /// Weights of texels of one row, from the first on.
 void weigh_part(const EnvironmentMap& map, TargetDensity target, Texel first,
                 std::span<double> weights) {
-  const double area =
-      target.weighting == Weighting::B ? texel_solid_angle(map.radiance.extent(), first.y) : 1.0;
+  const double area = target.density_space == DensitySpace::solid_angle
+                          ? texel_solid_angle(map.radiance.extent(), first.y)
+                          : 1.0;
   const auto offset =
       static_cast<std::size_t>(first.y) * static_cast<std::size_t>(map.radiance.extent().width) +
       static_cast<std::size_t>(first.x);
-  weigh(map.radiance.values().subspan(offset), target.grey, area, weights);
+  weigh(map.radiance.values().subspan(offset), target.weights, area, weights);
 }
 
 bool any_light(std::span<const double> weights) {

@@ -19,8 +19,8 @@ namespace {
 
 #if HWY_TARGET == HWY_SCALAR
 
-std::size_t weigh_front(std::span<const Rgb> /*texels*/, LuminanceWeights /*grey*/, double /*area*/,
-                        std::span<double> /*weights*/) {
+std::size_t weigh_front(std::span<const Rgb> /*texels*/, LuminanceWeights /*luminance*/,
+                        double /*area*/, std::span<double> /*weights*/) {
   return 0;
 }
 std::size_t sum_front(std::span<const double> /*weights*/, WeightSums::Lanes& /*lanes*/) {
@@ -40,7 +40,7 @@ std::size_t balance_front(std::span<const std::uint64_t> /*numbers*/, std::uint6
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Numbers = hn::ScalableTag<double>;
-using Whole = hn::ScalableTag<std::int64_t>;
+using Int64Tag = hn::ScalableTag<std::int64_t>;
 using WholeUnsigned = hn::ScalableTag<std::uint64_t>;
 using Number = hn::Vec<Numbers>;
 using Floats = hn::Vec<hn::Half<hn::ScalableTag<float> > >;
@@ -74,14 +74,14 @@ HWY_INLINE void fetch(const Rgb* texels) {
   }
 }
 
-std::size_t weigh_front(std::span<const Rgb> texels, LuminanceWeights grey, double area,
+std::size_t weigh_front(std::span<const Rgb> texels, LuminanceWeights luminance, double area,
                         std::span<double> weights) {
   const Numbers d;
   const hn::ScalableTag<float> floats;
   const hn::Half<decltype(floats)> half;
   const std::size_t lanes = hn::Lanes(d);
-  const Weigher weigh = {hn::Set(d, grey.red), hn::Set(d, grey.green), hn::Set(d, grey.blue),
-                         hn::Set(d, area)};
+  const Weigher weigh = {hn::Set(d, luminance.red), hn::Set(d, luminance.green),
+                         hn::Set(d, luminance.blue), hn::Set(d, area)};
   std::size_t done = 0;
   for (; done + 2 * lanes <= weights.size(); done += 2 * lanes) {
     if (done + kAhead + 2 * hn::MaxLanes(d) <= texels.size()) fetch(&texels[done + kAhead]);
@@ -100,13 +100,13 @@ std::size_t weigh_front(std::span<const Rgb> texels, LuminanceWeights grey, doub
 
 std::size_t sum_front(std::span<const double> weights, WeightSums::Lanes& lanes) {
   const Numbers numbers;
-  const Whole whole;
+  const Int64Tag whole;
   constexpr std::size_t kVectors = WeightSums::kLanes / hn::MaxLanes(Numbers());
   const auto zero = hn::Zero(numbers);
   const auto none = hn::Set(numbers, std::numeric_limits<double>::infinity());
   hn::Vec<Numbers> sum[kVectors];
   hn::Vec<Numbers> least[kVectors];
-  hn::Vec<Whole> positive[kVectors];
+  hn::Vec<Int64Tag> positive[kVectors];
   for (std::size_t k = 0; k < kVectors; ++k) {
     sum[k] = hn::LoadU(numbers, lanes.sum.data() + k * hn::Lanes(numbers));
     least[k] = hn::LoadU(numbers, lanes.least_positive.data() + k * hn::Lanes(numbers));
@@ -133,7 +133,7 @@ std::size_t sum_front(std::span<const double> weights, WeightSums::Lanes& lanes)
 std::size_t to_fixed_point_front(std::span<const double> weights, const FixedPoint& form,
                                  std::int64_t* fixed) {
   const Numbers numbers;
-  const Whole whole;
+  const Int64Tag whole;
   const auto factor = hn::Set(numbers, form.scale);
   const auto half = hn::Set(numbers, 0.5);
   const auto least = hn::Set(whole, form.least);
@@ -151,7 +151,7 @@ std::size_t to_fixed_point_front(std::span<const double> weights, const FixedPoi
 
 std::size_t balance_front(std::span<const std::uint64_t> numbers, std::uint64_t full,
                           Balance& balance) {
-  const Whole whole;
+  const Int64Tag whole;
   const auto one = hn::Set(whole, static_cast<std::int64_t>(full));
   auto lack = hn::Zero(whole);
   auto excess = hn::Zero(whole);
@@ -191,11 +191,12 @@ T combined(const std::array<T, WeightSums::kLanes>& lanes, const Combine& combin
 
 }  // namespace
 
-std::size_t weigh(std::span<const Rgb> texels, LuminanceWeights grey, double area,
+std::size_t weigh(std::span<const Rgb> texels, LuminanceWeights luminance, double area,
                   std::span<double> weights) {
-  const std::size_t by_vectors = HWY_DYNAMIC_DISPATCH(weigh_front)(texels, grey, area, weights);
+  const std::size_t by_vectors =
+      HWY_DYNAMIC_DISPATCH(weigh_front)(texels, luminance, area, weights);
   for (std::size_t i = by_vectors; i < weights.size(); ++i) {
-    weights[i] = area * luminance(texels[i], grey);
+    weights[i] = area * luminance_of(texels[i], luminance);
   }
   return by_vectors;
 }

@@ -12,10 +12,10 @@
 
 namespace lightproof {
 
-/// weights[i] = area * luminance(texels[i], grey). There may be more texels than weights: those
-/// that come later in memory and are asked for ahead. Returns how many of the weights vectors
+/// weights[i] = area * luminance(texels[i], luminance). There may be more texels than weights:
+/// those that come later in memory and are asked for ahead. Returns how many of the weights vectors
 /// computed.
-std::size_t weigh(std::span<const Rgb> texels, LuminanceWeights grey, double area,
+std::size_t weigh(std::span<const Rgb> texels, LuminanceWeights luminance, double area,
                   std::span<double> weights);
 
 /// Sums of weights >= 0, which run side by side in a fixed order: weight i is added to the sum

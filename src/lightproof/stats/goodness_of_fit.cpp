@@ -59,7 +59,7 @@ void judge_fit(GoodnessOfFit& fit) {
   fit.log10_p = log10_chi_square_tail(fit.statistic, fit.dof);
   if (fit.dof < kLeastDofForLowerTail) return;
   const double lower = log10_chi_square_lower(fit.statistic, fit.dof);
-  fit.too_even = lower < fit.log10_p;
+  fit.underdispersed = lower < fit.log10_p;
   const double both = std::min(fit.log10_p, lower) + std::log10(2.0);
   fit.log10_p = both > 0.0 ? 0.0 : both;  // not a number stays so
 }
@@ -121,9 +121,9 @@ GoodnessOfFit two_sample_fit(std::span<const std::uint64_t> first,
   return fit;
 }
 
-double detectable_w(double dof, double level, double power, double samples) {
+double minimum_detectable_w(double dof, double level, double power, double samples) {
   const double upper = dof >= kLeastDofForLowerTail ? 0.5 * level : level;
-  return std::sqrt(detectable_noncentrality(dof, upper, power) / samples);
+  return std::sqrt(minimum_detectable_noncentrality(dof, upper, power) / samples);
 }
 
 double fit_power(std::span<const double> probability, std::span<const double> actual, double level,
@@ -153,7 +153,8 @@ double critical_count(double mean, double level) {
   return reached;
 }
 
-double detectable_excess(const WorstCell& worst, double level, double power, double samples) {
+double minimum_detectable_excess(const WorstCell& worst, double level, double power,
+                                 double samples) {
   const double mean = worst.likeliest * samples;
   if (!(mean > 0.0)) return HUGE_VAL;
   const double count = critical_count(mean, 0.5 * level / static_cast<double>(worst.cells));

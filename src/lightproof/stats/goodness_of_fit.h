@@ -4,8 +4,9 @@
 // expectation of at least 25: at strict levels its size is right where Pearson's is several times
 // too large. Nothing is dropped: neighbouring cells are pooled, and a remainder joins the last
 // pool. Cells of zero expectation are not part of the sum; a single hit in one is a rejection.
-// Counts that agree too well are as suspicious as those that do not (stratified points passed off
-// as independent ones), so from 30 degrees of freedom on the p-value is two-sided.
+// Counts that agree too well are as below the screening level as those that do not (stratified
+// points passed off as independent ones), so from 30 degrees of freedom on the p-value is
+// two-sided.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,7 @@ struct GoodnessOfFit {
   double statistic = 0.0;
   double dof = 0.0;                ///< pools - 1; 0 means that nothing can be said
   double log10_p = 0.0;            ///< two-sided from 30 dof on; -infinity for impossible hits
-  bool too_even = false;           ///< nearer to the expectation than to the bulk of chance
+  bool underdispersed = false;     ///< nearer to the expectation than to the bulk of chance
   double effect = 0.0;             ///< Cohen's w = sqrt(sum (q-p)^2/p), less what noise alone gives
   std::size_t possible_cells = 0;  ///< cells of positive expectation
   std::uint64_t impossible_hits = 0;
@@ -42,8 +43,8 @@ void judge_fit(GoodnessOfFit& fit);
 GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
                            std::span<const double> probability, std::uint64_t samples);
 
-/// Whether two samples are of one law, whatever it is: the same divergence of both from their
-/// common shares, on cells pooled until each sample expects 25. `impossible_hits` stays 0.
+/// Whether two samples are of one distribution, whatever it is: the same divergence of both from
+/// their common shares, on cells pooled until each sample expects 25. `impossible_hits` stays 0.
 GoodnessOfFit two_sample_fit(std::span<const std::uint64_t> first,
                              std::span<const std::uint64_t> second);
 
@@ -64,9 +65,9 @@ WorstCell worst_cell(std::span<const std::uint64_t> observed, std::span<const do
                      std::uint64_t samples);
 
 /// The effect w that cressie_read with these degrees of freedom finds with `power` at this level.
-double detectable_w(double dof, double level, double power, double samples);
+double minimum_detectable_w(double dof, double level, double power, double samples);
 
-/// How often cressie_read of this size rejects samples of the law `actual`: a non-central
+/// How often cressie_read of this size rejects samples of the distribution `actual`: a non-central
 /// chi-square whose non-centrality is the divergence of the expectations.
 double fit_power(std::span<const double> probability, std::span<const double> actual, double level,
                  std::uint64_t samples);
@@ -77,7 +78,8 @@ double critical_count(double mean, double level);
 /// The relative excess of the likeliest cell that such a test finds with at least `power` at this
 /// level: the Poisson critical count of Bonferroni's share of the level, and the mean at which that
 /// count is reached with this power. Infinite if the cell would need more than all samples.
-double detectable_excess(const WorstCell& worst, double level, double power, double samples);
+double minimum_detectable_excess(const WorstCell& worst, double level, double power,
+                                 double samples);
 
 /// Row by row, every second row backwards, so that consecutive cells touch.
 template <class T>

@@ -5,8 +5,8 @@
 // is therefore correlated between pairs, but the interaction is not: for mean-zero f and g the
 // products f(x_i) g(x_i+lag) are uncorrelated. A test of independence in a contingency table, with
 // expectations from its own margins and (r-1)(c-1) degrees of freedom, sees the interaction alone,
-// so that its law is chi-square in spite of the overlap (Good 1953, "The serial test for sampling
-// numbers"), and numbers that are not uniform are no reason to reject.
+// so that its distribution is chi-square in spite of the overlap (Good 1953, "The serial test for
+// sampling numbers"), and numbers that are not uniform are no reason to reject.
 #pragma once
 
 #include <cstdint>

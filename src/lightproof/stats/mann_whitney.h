@@ -8,7 +8,8 @@
 
 namespace lightproof {
 
-/// Up to this many values in both sets together the p-value is exact, beyond by the normal law.
+/// Up to this many values in both sets together the p-value is exact, beyond by the normal
+/// distribution.
 inline constexpr std::size_t kLargestExactRanks = 64;
 
 struct MannWhitney {
@@ -17,9 +18,9 @@ struct MannWhitney {
   bool exact = false;
 };
 
-/// One-sided: small p if `second` tends to be larger than `first`. The exact law is that of all
-/// ways to divide the values at hand, ties included; the normal one has the tie correction and the
-/// continuity correction. Two empty sets, or one, give p = 1. No value may be NaN.
+/// One-sided: small p if `second` tends to be larger than `first`. The exact distribution is that
+/// of all ways to divide the values at hand, ties included; the normal one has the tie correction
+/// and the continuity correction. Two empty sets, or one, give p = 1. No value may be NaN.
 MannWhitney mann_whitney_larger(std::span<const double> first, std::span<const double> second);
 
 /// log10 of the two-sided p-value: twice the smaller of both one-sided ones, at most 1.

@@ -17,7 +17,7 @@ ZTest judge_deviation(double deviation, double standard_error, double scale) {
 
 }  // namespace
 
-double log10_tails_of_mean(double z, double samples, const ExactLaw& law) {
+double log10_tails_of_mean(double z, double samples, const ExactMoments& law) {
   const double normal = log10_normal_tails(z);
   const double skewness = law.largest_deviation / std::sqrt(law.variance);
   const double deviation = std::abs(z);
@@ -32,8 +32,8 @@ double log10_tails_of_mean(double z, double samples, const ExactLaw& law) {
   return std::min({0.0, std::max(normal, bound), log10_normal_tails(last_normal)});
 }
 
-double detectable_factor(double level, double power, double samples, const ExactLaw& law,
-                         double exact) {
+double minimum_detectable_factor(double level, double power, double samples,
+                                 const ExactMoments& law, double exact) {
   const auto excess = [&](double z) {
     return log10_tails_of_mean(z, samples, law) > std::log10(level) ? 1.0 : -1.0;
   };
@@ -49,39 +49,41 @@ double detectable_factor(double level, double power, double samples, const Exact
   return least > 0.0 ? (1.0 + high * error) / least : HUGE_VAL;
 }
 
-ExactLaw law_of_squares(const ExactLaw& law, double fourth_central) {
+ExactMoments moments_of_squares(const ExactMoments& law, double fourth_central) {
   return {law.variance, fourth_central - law.variance * law.variance,
           law.largest_deviation * law.largest_deviation};
 }
 
-ExactLaw law_of_difference(const ExactLaw& first, const ExactLaw& second, double ratio) {
+ExactMoments moments_of_difference(const ExactMoments& first, const ExactMoments& second,
+                                   double ratio) {
   return {first.mean, first.variance + ratio * second.variance,
           std::max(first.largest_deviation, ratio * second.largest_deviation)};
 }
 
-ZTest mean_test(const Moments& measured, const ExactLaw& exact) {
+ZTest mean_test(const Moments& measured, const ExactMoments& exact) {
   const auto n = static_cast<double>(measured.count());
   const double deviation = measured.mean() - exact.mean;
   const double z = deviation == 0.0 ? 0.0 : deviation / std::sqrt(exact.variance / n);
   return {z, log10_tails_of_mean(z, n, exact), deviation / exact.mean};
 }
 
-ZTest variance_test(const Moments& measured, const ExactLaw& exact, double exact_fourth_central) {
+ZTest variance_test(const Moments& measured, const ExactMoments& exact,
+                    double exact_fourth_central) {
   const auto n = static_cast<double>(measured.count());
   const double deviation = measured.variance() - exact.variance;
-  const ExactLaw squares = law_of_squares(exact, exact_fourth_central);
+  const ExactMoments squares = moments_of_squares(exact, exact_fourth_central);
   const double z = deviation == 0.0 ? 0.0 : deviation / std::sqrt(squares.variance / n);
   return {z, log10_tails_of_mean(z, n, squares), deviation / exact.variance};
 }
 
-ZTest two_mean_test(const Moments& first, const ExactLaw& first_law, const Moments& second,
-                    const ExactLaw& second_law) {
+ZTest two_mean_test(const Moments& first, const ExactMoments& first_distribution,
+                    const Moments& second, const ExactMoments& second_distribution) {
   const auto n = static_cast<double>(first.count());
   const double ratio = n / static_cast<double>(second.count());
   const double deviation = first.mean() - second.mean();
-  const ExactLaw both = law_of_difference(first_law, second_law, ratio);
+  const ExactMoments both = moments_of_difference(first_distribution, second_distribution, ratio);
   const double z = deviation == 0.0 ? 0.0 : deviation / std::sqrt(both.variance / n);
-  return {z, log10_tails_of_mean(z, n, both), deviation / second_law.mean};
+  return {z, log10_tails_of_mean(z, n, both), deviation / second_distribution.mean};
 }
 
 ZTest welch_test(const Moments& first, const Moments& second) {

@@ -13,7 +13,7 @@ struct ZTest {
 };
 
 /// What is known exactly of the samples whose mean is tested.
-struct ExactLaw {
+struct ExactMoments {
   double mean = 0.0;
   double variance = 0.0;           ///< positive
   double largest_deviation = 0.0;  ///< of a single sample from the mean; 0 if it is not known
@@ -22,37 +22,39 @@ struct ExactLaw {
 /// log10 P(|mean - exact| >= z standard errors) over so many samples. The normal tail, as long as
 /// skewness, at most largest_deviation / sigma, changes it by less than a factor of two (Cramér's,
 /// exp(skewness z^3 / (6 sqrt N))); farther out Bennett's bound (1962), which holds for any
-/// law so bounded, or the normal tail from where it last held. So a rare, bright sample that turns
-/// up a little early proves nothing.
-double log10_tails_of_mean(double z, double samples, const ExactLaw& law);
+/// distribution so bounded, or the normal tail from where it last held. So a rare, bright sample
+/// that turns up a little early proves nothing.
+double log10_tails_of_mean(double z, double samples, const ExactMoments& law);
 
 /// The factor 1 + effect on samples, all of them, at which such a test of size `level` rejects with
 /// this power; `exact` is what is estimated. Their scatter grows by the factor too. The threshold
-/// is that of the test's own bound; below its mean a skewed law scatters less than a normal one.
-/// Infinite if the samples are too few for any factor.
-double detectable_factor(double level, double power, double samples, const ExactLaw& law,
-                         double exact);
+/// is that of the test's own bound; below its mean a skewed distribution scatters less than a
+/// normal one. Infinite if the samples are too few for any factor.
+double minimum_detectable_factor(double level, double power, double samples,
+                                 const ExactMoments& law, double exact);
 
 /// Of the squared deviations from the mean, whose mean is the variance.
-ExactLaw law_of_squares(const ExactLaw& law, double fourth_central);
+ExactMoments moments_of_squares(const ExactMoments& law, double fourth_central);
 
 /// Of a sample of the first less `ratio` samples of the second.
-ExactLaw law_of_difference(const ExactLaw& first, const ExactLaw& second, double ratio);
+ExactMoments moments_of_difference(const ExactMoments& first, const ExactMoments& second,
+                                   double ratio);
 
 /// The mean of `measured` against the exact one. An exact variance of zero is no case for a
 /// z-test; see suite/checks.
-ZTest mean_test(const Moments& measured, const ExactLaw& exact);
+ZTest mean_test(const Moments& measured, const ExactMoments& exact);
 
 /// The sample variance against the exact one; its standard error is sqrt((mu4 - sigma^4) / N)
 /// with the exact fourth central moment. It is the mean of the squared deviations.
-ZTest variance_test(const Moments& measured, const ExactLaw& exact, double exact_fourth_central);
+ZTest variance_test(const Moments& measured, const ExactMoments& exact,
+                    double exact_fourth_central);
 
 /// Two independent samples: Welch 1947, with the normal tail (use N >= 1e4, where the t
 /// distribution's tail is the normal's).
 ZTest welch_test(const Moments& first, const Moments& second);
 
-/// Two independent samples of one mean, whose laws are known: no variance is estimated.
-ZTest two_mean_test(const Moments& first, const ExactLaw& first_law, const Moments& second,
-                    const ExactLaw& second_law);
+/// Two independent samples of one mean, whose distributions are known: no variance is estimated.
+ZTest two_mean_test(const Moments& first, const ExactMoments& first_distribution,
+                    const Moments& second, const ExactMoments& second_distribution);
 
 }  // namespace lightproof

@@ -80,7 +80,7 @@ double SequentialTest::log10_e(std::span<const std::uint64_t> counts) const {
   return (largest + std::log(sum / static_cast<double>(logs.size()))) / std::numbers::ln10;
 }
 
-double SequentialTest::detectable_effect(double alpha, double power, double samples) const {
+double SequentialTest::minimum_detectable_effect(double alpha, double power, double samples) const {
   const auto possible =
       std::count_if(probability_.begin(), probability_.end(), [](double p) { return p > 0.0; });
   if (possible < 2) return INFINITY;

@@ -2,9 +2,9 @@
 //
 // An e-process: a non-negative martingale under the null that starts at 1, so by Ville's
 // inequality (1939) it ever reaches 1/alpha with a probability of at most alpha, whatever the rule
-// of stopping. This one is the Bayes factor of a Dirichlet-multinomial law against the exact cell
-// probabilities p (Good 1967; as a sequential test Lindon and Malek 2022). With the prior
-// Dirichlet(c p) and counts n_i of sum N
+// of stopping. This one is the Bayes factor of a Dirichlet-multinomial distribution against the
+// exact cell probabilities p (Good 1967; as a sequential test Lindon and Malek 2022). With the
+// prior Dirichlet(c p) and counts n_i of sum N
 //
 //   E = Gamma(c) / Gamma(N + c) * prod_i Gamma(n_i + c p_i) / (Gamma(c p_i) p_i^n_i).
 //
@@ -40,7 +40,7 @@ class SequentialTest {
   /// s = N / (c + 1), t = s / (1 + s) and X a non-central chi-square of k' = k - 1 degrees of
   /// freedom and N w^2; the best one, over their number, bounds the average from below. Infinite
   /// for a single cell.
-  double detectable_effect(double alpha, double power, double samples) const;
+  double minimum_detectable_effect(double alpha, double power, double samples) const;
 
   /// Those that E is averaged over, with equal weights: powers of two times the smallest.
   std::span<const double> concentrations() const { return concentrations_; }

@@ -102,7 +102,7 @@ double log10_normal_tails(double z) {
   return log10_chi_square_tail(z * z, 1.0);
 }
 
-double detectable_noncentrality(double dof, double alpha, double power) {
+double minimum_detectable_noncentrality(double dof, double alpha, double power) {
   const boost::math::chi_squared central(dof);
   return noncentrality_beyond(dof, boost::math::quantile(boost::math::complement(central, alpha)),
                               power);
@@ -131,7 +131,7 @@ double student_upper(double t, double dof) {
   return boost::math::cdf(boost::math::complement(boost::math::students_t(dof), t));
 }
 
-double detectable_z(double alpha, double power) {
+double minimum_detectable_z(double alpha, double power) {
   const boost::math::normal standard;
   return boost::math::quantile(boost::math::complement(standard, 0.5 * alpha)) +
          boost::math::quantile(standard, power);

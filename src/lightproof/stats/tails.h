@@ -24,7 +24,7 @@ double poisson_mean_reaching(double count, double probability);
 double log10_normal_tails(double z);
 
 /// The non-centrality at which a chi-square test of size alpha rejects with the given power.
-double detectable_noncentrality(double dof, double alpha, double power);
+double minimum_detectable_noncentrality(double dof, double alpha, double power);
 
 /// The non-centrality at which chi-square exceeds `critical` with the given probability.
 double noncentrality_beyond(double dof, double critical, double probability);
@@ -43,6 +43,6 @@ double student_upper(double t, double dof);
 
 /// The deviation of a mean in standard errors at which a two-sided z-test of size alpha rejects
 /// with the given power.
-double detectable_z(double alpha, double power);
+double minimum_detectable_z(double alpha, double power);
 
 }  // namespace lightproof

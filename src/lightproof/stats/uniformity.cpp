@@ -70,11 +70,11 @@ double critical_value(const Tail& tail, double log10_p) {
 }
 
 /// The standard normal quantile of `power`.
-double quantile(double power) { return detectable_z(1.0, power); }
+double quantile(double power) { return minimum_detectable_z(1.0, power); }
 
 }  // namespace
 
-double detectable_kuiper_distance(double level, double power, double samples) {
+double minimum_detectable_kuiper_distance(double level, double power, double samples) {
   const double critical = critical_value(log10_kuiper_tail, std::log10(level));
   return (critical + 0.5 * quantile(power)) / std::sqrt(samples);
 }
@@ -89,7 +89,7 @@ double anderson_darling_power(double distance, double level, double samples) {
   return normal_cdf(std::numbers::sqrt2 * (distance * std::sqrt(samples) - std::sqrt(critical)));
 }
 
-double detectable_anderson_darling_distance(double level, double power, double samples) {
+double minimum_detectable_anderson_darling_distance(double level, double power, double samples) {
   const double critical = critical_value(log10_anderson_darling_tail, std::log10(level));
   return (std::sqrt(critical) + std::sqrt(0.5) * quantile(power)) / std::sqrt(samples);
 }

@@ -21,19 +21,19 @@ struct UniformityTest {
 };
 
 /// Kuiper's V = D+ + D-, which does not depend on where a circle is cut, scaled by Stephens (1970)
-/// so that one law serves every number of samples; 0 samples give p = 1.
+/// so that one distribution serves every number of samples; 0 samples give p = 1.
 UniformityTest kuiper_test(std::span<const std::uint64_t> counts);
 
 /// Anderson and Darling's A^2 (1954), which weighs both ends: N ∫ (F_N - F)^2 / (F (1-F)) dF.
 UniformityTest anderson_darling_test(std::span<const std::uint64_t> counts);
 
-/// The `distance` between the true law and the uniform one that a test of size `level` finds with
-/// at least `power`. Kuiper: F_N between the two farthest places is a binomial share, of standard
-/// deviation 1/(2 sqrt N) at most. Anderson-Darling: the weighted deviation, projected on the true
-/// one, is a normal of variance 1/2 at most, the largest eigenvalue of its kernel.
-double detectable_kuiper_distance(double level, double power, double samples);
+/// The `distance` between the true distribution and the uniform one that a test of size `level`
+/// finds with at least `power`. Kuiper: F_N between the two farthest places is a binomial share, of
+/// standard deviation 1/(2 sqrt N) at most. Anderson-Darling: the weighted deviation, projected on
+/// the true one, is a normal of variance 1/2 at most, the largest eigenvalue of its kernel.
+double minimum_detectable_kuiper_distance(double level, double power, double samples);
 double kuiper_power(double distance, double level, double samples);  ///< at least
-double detectable_anderson_darling_distance(double level, double power, double samples);
+double minimum_detectable_anderson_darling_distance(double level, double power, double samples);
 double anderson_darling_power(double distance, double level, double samples);  ///< at least
 
 /// log10 P(sqrt(N) D >= x) for many samples (Kolmogorov 1933).

@@ -80,10 +80,11 @@ std::size_t direct(std::span<const double> s, std::span<const double> t,
 #endif
 
 /// A plain loop, which the compiler makes vectors of.
-void find_places(const double* x, const double* y, const double* z, const PlaceSpans& places) {
-  double* s = places.s.data();
-  double* t = places.t.data();
-  for (std::size_t i = 0; i < places.s.size(); ++i) {
+void find_positions(const double* x, const double* y, const double* z,
+                    const PlaceSpans& positions) {
+  double* s = positions.s.data();
+  double* t = positions.t.data();
+  for (std::size_t i = 0; i < positions.s.size(); ++i) {
     const SquarePoint at = approximate_square_from_direction({x[i], y[i], z[i]});
     s[i] = at.s;
     t[i] = at.t;
@@ -100,7 +101,7 @@ namespace {
 
 HWY_EXPORT(convert);
 HWY_EXPORT(direct);
-HWY_EXPORT(find_places);
+HWY_EXPORT(find_positions);
 
 }  // namespace
 
@@ -118,8 +119,8 @@ std::size_t uniform_directions(std::span<const double> s, std::span<const double
   return by_vectors;
 }
 
-std::size_t directions_of_places(std::span<const double> s, std::span<const double> t,
-                                 const PlacedDirectionSpans& directions) {
+std::size_t directions_of_positions(std::span<const double> s, std::span<const double> t,
+                                    const PlacedDirectionSpans& directions) {
   const std::size_t by_vectors = HWY_DYNAMIC_DISPATCH(direct)(s, t, directions);
   for (std::size_t i = by_vectors; i < s.size(); ++i) {
     const Direction direction = direction_from_square({s[i], t[i]});
@@ -131,9 +132,9 @@ std::size_t directions_of_places(std::span<const double> s, std::span<const doub
   return by_vectors;
 }
 
-void approximate_places(std::span<const double> x, std::span<const double> y,
-                        std::span<const double> z, const PlaceSpans& places) {
-  HWY_DYNAMIC_DISPATCH(find_places)(x.data(), y.data(), z.data(), places);
+void approximate_positions(std::span<const double> x, std::span<const double> y,
+                           std::span<const double> z, const PlaceSpans& positions) {
+  HWY_DYNAMIC_DISPATCH(find_positions)(x.data(), y.data(), z.data(), positions);
 }
 
 }  // namespace lightproof

@@ -22,8 +22,8 @@ struct DirectionSpans {
 std::size_t uniform_directions(std::span<const double> s, std::span<const double> u,
                                const DirectionSpans& directions);
 
-/// Where directions_of_places writes: unit vectors, and the sine of each one's angle to the nearer
-/// pole. All of one size.
+/// Where directions_of_positions writes: unit vectors, and the sine of each one's angle to the
+/// nearer pole. All of one size.
 struct PlacedDirectionSpans {
   std::span<double> x;
   std::span<double> y;
@@ -34,10 +34,10 @@ struct PlacedDirectionSpans {
 /// direction_from_square({s[i], t[i]}) and sin_theta(t[i]), to some roundings, of places in
 /// [0,1]^2. All spans are of one size. Returns how many vectors wrote, from the front: 0 on a
 /// processor without vectors.
-std::size_t directions_of_places(std::span<const double> s, std::span<const double> t,
-                                 const PlacedDirectionSpans& directions);
+std::size_t directions_of_positions(std::span<const double> s, std::span<const double> t,
+                                    const PlacedDirectionSpans& directions);
 
-/// Where approximate_places writes; both of one size.
+/// Where approximate_positions writes; both of one size.
 struct PlaceSpans {
   std::span<double> s;
   std::span<double> t;
@@ -45,7 +45,7 @@ struct PlaceSpans {
 
 /// approximate_square_from_direction of every (x[i], y[i], z[i]): off by up to 2e-8, which is 2e-4
 /// of a texel's width on a map of 8192. All spans are of one size.
-void approximate_places(std::span<const double> x, std::span<const double> y,
-                        std::span<const double> z, const PlaceSpans& places);
+void approximate_positions(std::span<const double> x, std::span<const double> y,
+                           std::span<const double> z, const PlaceSpans& positions);
 
 }  // namespace lightproof

@@ -1,0 +1,65 @@
+// The distribution of a bilinear look-up, in double: every texel's grey spreads as a tent over its
+// neighbours in s (around the seam) and in t (all of it that would lie beyond a pole stays before
+// it), and all integrals are those of products of two tents, each by Gauss-Legendre nodes.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "lightproof/core/grid.h"
+#include "lightproof/image/target_density.h"
+#include "reference/rosenblatt_transform.h"
+
+namespace lightproof::reference {
+
+/// The part that one texel of a line contributes to an integral along it.
+struct TentPart {
+  int texel;
+  double integral;
+};
+
+/// ∫ of tent times weight between two places of [0,1], for all tents of a line of `texels` that are
+/// not 0 there. `wraps`: the line is a circle; else the last tents are 1 beyond the last centres.
+/// The weight is smooth; no piece is wider than 1/64.
+std::vector<TentPart> tent_parts(double low, double high, int texels, bool wraps,
+                                 const std::function<double(double)>& weight);
+
+/// Probability of every cell of a `cells` grid laid over the square; they sum to 1. Throws
+/// InputError if the map is black.
+Grid<double> bilinear_masses(const EnvironmentMap& map, TargetDensity target, Extent cells);
+
+/// The probability integral transform of the distribution.
+class BilinearTransform {
+ public:
+  /// The map is not black.
+  BilinearTransform(const EnvironmentMap& map, TargetDensity target);
+
+  RosenblattPoint operator()(SquarePoint at) const;
+
+  /// Mass of every row of patches; they sum to 1.
+  std::vector<double> rows() const;
+
+  /// ∫ of the interpolated luminance over the square, under B times sin(pi t).
+  double total() const { return total_; }
+
+ private:
+  using Sums = std::vector<double>;  ///< up to each edge of the patches across: W + 2
+
+  /// ∫ from 0 to s of the interpolation around a line of texels.
+  double below(const Sums& sums, std::span<const double> line, double s) const;
+  /// ∫ of the marginal over t between two places of one row of patches.
+  double mass_along(double low, double high) const;
+
+  Extent extent_;
+  DensitySpace density_space_;
+  Grid<double> luminance_;
+  std::vector<double> row_means_;
+  std::vector<double> along_;    ///< mass below the lower edge of every row of patches, and 1
+  std::vector<double> columns_;  ///< luminance of the columns, weighted as their rows are
+  Sums column_sums_;
+  std::vector<Sums> sums_;  ///< of every row
+  double total_ = 0.0;
+};
+
+}  // namespace lightproof::reference

@@ -1,0 +1,48 @@
+// The probability integral transform of a target density: what a correct sampler draws becomes
+// uniform and independent (Rosenblatt 1952).
+#pragma once
+
+#include <vector>
+
+#include "lightproof/core/grid.h"
+#include "lightproof/core/measure.h"
+#include "lightproof/image/target_density.h"
+
+namespace lightproof::reference {
+
+/// Coordinates of the Rosenblatt transform and what they are made of, each a share in [0,1],
+/// uniform if the density is right.
+struct RosenblattPoint {
+  double marginal;         ///< mass of all rows below
+  double conditional;      ///< mass to the left in its own row, as a share of that row's
+  double column_marginal;  ///< mass to the left over all rows
+  /// Row of cells inside which the density has no edge: of texels, or of bilinear patches. -1 for a
+  /// density that has no such rows.
+  int row = -1;
+  double share_of_row = 0.0;   ///< of the row's mass, below the point
+  double share_of_cell = 0.0;  ///< of its cell's mass at the same t, to the left of the point
+};
+
+class RosenblattTransform {
+ public:
+  /// Of texel masses that sum to 1; uniform inside a texel in s, and in t or cos(theta) by the
+  /// density.
+  RosenblattTransform(const Grid<double>& masses, DensitySpace density_space);
+
+  /// `at` lies in texel (x, y).
+  RosenblattPoint operator()(SquarePoint at, int x, int y) const;
+
+  /// The transformed coordinates of `at`, which lies in texel (x, y) and whose cos(theta) is known:
+  /// `cosine` is cos_theta(at.t).
+  RosenblattPoint operator()(SquarePoint at, double cosine, int x, int y) const;
+
+ private:
+  Extent extent_;
+  DensitySpace density_space_;
+  std::vector<double> rows_;     ///< CDF entries
+  std::vector<double> columns_;  ///< CDF entries
+  Grid<double> within_;          ///< CDF entries of every row, W + 1
+  std::vector<double> heights_;  ///< cos(theta) at the rows' edges
+};
+
+}  // namespace lightproof::reference

@@ -1,0 +1,37 @@
+// Distributions that a sampler draws by mistake: what a rejected sampler is compared with, to
+// name its defect, and what the mutants draw.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "lightproof/core/grid.h"
+#include "lightproof/image/target_density.h"
+
+namespace lightproof {
+
+/// What is declared: masses of texels, and the map that they come from, if they come from one.
+struct DeclaredDistribution {
+  const Grid<double>* masses;
+  const EnvironmentMap* map = nullptr;
+  TargetDensity target = {DensitySpace::solid_angle};
+};
+
+struct AlternativeDistribution {
+  std::string_view name;       ///< "no-sine"
+  std::string_view diagnosis;  ///< "a missing sin(theta)"
+  /// Masses of the texels that are drawn instead; they sum to 1. Inside a texel the place follows
+  /// the declared density.
+  Grid<double> (*masses)(const DeclaredDistribution& declared);
+  bool reads_map = true;  ///< has no meaning without one
+  /// Whether its masses are only an example of the defect, whose counts may be any of many: such a
+  /// defect is known by other evidence.
+  bool is_example = false;
+};
+
+std::span<const AlternativeDistribution> alternative_distributions();
+
+/// The row of this name, which must exist.
+const AlternativeDistribution& alternative_distribution(std::string_view name);
+
+}  // namespace lightproof

@@ -1,0 +1,165 @@
+#include "lightproof/gate/density_check.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "lightproof/core/parallel.h"
+#include "lightproof/samplers/cdf_lines.h"
+#include "lightproof/warp/lat_long.h"
+
+namespace lightproof {
+namespace {
+
+/// Of a pdf that claims the declared density exactly: the rounding of floats, as of returned pdfs.
+constexpr double kRelative = 1e-5;
+/// Below this a density is 0 for one formula and a denormal number for another.
+constexpr double kNoDensity = 1e-290;
+
+/// Where the cells of a row lie, and what is around them.
+struct Row {
+  const Expectation* expectation;
+  Extent cells;
+  int y;  ///< of cells
+
+  int texel_row() const { return y * expectation->masses.extent().height / cells.height; }
+  ComparedCell cell(int x, const BoundSampler& sampler) const {
+    ComparedCell cell;
+    cell.x = x * expectation->masses.extent().width / cells.width;
+    cell.y = texel_row();
+    cell.at = {(x + 0.5) / cells.width, (y + 0.5) / cells.height};
+    cell.pdf = sampler.pdf(cell.at).value;
+    cell.declared = declared_density(*expectation, cell.at, cell.x, cell.y);
+    return cell;
+  }
+  /// Probability of the row of texels, or of the bilinear patches whose lower half, but for the
+  /// first row, begins with an odd row of cells.
+  double mass() const {
+    const std::vector<double>& rows = expectation->smooth_rows;
+    if (rows.empty()) return expectation->rows[static_cast<std::size_t>(y)];
+    const bool patches = expectation->lookup == Lookup::bilinear;
+    return rows[static_cast<std::size_t>(patches ? (y + 1) / 2 : y)];
+  }
+  /// Probability of every run of the texels' row.
+  std::vector<double> runs() const {
+    std::vector<double> masses;
+    const auto row = expectation->masses.row(texel_row());
+    for (std::size_t x = 0; x < row.size(); ++x) {
+      if (x % kRunTexels == 0) masses.push_back(0.0);
+      masses.back() += row[x];
+    }
+    return masses;
+  }
+};
+
+/// What one row of cells says; rows are put together in their order.
+struct RowComparison {
+  DensityComparison found;
+  double excess = 0.0;  ///< error of the worst cell over its bound
+
+  /// A cell of this probability, whose error in probability may be as large as the bound.
+  void add(const ComparedCell& cell, double mass, double bound) {
+    if (!(cell.declared > kNoDensity)) {
+      if (std::abs(cell.pdf) <= kNoDensity) return;  // false for NaN
+      if (found.unlit_cells++ == 0) found.first_unlit = cell;
+      return;
+    }
+    const double ratio = cell.pdf / cell.declared;
+    const double jacobian = solid_angle_per_square(cell.at.t);
+    found.ratio.add(ratio);
+    found.times_jacobian.add(ratio * jacobian);
+    found.over_jacobian.add(ratio / jacobian);
+    if (cell.pdf <= 0.0) {
+      found.unreachable_mass += mass;
+      if (found.unreachable_cells++ == 0) found.first_unreachable = cell;
+    } else {
+      const double weight_error = std::abs(1.0 / ratio - 1.0);
+      found.largest_error = std::max(found.largest_error, std::abs(ratio - 1.0));
+      found.largest_weight_error = std::max(found.largest_weight_error, weight_error);
+      found.rounding_variance += weight_error * weight_error * ratio * mass;
+    }
+    const double over = std::abs(ratio - 1.0) * mass / bound;
+    if (over <= 1.0) return;  // false for NaN
+    ++found.cells_off;
+    if (cell.pdf <= 0.0 && found.lost_cells++ == 0) found.first_lost = cell;
+    if (found.worst && over <= excess) return;
+    excess = over;
+    found.worst = cell;
+  }
+};
+
+RowComparison compare_row(const Row& row, const BoundSampler& sampler,
+                          const MassRounding& rounding) {
+  const Expectation& expectation = *row.expectation;
+  const double area = 1.0 / static_cast<double>(row.cells.count());
+  const std::vector<double> runs = row.runs();
+  const double row_mass = row.mass();
+  RowComparison result;
+  for (int x = 0; x < row.cells.width; ++x) {
+    const ComparedCell cell = row.cell(x, sampler);
+    // A cell of a texel is all of it, whatever the density does inside.
+    const double mass =
+        expectation.density ? cell.declared * area : expectation.masses(cell.x, cell.y);
+    const double run = runs[static_cast<std::size_t>(cell.x / kRunTexels)];
+    const double bound = kRelative * mass +
+                         rounding.bound({mass, run, row_mass, expectation.masses.extent().count()});
+    result.add(cell, mass, bound);
+  }
+  return result;
+}
+
+void merge(DensityComparison& all, double& excess, const RowComparison& row) {
+  const DensityComparison& found = row.found;
+  if (!all.first_unreachable) all.first_unreachable = found.first_unreachable;
+  if (!all.first_unlit) all.first_unlit = found.first_unlit;
+  if (!all.first_lost) all.first_lost = found.first_lost;
+  all.unreachable_cells += found.unreachable_cells;
+  all.unreachable_mass += found.unreachable_mass;
+  all.lost_cells += found.lost_cells;
+  all.unlit_cells += found.unlit_cells;
+  all.largest_error = std::max(all.largest_error, found.largest_error);
+  all.rounding_variance += found.rounding_variance;
+  all.largest_weight_error = std::max(all.largest_weight_error, found.largest_weight_error);
+  all.ratio.merge(found.ratio);
+  all.times_jacobian.merge(found.times_jacobian);
+  all.over_jacobian.merge(found.over_jacobian);
+  all.cells_off += found.cells_off;
+  if (found.worst && (!all.worst || row.excess > excess)) {
+    excess = row.excess;
+    all.worst = found.worst;
+  }
+}
+
+}  // namespace
+
+void RatioRange::add(double ratio) { merge({ratio, ratio}); }
+
+void RatioRange::merge(const RatioRange& other) {
+  least = std::min(least, other.least);
+  largest = std::max(largest, other.largest);
+}
+
+bool RatioRange::is_constant() const { return least > 0.0 && largest <= least * (1.0 + kRelative); }
+
+double declared_density(const Expectation& expectation, SquarePoint at, int x, int y) {
+  if (expectation.density) return expectation.density(at);
+  const Extent extent = expectation.masses.extent();
+  const double mass = expectation.masses(x, y);
+  if (expectation.density_space == DensitySpace::texture)
+    return mass * static_cast<double>(extent.count());
+  return to_square(PerSteradian{mass / texel_solid_angle(extent, y)}, at).value;
+}
+
+DensityComparison compare_density(const BoundSampler& sampler, const Expectation& expectation,
+                                  const MassRounding& rounding) {
+  const Extent cells = expectation.smooth_cells();
+  std::vector<RowComparison> rows(static_cast<std::size_t>(cells.height));
+  parallel_for(rows.size(), [&](std::size_t y) {
+    rows[y] = compare_row({&expectation, cells, static_cast<int>(y)}, sampler, rounding);
+  });
+  DensityComparison all;
+  double excess = 0.0;
+  for (const RowComparison& row : rows) merge(all, excess, row);
+  return all;
+}
+
+}  // namespace lightproof

@@ -1,0 +1,348 @@
+#include "lightproof/gate/exact_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "lightproof/gate/draws.h"
+
+namespace lightproof {
+namespace {
+
+/// Nodes and weights of Gauss-Legendre rules on [0,1].
+struct Node {
+  double at;
+  double weight;
+};
+/// Across a cell, where a density is constant or linear.
+constexpr std::array<Node, 2> kAcross = {{{0.21132486540518712, 0.5}, {0.78867513459481288, 0.5}}};
+/// Along it, where it may be a linear function times sin(pi t).
+constexpr std::array<Node, 3> kAlong = {
+    {{0.11270166537925831, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.88729833462074169, 5.0 / 18.0}}};
+/// Pieces along are at most 1/64 high. Three nodes leave h^7/2016000 |f^(6)| of a piece of height h
+/// in theta (Abramowitz and Stegun 25.4.29 and 30). Of f = (a + b theta) sin(theta) the worst case
+/// is a = 0 at a pole, f^(6) = 6 b: of its integral b h^3/3 that is 9 h^4/10^6 = 5e-11 at
+/// h = pi/64, whatever the height of the map and wherever its light is.
+constexpr int kFewestPieces = 64;
+/// Relative difference of two pdfs that are meant to be one.
+constexpr double kSamePdf = 1e-5;
+
+/// A place, seen from a sample's on a map of this size, whose pdf may be taken for its own.
+struct OtherPlace {
+  std::string_view name;
+  SquarePoint (*of)(SquarePoint at, Extent map);
+};
+constexpr std::array<OtherPlace, 6> kOtherPlaces = {{
+    {"one column to the right",
+     [](SquarePoint at, Extent map) {
+       return SquarePoint{std::fmod(at.s + 1.0 / map.width, 1.0), at.t};
+     }},
+    {"one column to the left",
+     [](SquarePoint at, Extent map) {
+       return SquarePoint{std::fmod(at.s + 1.0 - 1.0 / map.width, 1.0), at.t};
+     }},
+    {"one row below",
+     [](SquarePoint at, Extent map) {
+       return SquarePoint{at.s, std::min(at.t + 1.0 / map.height, 1.0 - 0x1p-53)};
+     }},
+    {"one row above",
+     [](SquarePoint at, Extent map) {
+       return SquarePoint{at.s, std::max(at.t - 1.0 / map.height, 0.0)};
+     }},
+    {"mirrored in s",
+     [](SquarePoint at, Extent /*map*/) {
+       return SquarePoint{std::max(0.0, 1.0 - 0x1p-53 - at.s), at.t};
+     }},
+    {"mirrored in t",
+     [](SquarePoint at, Extent /*map*/) {
+       return SquarePoint{at.s, std::max(0.0, 1.0 - 0x1p-53 - at.t)};
+     }},
+}};
+
+constexpr std::array<double, 5> kCorners = {0.0, 0x1p-24, 0.5, 1.0 - 0x1p-24, 1.0 - 0x1p-53};
+
+/// The cumulative sums of `masses`, normalised, each with its neighbours on either side, in double
+/// and in steps of 2^-31 and 2^-24, where samplers of that precision have their own CDF entries.
+std::vector<double> around_entries(std::span<const double> masses) {
+  std::vector<double> values;
+  const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
+  double sum = 0.0;
+  for (const double mass : masses) {
+    sum += mass;
+    const double entry = sum / total;
+    const auto add = [&](double u) {
+      if (u >= 0.0 && u < 1.0) values.push_back(u);
+    };
+    for (const double u : {std::nextafter(entry, 0.0), entry, std::nextafter(entry, 1.0)}) add(u);
+    for (const double step : {0x1p-31, 0x1p-24}) {
+      const double coarse = std::round(entry / step) * step;
+      for (const double u : {coarse - step, coarse, coarse + step}) add(u);
+    }
+  }
+  return values;
+}
+
+/// Points around one CDF entry.
+constexpr int kAroundEntry = 9;
+/// Points around the CDF entries of all rows that are looked at, about.
+constexpr int kEntryPoints = 1 << 18;
+
+/// Not at 0 in the other coordinate, which is an edge of its own.
+bool is_next_to_one(SquarePoint u) {
+  return std::max(u.s, u.t) >= 1.0 - 0x1p-24 && std::min(u.s, u.t) > 0.0;
+}
+
+/// The edges of equal cells and of equal bins over [0,1], each once, ascending.
+std::vector<double> edges(int cells, int bins) {
+  std::vector<double> all;
+  for (int i = 0; i <= cells; ++i) all.push_back(static_cast<double>(i) / cells);
+  for (int i = 1; i < bins; ++i) all.push_back(static_cast<double>(i) / bins);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+std::vector<SquarePoint> random_points(const RandomStream& stream, std::uint64_t count) {
+  std::vector<SquarePoint> points;
+  points.reserve(count);
+  for (std::uint64_t i = 0; i < count; ++i) points.push_back(stream.point(i));
+  return points;
+}
+
+std::vector<TexelSample> samples_at(const BoundSampler& sampler,
+                                    const std::vector<SquarePoint>& points) {
+  std::vector<TexelSample> samples(points.size());
+  sampler.sample(points, samples);
+  return samples;
+}
+
+bool is_same_pdf(PerSquare a, PerSquare b) {
+  return std::abs(a.value - b.value) <= kSamePdf * std::abs(b.value);
+}
+
+/// Fewer points than these that differ say nothing of where their pdf comes from.
+constexpr std::size_t kFewestThatDiffer = 8;
+
+std::optional<std::string_view> position_of_returned_pdf(const BoundSampler& sampler, Extent map) {
+  // The plane's R2 sequence: points that lie evenly, and on no texel's edge.
+  constexpr int kPoints = 1 << 12;
+  std::vector<SquarePoint> points;
+  for (int i = 1; i <= kPoints; ++i) {
+    points.push_back(
+        {std::fmod(i * 0.75487766624669276, 1.0), std::fmod(i * 0.56984029099805327, 1.0)});
+  }
+  std::vector<TexelSample> differ;
+  for (const TexelSample& sample : samples_at(sampler, points)) {
+    if (!is_on_map(sample, map)) continue;
+    if (!is_same_pdf(sampler.pdf(sample.at), sample.pdf)) differ.push_back(sample);
+  }
+  if (differ.size() < kFewestThatDiffer) return std::nullopt;
+  for (const OtherPlace& other : kOtherPlaces) {
+    const bool all = std::all_of(differ.begin(), differ.end(), [&](const TexelSample& sample) {
+      return is_same_pdf(sampler.pdf(other.of(sample.at, map)), sample.pdf);
+    });
+    if (all) return other.name;
+  }
+  return std::nullopt;
+}
+
+/// A rectangle of the square.
+struct Piece {
+  double s;
+  double t;
+  double width;
+  double height;
+};
+
+double integral_over(const Piece& piece, const BoundSampler& sampler) {
+  double mean = 0.0;
+  for (const Node& t : kAlong) {
+    for (const Node& s : kAcross) {
+      const SquarePoint at = {piece.s + s.at * piece.width, piece.t + t.at * piece.height};
+      mean += s.weight * t.weight * sampler.pdf(at).value;
+    }
+  }
+  return mean * piece.width * piece.height;
+}
+
+}  // namespace
+
+OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells) {
+  const std::vector<double> across = edges(cells.width, kGateBins.width);
+  const int pieces = (kFewestPieces + cells.height - 1) / cells.height;
+  const std::vector<double> along = edges(cells.height * pieces, kGateBins.height);
+  OwnDensity own{0.0, Grid<double>(kGateBins)};
+  for (std::size_t j = 0; j + 1 < along.size(); ++j) {
+    for (std::size_t i = 0; i + 1 < across.size(); ++i) {
+      const Piece piece = {across[i], along[j], across[i + 1] - across[i], along[j + 1] - along[j]};
+      const double mass = integral_over(piece, sampler);
+      own.integral += mass;
+      own.bins(cell_of(piece.s + 0.5 * piece.width, kGateBins.width),
+               cell_of(piece.t + 0.5 * piece.height, kGateBins.height)) += mass;
+    }
+  }
+  for (double& mass : own.bins.values()) mass /= own.integral;
+  return own;
+}
+
+CheckResult check_pdf_integral(const OwnDensity& own) {
+  const double error = std::abs(own.integral - 1.0);
+  const bool passed = error <= 1e-6;  // false for NaN
+  return {TestId::pdf_integral, passed, error,
+          passed ? "" : fmt::format("the pdf integrates to {:.9g}", own.integral)};
+}
+
+CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& stream,
+                               std::uint64_t count) {
+  CheckResult result{TestId::returned_pdf, true, 0.0, ""};
+  const std::vector<SquarePoint> points = random_points(stream, count);
+  const std::vector<TexelSample> samples = samples_at(sampler, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SquarePoint u = points[i];
+    const TexelSample& sample = samples[i];
+    if (!(sample.pdf.value > 0.0)) continue;  // invalid samples are counted by another test
+    const double error = std::abs(sampler.pdf(sample.at).value / sample.pdf.value - 1.0);
+    if (error <= result.worst) continue;
+    result.worst = error;
+    if (error <= kSamePdf) continue;
+    result.passed = false;
+    result.detail = fmt::format(
+        "at u = ({:.17g}, {:.17g}) pdf() differs from the returned pdf by {:.3g}", u.s, u.t, error);
+  }
+  return result;
+}
+
+namespace {
+
+CheckResult check_points(TestId test, const BoundSampler& sampler, const Expectation& expectation,
+                         const std::vector<SquarePoint>& points) {
+  const Extent extent = expectation.masses.extent();
+  CheckResult result{test, true, 0.0, ""};
+  std::uint64_t failures = 0;
+  const std::vector<TexelSample> samples = samples_at(sampler, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SquarePoint u = points[i];
+    const TexelSample& sample = samples[i];
+    const bool correct = is_on_map(sample, extent) &&
+                         cell_of(sample.at.s, extent.width) == sample.x &&
+                         cell_of(sample.at.t, extent.height) == sample.y &&
+                         expectation.masses(sample.x, sample.y) > 0.0;
+    if (correct) continue;
+    if (failures++ == 0) {
+      result.detail =
+          fmt::format("u = ({:.17g}, {:.17g}) gives texel ({}, {}) at ({:.9g}, {:.9g}), pdf {:.3g}",
+                      u.s, u.t, sample.x, sample.y, sample.at.s, sample.at.t, sample.pdf.value);
+    }
+  }
+  result.passed = failures == 0;
+  result.worst = static_cast<double>(failures) / static_cast<double>(points.size());
+  if (failures > 0) {
+    result.detail =
+        fmt::format("{} of {} edge points leave the map or reach a texel without light; first: {}",
+                    failures, points.size(), result.detail);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::array<CheckResult, 2> check_edges(const BoundSampler& sampler,
+                                       const Expectation& expectation) {
+  std::vector<SquarePoint> points = edge_points(expectation);
+  const auto last = std::stable_partition(points.begin(), points.end(), is_next_to_one);
+  const std::vector<SquarePoint> others(last, points.end());
+  points.erase(last, points.end());
+  return {check_points(TestId::next_to_one, sampler, expectation, points),
+          check_points(TestId::edge_points, sampler, expectation, others)};
+}
+
+CheckResult check_support(const DensityComparison& density) {
+  CheckResult result{TestId::pdf_support, density.lost_cells == 0 && density.unlit_cells == 0,
+                     density.unreachable_mass, ""};
+  if (density.unlit_cells > 0) {
+    const ComparedCell& cell = *density.first_unlit;
+    result.detail = fmt::format(
+        "{} cells where none is declared have a pdf, the first {:.3g} in "
+        "texel ({}, {})",
+        density.unlit_cells, cell.pdf, cell.x, cell.y);
+  }
+  if (density.unreachable_cells > 0) {
+    const ComparedCell& cell = *density.first_unreachable;
+    result.detail += fmt::format(
+        "{}{} cells with {:.3g} of the light have the pdf 0, the first in texel ({}, {})",
+        result.detail.empty() ? "" : "; ", density.unreachable_cells, density.unreachable_mass,
+        cell.x, cell.y);
+  }
+  return result;
+}
+
+CheckResult check_declared_density(const DensityComparison& density) {
+  CheckResult result{TestId::declared_density, density.cells_off == 0, density.largest_error, ""};
+  if (!density.worst) return result;
+  const ComparedCell& cell = *density.worst;
+  result.detail = fmt::format(
+      "{} cells are off, the worst in texel ({}, {}): pdf {:.6g} where {:.6g} is declared",
+      density.cells_off, cell.x, cell.y, cell.pdf, cell.declared);
+  return result;
+}
+
+Inspection inspect(const BoundSampler& sampler, const Expectation& expectation,
+                   const MassRounding& rounding) {
+  return {integrate_pdf(sampler, expectation.smooth_cells()),
+          compare_density(sampler, expectation, rounding), check_edges(sampler, expectation),
+          position_of_returned_pdf(sampler, expectation.masses.extent())};
+}
+
+CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,
+                             const Expectation& expectation, const RandomStream& stream,
+                             std::uint64_t count) {
+  CheckResult result{TestId::same_texel, true, 0.0, ""};
+  std::vector<SquarePoint> points = edge_points(expectation);
+  const std::vector<SquarePoint> random = random_points(stream, count);
+  points.insert(points.end(), random.begin(), random.end());
+  const std::vector<TexelSample> samples = samples_at(sampler, points);
+  const std::vector<TexelSample> expected = samples_at(other, points);
+  std::uint64_t failures = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SquarePoint u = points[i];
+    const TexelSample& a = samples[i];
+    const TexelSample& b = expected[i];
+    if (a.x == b.x && a.y == b.y) continue;
+    if (failures++ == 0) {
+      result.detail = fmt::format("u = ({:.17g}, {:.17g}): texel ({}, {}) instead of ({}, {})", u.s,
+                                  u.t, a.x, a.y, b.x, b.y);
+    }
+  }
+  result.passed = failures == 0;
+  result.worst = static_cast<double>(failures) / static_cast<double>(points.size());
+  return result;
+}
+
+std::vector<SquarePoint> edge_points(const Expectation& expectation) {
+  std::vector<SquarePoint> points;
+  for (const double s : kCorners) {
+    for (const double t : kCorners) points.push_back({s, t});
+  }
+  for (const double t : around_entries(expectation.rows)) points.push_back({0.5, t});
+
+  const auto [width, height] = expectation.masses.extent();
+  const int visits = std::max(16, kEntryPoints / (kAroundEntry * width));
+  double below = 0.0;
+  int visited = 0;
+  for (int y = 0; y < height; ++y) {
+    const double mass = expectation.rows[static_cast<std::size_t>(y)];
+    if (mass > 0.0 && y * visits >= visited * height) {
+      ++visited;
+      for (const double s : around_entries(expectation.masses.row(y))) {
+        points.push_back({s, below + 0.5 * mass});
+      }
+    }
+    below += mass;
+  }
+  return points;
+}
+
+}  // namespace lightproof

@@ -1,0 +1,178 @@
+#include "lightproof/gate/expectation.h"
+
+#include <memory>
+#include <numeric>
+
+#include "lightproof/image/look_up.h"
+#include "lightproof/stats/goodness_of_fit.h"
+#include "lightproof/warp/lat_long.h"
+#include "reference/bilinear_distribution.h"
+#include "reference/bilinear_moments.h"
+#include "reference/texel_masses.h"
+
+namespace lightproof {
+namespace {
+
+/// ∫ sin^2(theta) ds dt over one texel of row y.
+double squared_sine_area(Extent extent, int y) {
+  const auto primitive = [](double theta) { return 0.5 * theta - 0.25 * std::sin(2.0 * theta); };
+  const double low = kPi * y / extent.height;
+  const double high = kPi * (y + 1.0) / extent.height;
+  return (primitive(high) - primitive(low)) / (kPi * extent.width);
+}
+
+/// First and second moment of 1/p(omega) over the bright texels. Under A the density over (s,t) is
+/// constant in a texel and 1/p(omega) = 2 pi^2 sin(theta) / p(s,t); under B p(omega) is constant.
+reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) {
+  if (expectation.lookup == Lookup::bilinear) {
+    return reference::bilinear_inverse_pdf(
+        expectation.luminance, expectation.density_space,
+        [&](double radiance) { return expectation.is_bright(radiance); });
+  }
+  const Extent extent = expectation.masses.extent();
+  reference::EstimatorMoments moments;
+  for (int y = 0; y < extent.height; ++y) {
+    const double solid_angle = texel_solid_angle(extent, y);
+    const double square = 4.0 * kPi * kPi * kPi * kPi * squared_sine_area(extent, y) /
+                          static_cast<double>(extent.count());
+    for (int x = 0; x < extent.width; ++x) {
+      if (!expectation.is_bright(expectation.luminance(x, y))) continue;
+      const double mass = expectation.masses(x, y);
+      moments.raw[0] += solid_angle;
+      const double flat = 2.0 * kPi * kPi * sin_theta((y + 0.5) / extent.height) /
+                          static_cast<double>(extent.count());
+      moments.largest = std::max(
+          moments.largest,
+          (expectation.density_space == DensitySpace::texture ? flat : solid_angle) / mass);
+      moments.raw[1] += expectation.density_space == DensitySpace::texture
+                            ? square / mass
+                            : solid_angle * solid_angle / mass;
+    }
+  }
+  return moments;
+}
+
+/// Of the estimators with a cosine kernel.
+reference::LightMoments light_moments(const Expectation& expectation, Direction normal) {
+  const reference::Kernel kernel = reference::cosine_kernel(normal);
+  return expectation.lookup == Lookup::bilinear
+             ? reference::bilinear_light_moments(kernel, expectation.luminance)
+             : reference::light_moments(kernel, {&expectation.luminance, 1})[0];
+}
+
+void set_transform(Expectation& expectation, const EnvironmentMap& map, TargetDensity target) {
+  if (target.lookup == Lookup::nearest) {
+    const auto transform = std::make_shared<const reference::RosenblattTransform>(
+        expectation.masses, target.density_space);
+    expectation.transform = [transform](std::span<const TexelSample> samples,
+                                        std::span<const double> cosines,
+                                        std::span<reference::RosenblattPoint> points) {
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        points[i] = (*transform)(samples[i].at, cosines[i], samples[i].x, samples[i].y);
+      }
+    };
+    set_smooth_rows(expectation, expectation.rows);
+    return;
+  }
+  // Shared: an expectation is copied, and this holds sums for every texel.
+  const auto transform = std::make_shared<const reference::BilinearTransform>(map, target);
+  expectation.transform = [transform](std::span<const TexelSample> samples,
+                                      std::span<const double> /*cosines*/,
+                                      std::span<reference::RosenblattPoint> points) {
+    for (std::size_t i = 0; i < samples.size(); ++i) points[i] = (*transform)(samples[i].at);
+  };
+  set_smooth_rows(expectation, transform->rows());
+  const auto luminance = std::make_shared<const Grid<double>>(expectation.luminance);
+  expectation.density = [luminance, total = transform->total(), target](SquarePoint at) {
+    const double weight = target.density_space == DensitySpace::texture ? 1.0 : sin_theta(at.t);
+    return look_up_bilinear(*luminance, at) * weight / total;
+  };
+}
+
+}  // namespace
+
+const std::array<MeanCase, kMeanCaseCount> kMeanCases = {{
+    {"irradiance, normal +z", {0.0, 0.0, 1.0}},
+    {"irradiance, normal +x", {1.0, 0.0, 0.0}},
+}};
+
+void Expectation::set_flags() {
+  flags = Grid<std::uint8_t>(masses.extent());
+  for (std::size_t i = 0; i < flags.values().size(); ++i) {
+    const int of_mass = masses.values()[i] > 0.0 ? has_mass : 0;
+    const int of_radiance = is_bright(luminance.values()[i]) ? counts_as_bright : 0;
+    flags.values()[i] = static_cast<std::uint8_t>(of_mass + of_radiance);
+  }
+}
+
+Extent Expectation::smooth_cells() const {
+  const Extent texels = masses.extent();
+  return lookup == Lookup::nearest ? texels : Extent{2 * texels.width, 2 * texels.height};
+}
+
+Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
+  Expectation expectation;
+  expectation.density_space = target.density_space;
+  expectation.lookup = target.lookup;
+  expectation.luminance = luminance_of(map, target.weights);
+  expectation.masses = reference::texel_masses(map, target);
+  expectation.bins = reference::bin_masses(map, target, kGateBins);
+  expectation.rows = reference::row_marginal(expectation.masses);
+  expectation.columns = reference::column_marginal(expectation.masses);
+  set_transform(expectation, map, target);
+  const auto values = expectation.luminance.values();
+  expectation.mean_luminance =
+      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  for (std::size_t i = 0; i < kMeanCaseCount; ++i) {
+    const auto moments = light_moments(expectation, kMeanCases[i].normal);
+    expectation.estimators[i] = target.density_space == DensitySpace::texture
+                                    ? moments.environment_a
+                                    : moments.environment_b;
+    expectation.uniform[i] = moments.uniform;
+  }
+  expectation.inverse_pdf = inverse_pdf_moments(expectation);
+  expectation.is_summed = true;
+  expectation.set_flags();
+  return expectation;
+}
+
+void set_smooth_rows(Expectation& expectation, std::vector<double> masses) {
+  expectation.smooth_rows = std::move(masses);
+  expectation.bands = row_bands(expectation.smooth_rows);
+  for (std::size_t band = 0; band < expectation.bands.size(); ++band) {
+    const RowBand& rows = expectation.bands[band];
+    expectation.band_of_row.insert(expectation.band_of_row.end(),
+                                   static_cast<std::size_t>(rows.last - rows.first + 1),
+                                   static_cast<std::uint8_t>(band));
+  }
+}
+
+// A CDF entry that is rounded is off by a variance of 1/12, a share between two CDF entries of 1/6.
+// So w^2 = sum (q-p)^2 / p has 1/6 sum 1/row from the marginal and, from each row's own sums, 1/6
+// of row^2 sum 1/pool.
+RoundingEffect rounding_effect(const Expectation& expectation, std::uint64_t samples) {
+  if (!expectation.is_summed) return {};
+  const double least = kPooledExpectation / static_cast<double>(samples);
+  double of_rows = 0.0;
+  double within_rows = 0.0;
+  double row_pool = 0.0;
+  for (int y = 0; y < expectation.masses.extent().height; ++y) {
+    const double row = expectation.rows[static_cast<std::size_t>(y)];
+    if (row <= 0.0) continue;
+    row_pool += row;
+    if (row_pool >= least) {
+      of_rows += 1.0 / row_pool;
+      row_pool = 0.0;
+    }
+    double pool = 0.0;
+    for (const double mass : expectation.masses.row(y)) {
+      pool += mass;
+      if (pool < least) continue;
+      within_rows += row * row / pool;
+      pool = 0.0;
+    }
+  }
+  return {std::sqrt((of_rows + within_rows) / 6.0), std::sqrt(of_rows / 6.0)};
+}
+
+}  // namespace lightproof

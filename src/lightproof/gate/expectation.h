@@ -1,0 +1,98 @@
+// What the reference says about a target density on a map: the exact side of every comparison.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "lightproof/core/direction.h"
+#include "lightproof/core/grid.h"
+#include "lightproof/gate/row_bands.h"
+#include "lightproof/image/target_density.h"
+#include "lightproof/samplers/sampler.h"
+#include "reference/estimator_moments.h"
+#include "reference/rosenblatt_transform.h"
+
+namespace lightproof {
+
+/// Bins over (phi, theta).
+inline constexpr Extent kGateBins = {32, 16};
+
+/// The integrals that the estimator is tested on: irradiance for two normals. One looks at a pole,
+/// one at the horizon, because the two densities trade places between them.
+struct MeanCase {
+  std::string_view name;
+  Direction normal;
+};
+inline constexpr std::size_t kMeanCaseCount = 2;
+extern const std::array<MeanCase, kMeanCaseCount> kMeanCases;
+
+struct Expectation {
+  DensitySpace density_space = DensitySpace::solid_angle;  ///< how the mass lies inside a texel
+  Lookup lookup = Lookup::nearest;  ///< how the estimators look `luminance` up
+  Grid<double> luminance;           ///< radiance that the estimators gather
+  Grid<double> masses;              ///< of texels
+  Grid<double> bins;                ///< of kGateBins
+  std::vector<double> rows;         ///< marginal
+  std::vector<double> columns;      ///< marginal
+  /// Writes the transformed coordinates of samples, cos(theta) of whose places are known; all spans
+  /// are of one size. Empty where the distribution inside a texel is not known in closed form.
+  std::function<void(std::span<const TexelSample> samples, std::span<const double> cosines,
+                     std::span<reference::RosenblattPoint> points)>
+      transform;
+  /// Probability of every row that `transform` names, of texels or of bilinear patches; empty if it
+  /// names none.
+  std::vector<double> smooth_rows;
+  std::vector<RowBand> bands;  ///< of these rows
+  std::vector<std::uint8_t> band_of_row;
+  /// Declared density over the square where it is not `masses` spread over the texels by the
+  /// density; see declared_density().
+  std::function<double(SquarePoint at)> density;
+  std::array<reference::EstimatorMoments, kMeanCaseCount> estimators;
+  std::array<reference::EstimatorMoments, kMeanCaseCount> uniform;  ///< drawn over the sphere
+  /// 1/p(omega) over the texels at least a tenth as bright as the mean.
+  reference::EstimatorMoments inverse_pdf;
+
+  /// What is looked up of a sample's texel besides its radiance, in a byte: it stays in the cache.
+  enum TexelFlag : std::uint8_t {
+    has_mass = 1,
+    counts_as_bright = 2,  ///< see is_bright
+  };
+  Grid<std::uint8_t> flags;  ///< of texels: sums of TexelFlag
+  /// Sets the flags, once masses, luminance and mean_luminance are known.
+  void set_flags();
+
+  /// Whether a texel of this radiance (its own, whatever the look-up) belongs to the part of the
+  /// map over which 1/p is averaged.
+  bool is_bright(double radiance) const { return radiance >= 0.1 * mean_luminance; }
+  double mean_luminance = 0.0;
+  /// Cells over the square in which the density is smooth: it may have edges between texels, or
+  /// between the quarters around their centres.
+  Extent smooth_cells() const;
+
+  /// Whether samplers of this distribution add up its masses and search the sums.
+  bool is_summed = false;
+};
+
+/// The effect w that rounding of all sums to steps of 1 would have on average: it grows in
+/// proportion to the step. Cells are pooled until `samples` expect 25 of each. Of an interpolated
+/// map the sums are of patches, of which a texel has a quarter of four: where it is smooth, the
+/// effect is half as large.
+struct RoundingEffect {
+  double texels = 0.0;
+  double rows = 0.0;
+};
+
+/// Sets the rows that the transform names, and their bands.
+void set_smooth_rows(Expectation& expectation, std::vector<double> masses);
+
+/// 0 where nothing is summed.
+RoundingEffect rounding_effect(const Expectation& expectation, std::uint64_t samples);
+
+/// Throws InputError if the map is black.
+Expectation expectation_of(const EnvironmentMap& map, TargetDensity target);
+
+}  // namespace lightproof

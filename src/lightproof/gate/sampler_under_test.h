@@ -1,0 +1,40 @@
+// Samplers of environment maps, before there is a map: one of the registry, a mutant, a third-party
+// one.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lightproof/gate/test_case.h"
+#include "lightproof/samplers/registry.h"
+
+namespace lightproof {
+
+struct SamplerUnderTest {
+  std::string name;
+  TargetDensity target;  ///< what it claims to draw; on a map, on_map() of it
+  bool known_defects = false;
+  /// Claims to return the texel of LinearScan for every point.
+  bool inverts_shared_cdf = false;
+  /// The map outlives what is bound to it. Throws InputError if the map is black.
+  std::function<BoundSampler(const EnvironmentMap&)> bind;
+  double resolution = 0x1p-24;  ///< as a SamplerInstance's
+  bool inverts_rows = false;    ///< likewise
+  /// Of its probabilities, on a map of this size; null: it claims the declared density exactly.
+  MassRounding (*rounding)(Extent map) = nullptr;
+};
+
+/// A row of the registry under one density (A or B).
+SamplerUnderTest sampler_under_test(const SamplerInfo& sampler, DensitySpace density_space);
+
+/// Every sampler of the registry under both densities.
+std::vector<SamplerUnderTest> all_samplers_under_test();
+
+/// Every sampler under test on every map: a test case for each map and target density. The maps
+/// outlive them.
+std::vector<TestCase> test_cases_of(std::span<const EnvironmentMap> maps,
+                                    std::span<const SamplerUnderTest> samplers_under_test);
+
+}  // namespace lightproof

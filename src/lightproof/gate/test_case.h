@@ -1,0 +1,67 @@
+// What the gate tests: a distribution, and the samplers that claim to draw it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lightproof/gate/bound_sampler.h"
+#include "lightproof/gate/exact_checks.h"
+#include "lightproof/gate/expectation.h"
+#include "lightproof/results/test_record.h"
+#include "lightproof/samplers/mass_rounding.h"
+
+namespace lightproof {
+
+/// A sampler under test: one of a registry, a mutant, a third-party one.
+struct SamplerInstance {
+  std::string name;
+  bool known_defects = false;
+  /// Builds it.
+  std::function<BoundSampler()> bind;
+  /// Step of its sums and random numbers: a float's below 1 unless it is known to be finer, 0 if it
+  /// searches no sums of rows and columns.
+  double resolution = 0x1p-24;
+  /// How far its probabilities of texels may be from the declared ones.
+  MassRounding rounding = {};
+  /// Whether u.t alone, all its 53 bits, gives its row and the share of the row's mass below it.
+  bool inverts_rows = false;
+  /// Whether it claims to return the texels of the test case's reference implementation, point for
+  /// point.
+  bool claims_reference_texels = false;
+  /// What is found does not depend on the seed.
+  std::function<Inspection(const BoundSampler&, const Expectation&, const MassRounding&)> inspect =
+      lightproof::inspect;
+};
+
+/// What could be drawn by mistake.
+struct Alternative {
+  std::string_view name;       ///< "no-sine"
+  std::string_view diagnosis;  ///< "a missing sin(theta)"
+  std::function<Grid<double>()> masses;
+};
+
+/// One distribution over (phi, theta) and its instances. The parts are made when they are needed: a
+/// run over many maps holds few of them at once, and shares what it holds.
+struct TestCase {
+  std::string map;            ///< name of the map, or kDirections
+  std::string density_space;  ///< "A", "B"; empty for distributions over directions
+  std::string source;         ///< of the map, as it was given
+  std::function<std::shared_ptr<const Expectation>()> expectation;
+  std::function<std::vector<Alternative>()> alternatives;
+  std::vector<SamplerInstance> instances;
+  /// A sampler that others are held against; there if any instance has a reference implementation.
+  std::function<BoundSampler()> reference_implementation = {};
+};
+
+/// The same test case for many runs: the inspection of each instance, which no seed changes, is
+/// made by the first run that asks for it, and kept.
+TestCase inspected_once(TestCase test_case);
+
+/// The same test case for many runs: the exact side, the samplers and their inspections are made
+/// now, and kept.
+TestCase made_once(TestCase test_case);
+
+}  // namespace lightproof

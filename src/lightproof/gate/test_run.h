@@ -1,0 +1,79 @@
+// One sampler against one distribution: everything that is tested of it.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "lightproof/gate/draws.h"
+#include "lightproof/gate/exact_checks.h"
+#include "lightproof/gate/expectation.h"
+#include "lightproof/gate/test_case.h"
+#include "lightproof/results/test_record.h"
+
+namespace lightproof {
+
+/// An instance and its test case, and the names and numbers that its records carry.
+struct TestRun {
+  const TestCase* test_case;
+  const SamplerInstance* instance;
+  std::uint64_t seed;
+
+  /// "binary_search/B/city".
+  std::string name() const;
+  /// A stream of its own for every purpose.
+  RandomStream stream(std::string_view purpose) const;
+};
+
+/// A record of nothing yet.
+TestRecord record_of(const TestRun& run, TestId test, std::uint64_t samples);
+
+/// Makes an accepting test of the bins (or of all counts, if sequential) inconclusive if it could
+/// not have seen a deviation of this size.
+void require_power(TestRecord& record, double must_detect);
+
+/// What a test found, and what it would find.
+struct Measured {
+  TestRecord record;
+  /// The effect that is found with `power` by a test of size `level`; empty for exact checks.
+  std::function<double(double level, double power, double samples)> minimum_detectable = {};
+};
+
+/// Draws so many samples for a purpose that names their stream; and, of a sampler that can be asked
+/// for them, positions in the rows of the poles, where few samples lie.
+Draws draw_samples_of(const TestRun& run, const Expectation& expectation,
+                      const BoundSampler& sampler, std::string_view purpose, std::uint64_t samples);
+
+/// The tests of drawn samples; their p-values are not judged yet.
+std::vector<Measured> test_draws(const TestRun& run, const Expectation& expectation,
+                                 const Inspection& inspection, const Draws& draws,
+                                 const UniformEstimates& uniform);
+
+/// The sampler that others of the same distribution claim to equal, and the bins of what it drew.
+struct ReferenceDraws {
+  BoundSampler sampler;
+  std::uint64_t samples;
+  Grid<std::uint64_t> bins;
+};
+
+/// It draws a quarter of so many samples.
+ReferenceDraws draw_reference(BoundSampler sampler, const Expectation& expectation,
+                              const RandomStream& stream, std::uint64_t samples);
+
+/// Both drew numbers of their own: are they of one distribution? None for an instance without a
+/// reference implementation.
+std::vector<Measured> test_against_reference(
+    const TestRun& run, const Draws& draws,
+    const std::optional<ReferenceDraws>& reference_implementation);
+
+/// Of all samples drawn: does each lie where it may?
+std::vector<Measured> test_validity(const TestRun& run, const Draws& draws);
+
+/// The checks that need no statistics; `reference_implementation` is null if the test case has
+/// none.
+std::vector<Measured> test_exactly(const TestRun& run, const Expectation& expectation,
+                                   const BoundSampler& sampler, const Inspection& inspection,
+                                   const Draws& draws,
+                                   const BoundSampler* reference_implementation);
+
+}  // namespace lightproof

@@ -1,0 +1,68 @@
+// What the charts share: the look, the scales, the way a series is told apart.
+#pragma once
+
+#include <cmath>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace lightproof {
+
+using Json = nlohmann::ordered_json;
+
+/// The names in order of first appearance, each once.
+std::vector<std::string> unique_names(const std::vector<std::string>& names);
+
+/// How a strategy or sampler is told apart: by colour and by shape.
+struct SeriesStyle {
+  std::string name;
+  std::string colour;  ///< "#rrggbb"
+  std::string shape;   ///< a Vega symbol: "circle", "square", …
+};
+
+/// Styles in order of first appearance; they repeat after eight names.
+std::vector<SeriesStyle> series_styles(const std::vector<std::string>& names);
+
+/// Half the length of an error bar, in standard errors.
+inline constexpr double kBarHalfLength = 2.0;
+
+/// Size, background, fonts and colours; `height` in pixels, the width is the container's.
+Json base_chart(int height);
+
+/// An encoding of the field "series" by colour or shape. Both share one legend, because its title
+/// and domain agree.
+Json series(const std::vector<SeriesStyle>& styles, std::string SeriesStyle::*property,
+            const Json& legend);
+
+/// A quantitative encoding; `scale` is "log" or "linear", neither starts at zero.
+Json quantity(const std::string& field, const std::string& title, const std::string& scale);
+
+/// Labels for a logarithmic axis from `low` to `high`.
+Json log_axis(double low, double high);
+
+/// Values on a logarithmic axis: those that are positive and finite.
+struct LogRange {
+  double low = HUGE_VAL;
+  double high = 0.0;
+  void add(double value);
+};
+
+/// From y, whose field is "low", to the field "high".
+Json error_bars(const Json& y, const Json& colour);
+
+/// Filled symbols.
+Json points(const Json& y, const Json& colour, const Json& shape);
+
+/// One line of a tooltip; a name if `format` (d3) is empty, else a number.
+Json tooltip(const std::string& field, const std::string& title, const std::string& format);
+
+/// Can be shown on a logarithmic axis: positive and finite.
+bool drawable(double value);
+
+/// Five significant digits: finer than a pixel, and short. Null if it is not finite.
+Json rounded(double value);
+
+/// Compact UTF-8 JSON.
+std::string text_of(const Json& chart);
+
+}  // namespace lightproof

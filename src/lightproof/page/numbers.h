@@ -1,0 +1,40 @@
+// Numbers as a reader wants them: three significant digits, no noise, the same everywhere.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "lightproof/core/grid.h"
+
+namespace lightproof {
+
+/// ASCII, shortest form with at most `digits` significant digits: "0.0123", "1230", "1.23e-7".
+/// Whole numbers that fit have no decimals. NaN is "nan", infinities are "inf" and "-inf".
+std::string significant(double value, int digits = 3);
+
+/// As `significant`, for a page: a true minus sign, "×10" is not used.
+std::string format_number(double value, int digits = 3);
+
+/// "−0.498 ± 0.004": the value to the decimals that its standard error allows.
+std::string with_error(double value, double error);
+
+/// "2.1 %" with a space that does not break; two significant digits.
+std::string percent(double fraction);
+
+/// 4194304 as "4,194,304".
+std::string with_thousands(std::uint64_t value);
+
+/// "eight" up to twelve, digits beyond.
+std::string count_word(std::size_t count);
+
+/// "1 map", "2 maps".
+std::string counted(std::size_t count, std::string_view noun);
+
+/// "1.5 MiB", in the largest of B, KiB, MiB and GiB that leaves no 0 before the point.
+std::string bytes_text(double bytes);
+
+/// "1024×512".
+std::string extent_text(Extent extent);
+
+}  // namespace lightproof

@@ -1,0 +1,33 @@
+#include "lightproof/report/report_page.h"
+
+#include "lightproof/page/document.h"
+#include "lightproof/report/findings.h"
+#include "lightproof/report/sections.h"
+
+namespace lightproof {
+namespace {
+
+constexpr std::string_view kNavigation = R"(<nav aria-label="Sections"><ul>
+<li><a href="#overview">Overview</a></li>
+<li><a href="#gate">Gate</a></li>
+<li><a href="#self-test">Trust</a></li>
+<li><a href="#maps">Maps</a></li>
+<li><a href="#convergence">Convergence</a></li>
+<li><a href="#variance">Variance</a></li>
+<li><a href="#throughput">Throughput</a></li>
+<li><a href="#renders">Renders</a></li>
+</ul></nav>
+)";
+
+}  // namespace
+
+std::string report_page(const StudyResult& study) {
+  const std::string body = overview_section(study) + gate_section(study.gate) +
+                           self_test_section(study.self_test) + map_section(study.maps) +
+                           convergence_section(study.convergence) +
+                           variance_section(study.convergence) + throughput_section(study) +
+                           render_section(study.renders);
+  return html_document("Lightproof: " + headline(study), kNavigation, body, study.version);
+}
+
+}  // namespace lightproof

@@ -1,0 +1,14 @@
+// The whole page.
+#pragma once
+
+#include <string>
+
+#include "lightproof/results/study_result.h"
+
+namespace lightproof {
+
+/// One HTML document that needs nothing else: pictures, charts and the code that draws them are
+/// inside, and it opens from a disk without a network.
+std::string report_page(const StudyResult& study);
+
+}  // namespace lightproof

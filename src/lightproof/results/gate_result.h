@@ -1,0 +1,39 @@
+// What a run of the gate found: records of tests, and what was rejected.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lightproof/core/grid.h"
+#include "lightproof/results/test_record.h"
+
+namespace lightproof {
+
+/// A configuration that was rejected, for whoever has to mend it.
+struct Rejection {
+  std::string sampler;
+  std::string density_space;
+  std::string map;
+  std::string looks_like;              ///< the most likely defect, by name
+  std::string diagnosis;               ///< the same in words
+  Grid<double> residual;               ///< (O - E) / sqrt(E) of the 16x32 bins
+  std::vector<double> row_divergence;  ///< of the marginal of rows, cumulative from t = 0
+  /// How sure the name is, in words; empty where nothing is named.
+  std::string confidence = {};
+};
+
+struct GateResult {
+  double family_alpha = 0.0;  ///< probability that a run over correct samplers rejects anything
+  std::uint64_t samples =
+      0;  ///< per configuration; below the screening level tests are run again with four times
+  std::uint64_t seed = 0;
+  std::vector<TestRecord> tests;
+  std::vector<Rejection> rejections = {};
+  std::string input_options = {};  ///< of the command line, with which the maps were read
+  std::uint64_t family = 0;        ///< p-values, or candidates if sequential, that share the error
+  bool sequential = false;
+  double must_detect = kMustDetect;  ///< as asked for
+};
+
+}  // namespace lightproof

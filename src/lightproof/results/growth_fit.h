@@ -1,0 +1,52 @@
+// How the costs of a sampler grow with the map.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightproof/core/grid.h"
+
+namespace lightproof {
+
+/// What one step of a search takes on maps of one size.
+struct StepTime {
+  Extent extent;
+  double ns = 0.0;
+};
+
+/// Of a power law, by least squares on logarithms.
+struct FittedExponent {
+  double value = 0.0;
+  double error = 0.0;  ///< standard error, from the scatter about the distribution
+};
+
+/// Where the time of a step starts to grow in another way.
+struct GrowthBreakpoint {
+  Extent extent;
+  double exponent_after = 0.0;  ///< of ns per step against S + T
+};
+
+/// Of the time of a step: power laws that follow each other, where a single one will not do.
+struct SegmentedGrowth {
+  double exponent_before = 0.0;
+  std::vector<GrowthBreakpoint> breakpoints;  ///< one or two, ascending sizes
+  double p_value = 1.0;  ///< that scatter about one power law seems to bend so clearly
+};
+
+/// How a sampler's costs grow with the map.
+struct GrowthFit {
+  std::string sampler;
+  std::string model;      ///< how many steps one sample takes: "S + T" or "log2 S + log2 T"
+  double exponent = 0.0;  ///< of ns per sample against S + T, by least squares on logs
+  double exponent_error = 0.0;
+  std::vector<StepTime> steps;  ///< ascending sizes; constant if time grows as the model does
+  /// The smallest measured map whose table is larger than the cache; none if all fit, or if the
+  /// size of the cache is not known.
+  std::optional<Extent> leaves_l2 = {};
+  std::optional<Extent> leaves_l3 = {};
+  std::optional<SegmentedGrowth> breakpoints = {};    ///< none if one power law will do
+  std::optional<FittedExponent> build_exponent = {};  ///< of the time to build, against S times T
+};
+
+}  // namespace lightproof

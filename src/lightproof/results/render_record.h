@@ -1,0 +1,27 @@
+// A picture of a scene by one strategy, beside its reference.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "lightproof/core/grid.h"
+#include "lightproof/image/environment_map.h"
+
+namespace lightproof {
+
+/// One picture of a receiver, by one strategy at equal numbers of samples.
+struct RenderRecord {
+  std::string map;
+  std::string receiver;
+  std::string material;
+  std::string strategy;
+  std::uint64_t samples = 0;
+  Grid<Rgb> picture;    ///< row 0 at the top
+  Grid<Rgb> reference;  ///< the same for every strategy
+  Grid<double> error;   ///< signed, over the reference's mean luminance at the receiver
+  double rmse = 0.0;    ///< of `error` at the pixels that show the receiver
+  double seconds = 0.0;
+  std::uint64_t reference_samples = 0;  ///< per pixel of the reference; 0 if it is not sampled
+};
+
+}  // namespace lightproof

@@ -1,0 +1,35 @@
+// Everything that one study found.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightproof/results/convergence_record.h"
+#include "lightproof/results/gate_result.h"
+#include "lightproof/results/growth_fit.h"
+#include "lightproof/results/map_record.h"
+#include "lightproof/results/render_record.h"
+#include "lightproof/results/self_test_result.h"
+#include "lightproof/results/throughput_record.h"
+
+namespace lightproof {
+
+/// Everything that one study found.
+struct StudyResult {
+  std::string version;
+  std::string machine;
+  std::uint64_t seed = 0;
+  std::vector<MapRecord> maps;
+  GateResult gate;
+  std::vector<ConvergenceRecord> convergence;
+  std::vector<ThroughputRecord> throughput;
+  CacheSizes caches;  ///< of the machine that measured the throughput
+  std::vector<GrowthFit> growth;
+  std::vector<TableRecord> tables;
+  std::vector<RenderRecord> renders;
+  std::optional<SelfTestResult> self_test = {};
+};
+
+}  // namespace lightproof

@@ -1,0 +1,48 @@
+// What one test of the gate found, as a plain value.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "lightproof/results/outcome.h"
+#include "lightproof/results/test_id.h"
+
+namespace lightproof {
+
+/// Stands where the map's name would in records of distributions that need no map.
+inline constexpr std::string_view kDirections = "directions";
+
+/// Probability with which the minimum detectable effect of a test is found.
+inline constexpr double kDetectionPower = 0.99;
+
+/// The root mean square deviation of the bins, relative to their expectations, that an accepting
+/// run must have been able to see with kDetectionPower, unless another one is asked for.
+inline constexpr double kMustDetect = 0.1;
+
+/// One test of one configuration.
+struct TestRecord {
+  std::string sampler;
+  std::string density_space;  ///< "A" (p proportional to g) or "B" (g times solid angle)
+  std::string map;
+  TestId test = TestId::bins;
+  std::uint64_t samples = 0;
+  double statistic = 0.0;
+  double dof = 0.0;               ///< 0 where it has no meaning
+  std::optional<double> log10_p;  ///< none for a deterministic check
+  double effect = 0.0;            ///< size of the deviation that was seen
+  std::optional<double>
+      minimum_detectable_effect;  ///< seen with kDetectionPower at this run's alpha
+  Outcome outcome = Outcome::inconclusive;
+  std::string detail;       ///< why, in words; empty if there is nothing to say
+  std::uint64_t seed = 0;   ///< base seed of the samples
+  std::string source = {};  ///< of the map, as it was given; empty: its name
+  int stage = 1;  ///< 2: run again, with more samples, because it looked below the screening level
+  bool known_defect = false;  ///< of a sampler kept as published, to show what the gate finds
+  /// Below this effect the sampler's own rounding shows; for texels and rows of distributions that
+  /// are added up.
+  std::optional<double> resolution_floor = {};
+};
+
+}  // namespace lightproof

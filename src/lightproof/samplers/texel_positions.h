@@ -1,0 +1,128 @@
+// Where in a texel a sample lies, and with what density: the same for every sampler that draws
+// whole texels.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "lightproof/samplers/sampler.h"
+
+namespace lightproof {
+
+/// Fractions inside a cell keep this distance from its edges, so that no rounding moves a point to
+/// the neighbour (up to 2^16 cells) or onto a pole.
+inline constexpr double kCellMargin = 0x1p-34;
+
+/// The coordinate in [0,1) at `fraction` of cell `index`, of which each is `size` wide.
+inline double position_in_cell(int index, double fraction, double size) {
+  return (index + std::clamp(fraction, kCellMargin, 1.0 - kCellMargin)) * size;
+}
+
+/// The same of `count` cells.
+inline double position_in_cell(int index, double fraction, int count) {
+  return position_in_cell(index, fraction, 1.0 / count);
+}
+
+/// Chooses t inside a row so that cos(theta) is uniform: equal solid angles are equally likely.
+/// sin^2 of half the angle from a pole is linear in the share of the row's solid angle; rows are
+/// counted from the nearer pole, where its inverse loses no precision.
+class SolidAngleRows {
+ public:
+  explicit SolidAngleRows(Extent extent);
+
+  /// The t in row `y` below which lies the share `fraction` of the row's solid angle.
+  double place(int y, double fraction) const {
+    const bool upper = 2 * y >= height_;
+    const int row = from_pole(y);
+    const double f = std::clamp(upper ? 1.0 - fraction : fraction, kCellMargin, 1.0 - kCellMargin);
+    const double low = squared_sines_[static_cast<std::size_t>(row)];
+    const double sine = std::sqrt(low + f * spans_[static_cast<std::size_t>(row)]);
+    const double within = 2.0 / kPi * std::asin(std::min(sine, 1.0)) * height_ - row;
+    return position_in_cell(y, upper ? 1.0 - within : within, row_height_);
+  }
+
+  /// Of row `y`, in steradian.
+  double texel_solid_angle(int y) const {
+    return solid_angle_ * spans_[static_cast<std::size_t>(from_pole(y))];
+  }
+
+  /// sin^2 of half the angle from the pole where rows begin, counted from it.
+  std::span<const double> squared_sines() const { return squared_sines_; }
+  /// By how much it is more where they end.
+  std::span<const double> spans() const { return spans_; }
+  /// Steradian of a texel whose row has the span 1.
+  double solid_angle() const { return solid_angle_; }
+  std::size_t bytes() const { return 2 * spans_.size() * sizeof(double); }
+
+ private:
+  int from_pole(int y) const { return 2 * y >= height_ ? height_ - 1 - y : y; }
+
+  int height_;
+  double row_height_;
+  double solid_angle_;
+  std::vector<double> squared_sines_;
+  std::vector<double> spans_;
+};
+
+/// What TexelPositions keeps, for code that works on many samples at once.
+struct TexelPositionsView {
+  Extent extent;
+  DensitySpace density_space;
+  double texel_width;   ///< of the square
+  double texel_height;  ///< likewise
+  double texels;        ///< how many there are
+  double solid_angle;   ///< see SolidAngleRows
+  const double* squared_sines;
+  const double* spans;
+};
+
+/// Uniform in (s, t) inside a texel under density A, in solid angle under B.
+class TexelPositions {
+ public:
+  TexelPositions(Extent extent, DensitySpace density_space);
+
+  Extent extent() const { return extent_; }
+  DensitySpace density_space() const { return density_space_; }
+
+  /// The sample in texel (x, y), which is drawn with probability `mass`, at these shares of its
+  /// width and of its height (under B: of its solid angle), both in [0,1].
+  TexelSample sample(int x, int y, double across, double along, double mass) const {
+    const double t = density_space_ == DensitySpace::texture
+                         ? position_in_cell(y, along, texel_height_)
+                         : solid_angle_rows_.place(y, along);
+    const SquarePoint at = {position_in_cell(x, across, texel_width_), t};
+    return {at, x, y, pdf(y, mass, at)};
+  }
+
+  /// Density over the square at `at`, inside a texel of row y that is drawn with this probability.
+  PerSquare pdf(int y, double mass, SquarePoint at) const {
+    if (density_space_ == DensitySpace::texture) return {mass * texels_};
+    return to_square(PerSteradian{mass / solid_angle_rows_.texel_solid_angle(y)}, at);
+  }
+
+  TexelPositionsView view() const {
+    return {extent_,
+            density_space_,
+            texel_width_,
+            texel_height_,
+            texels_,
+            solid_angle_rows_.solid_angle(),
+            solid_angle_rows_.squared_sines().data(),
+            solid_angle_rows_.spans().data()};
+  }
+
+  std::size_t bytes() const { return solid_angle_rows_.bytes(); }
+
+ private:
+  Extent extent_;
+  DensitySpace density_space_;
+  double texel_width_;
+  double texel_height_;
+  double texels_;
+  SolidAngleRows solid_angle_rows_;  ///< under B only
+};
+
+}  // namespace lightproof

@@ -1,0 +1,23 @@
+// Warps and material samplers with one injected defect each.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "lightproof/gate/direction_sampler.h"
+#include "lightproof/results/test_id.h"
+
+namespace lightproof {
+
+struct DirectionMutant {
+  DirectionSampler sampler;    ///< its description names the defect, its distribution is the claim
+  std::string_view diagnosis;  ///< what the gate should say that it looks like
+  Oracle oracle;               ///< the oracle that must reject it
+};
+
+std::vector<DirectionMutant> direction_mutants();
+
+/// The samplers alone.
+std::vector<DirectionSampler> direction_mutant_samplers();
+
+}  // namespace lightproof

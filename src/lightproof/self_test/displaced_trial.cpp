@@ -1,0 +1,88 @@
+#include "lightproof/self_test/displaced_trial.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lightproof/warp/lat_long.h"
+#include "reference/texel_masses.h"
+
+namespace lightproof {
+
+double effect_on(std::span<const double> declared, std::span<const double> drawn) {
+  double square = 0.0;
+  for (std::size_t i = 0; i < declared.size(); ++i) {
+    square += (drawn[i] - declared[i]) * (drawn[i] - declared[i]) / declared[i];
+  }
+  return std::sqrt(square);
+}
+
+double distance_of_bins(const Grid<double>& declared, const Grid<double>& drawn) {
+  return effect_on(reference::bin_masses(declared, kTrialTarget.density_space, kGateBins).values(),
+                   reference::bin_masses(drawn, kTrialTarget.density_space, kGateBins).values());
+}
+
+double distance_of_texels(const Grid<double>& declared, const Grid<double>& drawn) {
+  return effect_on(declared.values(), drawn.values());
+}
+
+double distance_of_rows(const Grid<double>& declared, const Grid<double>& drawn) {
+  return effect_on(reference::row_marginal(declared), reference::row_marginal(drawn));
+}
+
+double distance_of_columns(const Grid<double>& declared, const Grid<double>& drawn) {
+  return effect_on(reference::column_marginal(declared), reference::column_marginal(drawn));
+}
+
+Trial trial_off_by(double effect, DistributionDistance distance) {
+  const EnvironmentMap map = calibration_map();
+  const Grid<double> declared = reference::texel_masses(map, kTrialTarget);
+  Grid<double> other(declared.extent());
+  for (int y = 0; y < other.extent().height; ++y) {
+    for (int x = 0; x < other.extent().width; ++x) {
+      const double side = 2 * x < other.extent().width ? 4.0 / 3.0 : 2.0 / 3.0;
+      other(x, y) = side * texel_solid_angle(other.extent(), y) / kSphere;
+    }
+  }
+  const double share = effect / distance(declared, other);
+  for (std::size_t i = 0; i < other.values().size(); ++i) {
+    other.values()[i] = (1.0 - share) * declared.values()[i] + share * other.values()[i];
+  }
+  return {map, std::move(other)};
+}
+
+TransformedDistance transformed_distance(std::span<const double> declared,
+                                         std::span<const double> actual) {
+  TransformedDistance distance;
+  double above = 0.0;
+  double below = 0.0;
+  double p = 0.0;
+  double q = 0.0;
+  double square = 0.0;
+  constexpr int kSteps = 1000;  // midpoints in every cell, where both are linear
+  for (std::size_t i = 0; i < declared.size(); ++i) {
+    for (int k = 0; k < kSteps; ++k) {
+      const double share = (k + 0.5) / kSteps;
+      const double u = p + share * declared[i];
+      const double d = q + share * actual[i] - u;
+      square += d * d / (u * (1.0 - u)) * declared[i] / kSteps;
+    }
+    p += declared[i];
+    q += actual[i];
+    above = std::max(above, q - p);
+    below = std::max(below, p - q);
+  }
+  return {above + below, std::sqrt(square)};
+}
+
+double distance_of_phi(const Grid<double>& declared, const Grid<double>& drawn) {
+  return transformed_distance(reference::column_marginal(declared),
+                              reference::column_marginal(drawn))
+      .kuiper;
+}
+
+double distance_of_theta(const Grid<double>& declared, const Grid<double>& drawn) {
+  return transformed_distance(reference::row_marginal(declared), reference::row_marginal(drawn))
+      .anderson;
+}
+
+}  // namespace lightproof

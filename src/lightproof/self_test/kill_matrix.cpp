@@ -1,0 +1,93 @@
+#include "lightproof/self_test/kill_matrix.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "lightproof/cases/adversarial_maps.h"
+#include "lightproof/core/parallel.h"
+#include "lightproof/gate/sequential_gate.h"
+#include "lightproof/self_test/direction_mutant.h"
+#include "lightproof/self_test/mutant.h"
+
+namespace lightproof {
+namespace {
+
+constexpr std::uint64_t kFirst = std::uint64_t{1} << 12U;
+constexpr std::uint64_t kUsual = std::uint64_t{1} << 18U;
+constexpr std::uint64_t kMost = std::uint64_t{1} << 22U;
+
+/// A mutant's test case, and what is expected of the gate.
+struct Case {
+  TestCase test_case;
+  Oracle oracle;
+  std::string_view diagnosis;
+};
+
+std::vector<Case> cases_on(const EnvironmentMap& map) {
+  std::vector<Case> cases;
+  for (const Mutant& mutant : mutants()) {
+    const SamplerUnderTest under_test = sampler_under_test(mutant, DensitySpace::solid_angle);
+    cases.push_back(
+        {test_cases_of({&map, 1}, {&under_test, 1})[0], mutant.oracle, mutant.diagnosis});
+  }
+  for (const DirectionMutant& mutant : direction_mutants()) {
+    cases.push_back({test_cases_of({&mutant.sampler, 1})[0], mutant.oracle, mutant.diagnosis});
+  }
+  return cases;
+}
+
+bool is_killed(const KillRecord& record) {
+  return std::any_of(record.kills.begin(), record.kills.end(), [&](const KillRecord::Kill& kill) {
+    return describe(kill.test).oracle == record.oracle;
+  });
+}
+
+/// Adds the tests that reject for the first time.
+void add_kills(KillRecord& record, const GateResult& result) {
+  for (const TestRecord& test : result.tests) {
+    if (test.outcome != Outcome::reject) continue;
+    const bool known =
+        std::any_of(record.kills.begin(), record.kills.end(),
+                    [&](const KillRecord::Kill& kill) { return kill.test == test.test; });
+    // The second stage comes on top of the first.
+    const std::uint64_t samples = test.samples + (test.stage == 2 ? result.samples : 0);
+    if (!known) record.kills.push_back({test.test, samples});
+  }
+  if (!result.rejections.empty()) record.looks_like = result.rejections[0].looks_like;
+}
+
+KillRecord kill(Case& one, std::uint64_t seed) {
+  one.test_case = made_once(std::move(one.test_case));
+  KillRecord record{one.test_case.instances[0].name, one.oracle, "",
+                    std::string(one.diagnosis),      {},         {}};
+  for (std::uint64_t samples = kFirst; samples <= (is_killed(record) ? kUsual : kMost);
+       samples *= 4) {
+    add_kills(record, run_gate({&one.test_case, 1}, {samples, seed}));
+  }
+  const GateResult sequential = run_sequential_gate({&one.test_case, 1}, {kMost, seed});
+  if (sequential.tests[0].outcome == Outcome::reject) {
+    record.sequential = sequential.tests[0].samples;
+  }
+  return record;
+}
+
+}  // namespace
+
+std::vector<KillRecord> measure_kills(std::uint64_t seed, const Progress& progress) {
+  const EnvironmentMap map = mutant_map();
+  std::vector<Case> cases = cases_on(map);
+  std::vector<KillRecord> records(cases.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  parallel_for(cases.size(), [&](std::size_t i) {
+    records[i] = kill(cases[i], seed);
+    const std::lock_guard lock(mutex);
+    if (progress) {
+      progress("self-test", static_cast<double>(++done) / static_cast<double>(cases.size()));
+    }
+  });
+  return records;
+}
+
+}  // namespace lightproof

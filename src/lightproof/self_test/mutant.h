@@ -1,0 +1,42 @@
+// Samplers with one injected defect each: what the gate must find. `gate --sampler NAME` runs them
+// like any other.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "lightproof/gate/discrete_sampler.h"
+#include "lightproof/gate/sampler_under_test.h"
+#include "lightproof/results/test_id.h"
+
+namespace lightproof {
+
+/// What differs from a correct sampler; null parts are correct.
+struct Mutant {
+  std::string_view name;       ///< "t-flipped-in-sample"
+  std::string_view defect;     ///< what was done, in words
+  std::string_view diagnosis;  ///< what the gate should say that it looks like
+  Oracle oracle;               ///< the oracle that must reject it
+  /// What a map must have for the defect to do harm; empty: nothing that real maps lack.
+  std::string_view needs = {};
+  /// An alternative distribution that is drawn, its density returned; empty: the declared one.
+  std::string_view distribution = {};
+  /// The random numbers that are used in place of the i-th of a batch.
+  SquarePoint (*numbers)(std::span<const SquarePoint> batch, std::size_t i) = nullptr;
+  /// In place of DiscreteSampler::sample.
+  TexelSample (*draw)(const DiscreteSampler&, SquarePoint u) = nullptr;
+  /// Applied to what was drawn.
+  void (*sample)(TexelSample&, const DiscreteSampler&) = nullptr;
+  /// In place of DiscreteSampler::pdf, for the density asked for; returned densities are not
+  /// touched.
+  PerSquare (*pdf)(const DiscreteSampler&, SquarePoint) = nullptr;
+  /// Of all densities, returned and asked for.
+  double (*pdf_factor)(const DiscreteSampler&) = nullptr;
+};
+
+std::span<const Mutant> mutants();
+
+/// Under a density (A or B); declares Rec. 709 luminance.
+SamplerUnderTest sampler_under_test(const Mutant& mutant, DensitySpace density_space);
+
+}  // namespace lightproof

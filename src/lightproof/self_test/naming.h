@@ -1,0 +1,26 @@
+// How often the gate calls an injected defect by its name: on the maps of a study, not on the one
+// that was made for it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lightproof/core/progress.h"
+#include "lightproof/results/map_record.h"
+#include "lightproof/results/self_test_result.h"
+
+namespace lightproof {
+
+struct NamingOptions {
+  std::uint64_t seed = 1;  ///< the first of `seeds` in a row
+  std::uint64_t seeds = 3;
+  std::uint64_t samples = std::uint64_t{1} << 17U;
+};
+
+/// Every mutant of maps under both densities on every map, with every seed; those that the gate
+/// accepts there are in no count: the samples were too few, or the map lacks what the defect needs.
+std::vector<NamingRecord> measure_naming(std::span<const MapRecord> maps,
+                                         const NamingOptions& options,
+                                         const Progress& progress = {});
+
+}  // namespace lightproof

@@ -1,0 +1,284 @@
+#include "lightproof/study/convergence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+
+#include "lightproof/core/moments.h"
+#include "lightproof/core/parallel.h"
+#include "lightproof/render/direct_lighting.h"
+#include "lightproof/render/receiver.h"
+#include "lightproof/stats/power_law.h"
+#include "lightproof/study/exact_light.h"
+
+namespace lightproof {
+namespace {
+
+/// An error whose own standard error is larger than this share of it is not measured: where light
+/// is found by rare hits, most estimates miss it and look better than they are.
+constexpr double kMeasurableError = 0.25;
+
+/// What was measured at one pixel: squared errors summed over replicates, for every N, and the
+/// moments of single estimates.
+struct PixelErrors {
+  std::vector<double> squared;
+  Moments single;
+};
+
+std::vector<std::uint64_t> sample_counts(std::uint64_t most) {
+  std::vector<std::uint64_t> counts;
+  for (std::uint64_t n = 1; n <= most; n *= 4) counts.push_back(n);
+  return counts;
+}
+
+/// Draws estimates at one pixel, one after the other; every number of samples has its own, so that
+/// the points of a convergence line are independent.
+class PixelEstimator {
+ public:
+  PixelEstimator(const Lighting& lighting, const ShadingPoint& point, const RandomStream& stream)
+      : lighting_(&lighting), point_(&point), stream_(stream) {}
+
+  /// The mean of the next `count` luminance estimates.
+  double mean(std::uint64_t count) {
+    double sum = 0.0;
+    for (std::uint64_t done = 0; done < count; done += LightBatch::kCapacity) {
+      const auto part = std::min<std::uint64_t>(count - done, LightBatch::kCapacity);
+      for (const Rgb estimate : batch_.estimate(*lighting_, *point_, stream_, next_, part)) {
+        const double luminance = luminance_of(estimate, lighting_->light->map().weights);
+        sum += luminance;
+        single_.add(luminance);
+      }
+      next_ += part;
+    }
+    return sum / static_cast<double>(count);
+  }
+
+  /// Of all estimates so far.
+  const Moments& single() const { return single_; }
+
+ private:
+  const Lighting* lighting_;
+  const ShadingPoint* point_;
+  RandomStream stream_;
+  LightBatch batch_;
+  std::uint64_t next_ = 0;
+  Moments single_;
+};
+
+PixelErrors measure_pixel(PixelEstimator& estimator, double exact,
+                          std::span<const std::uint64_t> counts, int replicates) {
+  PixelErrors errors{std::vector<double>(counts.size()), {}};
+  for (int replicate = 0; replicate < replicates; ++replicate) {
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      const double error = estimator.mean(counts[i]) - exact;
+      errors.squared[i] += error * error;
+    }
+  }
+  errors.single = estimator.single();
+  return errors;
+}
+
+/// Variance of the squared error of the mean of n estimates: its fourth moment less the square of
+/// its second.
+double squared_error_variance(const reference::EstimatorMoments& exact, double n) {
+  const double v = exact.variance();
+  const double fourth = (exact.fourth_central() + 3.0 * (n - 1.0) * v * v) / (n * n * n);
+  return fourth - v * v / (n * n);
+}
+
+/// One line of the study, with the pixels of its receiver.
+struct Line {
+  const EnvironmentLight* light;
+  const ReceiverInfo* receiver;
+  const Scene* scene;
+  const MaterialInfo* material;
+  StrategyInfo strategy;
+  std::span<const Pixel> pixels;
+  std::vector<reference::EstimatorMoments> exact;
+  int replicates;
+
+  RandomStream stream(std::uint64_t seed) const {
+    return {fmt::format("convergence/{}/{}/{}/{}", light->map().name, receiver->name,
+                        material->name, strategy.name),
+            seed};
+  }
+};
+
+/// Averages over the pixels of what is exact.
+struct ExactAverages {
+  double mean = 0.0;
+  double variance = 0.0;
+};
+
+ExactAverages averages_of(const Line& line) {
+  ExactAverages averages;
+  const double pixels = static_cast<double>(line.exact.size());
+  for (const auto& exact : line.exact) {
+    averages.mean += exact.mean() / pixels;
+    averages.variance += exact.variance() / pixels;
+  }
+  return averages;
+}
+
+std::vector<ConvergencePoint> convergence_points(const Line& line,
+                                                 std::span<const PixelErrors> errors,
+                                                 std::span<const std::uint64_t> counts) {
+  const ExactAverages averages = averages_of(line);
+  const double estimates =
+      static_cast<double>(line.replicates) * static_cast<double>(errors.size());
+  std::vector<ConvergencePoint> points;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double n = static_cast<double>(counts[i]);
+    double squared = 0.0;
+    double variance = 0.0;
+    for (std::size_t pixel = 0; pixel < errors.size(); ++pixel) {
+      squared += errors[pixel].squared[i] / estimates;
+      variance += line.replicates * squared_error_variance(line.exact[pixel], n);
+    }
+    const double predicted = std::sqrt(averages.variance / n);
+    const double mse_error = std::sqrt(std::max(0.0, variance)) / estimates;
+    points.push_back({counts[i], std::sqrt(squared) / averages.mean,
+                      predicted > 0.0 ? 0.5 * mse_error / predicted / averages.mean : 0.0,
+                      predicted / averages.mean});
+  }
+  return points;
+}
+
+void measure_variance(const Line& line, std::span<const PixelErrors> errors,
+                      ConvergenceRecord& record) {
+  const ExactAverages averages = averages_of(line);
+  const double pixels = static_cast<double>(errors.size());
+  double measured = 0.0;
+  double error_squared = 0.0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const auto& exact = line.exact[i];
+    measured += errors[i].single.variance() / pixels;
+    error_squared += (exact.fourth_central() - exact.variance() * exact.variance()) /
+                     static_cast<double>(errors[i].single.count());
+  }
+  const double scale = averages.mean * averages.mean;
+  record.measured_variance = measured / scale;
+  record.predicted_variance = averages.variance / scale;
+  record.variance_ratio_error =
+      std::sqrt(std::max(0.0, error_squared)) / pixels / averages.variance;
+}
+
+ConvergenceRecord record_of(const Line& line, std::span<const PixelErrors> errors,
+                            std::span<const std::uint64_t> counts) {
+  ConvergenceRecord record;
+  record.map = line.light->map().name;
+  record.receiver = line.receiver->name;
+  record.material = line.material->name;
+  record.strategy = line.strategy.name;
+  record.pixels = static_cast<int>(errors.size());
+  record.replicates = line.replicates;
+  record.points = convergence_points(line, errors, counts);
+  measure_variance(line, errors, record);
+  if (record.predicted_variance < kNoVariance) {
+    record.slope = record.slope_error = record.variance_ratio_error =
+        std::numeric_limits<double>::quiet_NaN();
+    return record;
+  }
+  std::vector<PowerLawPoint> measured;
+  for (const ConvergencePoint& point : record.points) {
+    const double error = point.rmse_error / point.predicted;
+    if (!(error > 0.0 && error <= kMeasurableError)) continue;
+    measured.push_back({static_cast<double>(point.samples), point.rmse, error});
+  }
+  if (measured.size() < 3) {
+    record.slope = record.slope_error = std::numeric_limits<double>::quiet_NaN();
+    return record;
+  }
+  const PowerLaw fit = fit_power_law(measured);
+  record.slope = fit.exponent;
+  record.slope_error = fit.exponent_error;
+  return record;
+}
+
+/// A receiver's scene and pixels.
+struct Stage {
+  explicit Stage(const ReceiverInfo& info, Extent picture)
+      : receiver(&info), scene(info.content), pixels(visible_pixels(info, scene, picture)) {}
+  const ReceiverInfo* receiver;
+  Scene scene;
+  std::vector<Pixel> pixels;
+};
+
+std::vector<Line> lines_of(std::span<const EnvironmentLight> lights,
+                           std::span<const Grid<double>> luminances, const Stage& stage,
+                           const MaterialInfo& material, int estimates) {
+  const auto exact =
+      exact_light(luminances, *stage.receiver, stage.scene, material.material, stage.pixels);
+  const int pixels = static_cast<int>(stage.pixels.size());
+  std::vector<Line> lines;
+  for (std::size_t map = 0; map < lights.size(); ++map) {
+    for (const StrategyInfo& strategy : kStrategies) {
+      Line line{&lights[map], stage.receiver, &stage.scene, &material,
+                strategy,     stage.pixels,   {},           (estimates + pixels - 1) / pixels};
+      for (const auto& moments : exact[map]) {
+        line.exact.push_back(moments_of(moments, strategy.strategy));
+      }
+      lines.push_back(std::move(line));
+    }
+  }
+  return lines;
+}
+
+/// Measures all pixels of all lines, in parallel, and sums each line up.
+std::vector<ConvergenceRecord> measure_lines(std::span<const Line> lines,
+                                             const ConvergenceOptions& options,
+                                             const Progress& progress) {
+  const std::vector<std::uint64_t> counts = sample_counts(options.most_samples);
+  std::vector<ConvergenceRecord> records(lines.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  parallel_for(lines.size(), [&](std::size_t i) {
+    const Line& line = lines[i];
+    const Lighting lighting{line.scene, line.light, line.material->material,
+                            line.strategy.strategy};
+    std::vector<PixelErrors> errors(line.pixels.size());
+    parallel_for(errors.size(), [&](std::size_t pixel) {
+      PixelEstimator estimator(lighting, line.pixels[pixel].point,
+                               line.stream(options.seed).substream(pixel));
+      errors[pixel] = measure_pixel(estimator, line.exact[pixel].mean(), counts, line.replicates);
+    });
+    records[i] = record_of(line, errors, counts);
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (progress) {
+      progress("convergence", static_cast<double>(done) / static_cast<double>(lines.size()));
+    }
+  });
+  return records;
+}
+
+}  // namespace
+
+std::vector<ConvergenceRecord> study_convergence(std::span<const EnvironmentLight> lights,
+                                                 const ConvergenceOptions& options,
+                                                 const Progress& progress) {
+  std::vector<Grid<double>> luminances;
+  for (const EnvironmentLight& light : lights) luminances.push_back(luminance_of(light.map()));
+  std::vector<std::unique_ptr<Stage>> stages;
+  for (const ReceiverInfo& receiver : receivers()) {
+    stages.push_back(std::make_unique<Stage>(receiver, options.picture));
+  }
+  const Progress exact = part_of(progress, 0.0, 0.3);
+  const double pairs = static_cast<double>(stages.size() * materials().size());
+  double done = 0.0;
+  std::vector<Line> lines;
+  for (const auto& stage : stages) {
+    for (const MaterialInfo& material : materials()) {
+      if (exact) exact("exact light", done++ / pairs);
+      auto more = lines_of(lights, luminances, *stage, material, options.estimates);
+      std::move(more.begin(), more.end(), std::back_inserter(lines));
+    }
+  }
+  return measure_lines(lines, options, part_of(progress, 0.3, 1.0));
+}
+
+}  // namespace lightproof

@@ -1,0 +1,61 @@
+#include "lightproof/study/exact_light.h"
+
+#include <variant>
+
+#include "lightproof/core/parallel.h"
+
+namespace lightproof {
+
+reference::Kernel kernel_at(const ReceiverInfo& receiver, const Scene& scene,
+                            const Material& material, const ShadingPoint& point) {
+  return {[&scene, material, point](Direction light) {
+            return std::visit(
+                [&](const auto& surface) -> reference::KernelValue {
+                  const Scattering at = surface.evaluate(point, light);
+                  if (at.reflected_cosine <= 0.0) return {};
+                  if (!scene.is_visible(point.position, light)) return {};
+                  return {at.reflected_cosine, at.pdf.value};
+                },
+                material);
+          },
+          [&receiver, point](Direction light, double angle) {
+            return straddles_edge(receiver, point, light, angle);
+          }};
+}
+
+std::vector<std::vector<reference::LightMoments>> exact_light(
+    std::span<const Grid<double>> luminances, const ReceiverInfo& receiver, const Scene& scene,
+    const Material& material, std::span<const Pixel> pixels) {
+  std::vector<std::vector<reference::LightMoments>> moments(
+      luminances.size(), std::vector<reference::LightMoments>(pixels.size()));
+  parallel_for(pixels.size(), [&](std::size_t pixel) {
+    const auto kernel = kernel_at(receiver, scene, material, pixels[pixel].point);
+    // The kernel is the costly part: maps of one size that follow each other share it.
+    for (std::size_t first = 0; first < luminances.size();) {
+      std::size_t end = first + 1;
+      while (end < luminances.size() && luminances[end].extent() == luminances[first].extent())
+        ++end;
+      const auto group = reference::light_moments(kernel, luminances.subspan(first, end - first));
+      for (std::size_t map = first; map < end; ++map) moments[map][pixel] = group[map - first];
+      first = end;
+    }
+  });
+  return moments;
+}
+
+const reference::EstimatorMoments& moments_of(const reference::LightMoments& moments,
+                                              Strategy strategy) {
+  switch (strategy) {
+    case Strategy::uniform:
+      return moments.uniform;
+    case Strategy::material:
+      return moments.material;
+    case Strategy::environment_a:
+      return moments.environment_a;
+    case Strategy::environment_b:
+      break;
+  }
+  return moments.environment_b;
+}
+
+}  // namespace lightproof

@@ -1,0 +1,27 @@
+// The exact light at the pixels of a receiver, for every strategy: what renders are held against.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lightproof/core/progress.h"
+#include "lightproof/materials/material.h"
+#include "lightproof/render/receiver.h"
+#include "lightproof/render/strategy.h"
+#include "reference/estimator_moments.h"
+
+namespace lightproof {
+
+/// f_r (n·l)+ V at a point, with the material's own pdf, for quadrature.
+reference::Kernel kernel_at(const ReceiverInfo& receiver, const Scene& scene,
+                            const Material& material, const ShadingPoint& point);
+
+/// moments[map][pixel] of the luminance estimators; maps may differ in size.
+std::vector<std::vector<reference::LightMoments>> exact_light(
+    std::span<const Grid<double>> luminances, const ReceiverInfo& receiver, const Scene& scene,
+    const Material& material, std::span<const Pixel> pixels);
+
+const reference::EstimatorMoments& moments_of(const reference::LightMoments& moments,
+                                              Strategy strategy);
+
+}  // namespace lightproof

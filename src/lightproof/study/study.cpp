@@ -1,0 +1,68 @@
+#include "lightproof/study/study.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "lightproof/core/machine.h"
+#include "lightproof/core/random.h"
+#include "lightproof/gate/direction_sampler.h"
+#include "lightproof/image/map_figures.h"
+#include "lightproof/samplers/binary_search.h"
+#include "lightproof/study/growth.h"
+
+namespace lightproof {
+namespace {
+
+constexpr std::uint64_t kDrawnPoints = 400;
+
+}  // namespace
+
+MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed) {
+  MapRecord record;
+  record.map = map;
+  record.source = map.name;
+  const MapFigures figures = figures_of(map);
+  record.mean_luminance = figures.mean_luminance;
+  record.peak_ratio = figures.peak_luminance / figures.mean_luminance;
+  record.effective_fraction = figures.effective_fraction;
+  const BinarySearch sampler(map, on_map({DensitySpace::solid_angle}, map));
+  const RandomStream stream("drawn/" + map.name, seed);
+  for (std::uint64_t i = 0; i < kDrawnPoints; ++i) {
+    record.drawn.push_back(sampler.sample(stream.point(i)).at);
+  }
+  return record;
+}
+
+void set_throughput(StudyResult& study, Throughput measured) {
+  study.throughput = std::move(measured.samplers);
+  study.tables = std::move(measured.tables);
+  study.caches = measured.caches;
+  study.growth = growth_of(study.throughput, study.caches);
+}
+
+StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& options,
+                      const Progress& progress) {
+  StudyResult result;
+  result.version = LIGHTPROOF_VERSION;
+  result.machine = machine_name();
+  result.seed = options.gate.seed;
+  // Speed first, while nothing else has warmed or filled the machine.
+  // Shares of the time that each part takes on eight maps.
+  const double gate_start = options.benchmarks ? 0.1 : 0.0;
+  if (options.benchmarks) {
+    if (progress) progress("throughput", 0.0);
+    set_throughput(result, measure_throughput(*options.benchmarks, options.largest_width));
+  }
+  for (const EnvironmentMap& map : maps) {
+    result.maps.push_back(describe_map(map, options.gate.seed));
+  }
+  result.gate = run_gate(test_cases_of(maps, all_samplers_under_test(), direction_samplers()),
+                         options.gate, part_of(progress, gate_start, 0.5));
+  const std::vector<EnvironmentLight> lights(maps.begin(), maps.end());
+  result.convergence = study_convergence(lights, options.convergence, part_of(progress, 0.5, 0.93));
+  result.renders = study_renders(lights, options.renders, part_of(progress, 0.93, 1.0));
+  return result;
+}
+
+}  // namespace lightproof

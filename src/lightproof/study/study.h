@@ -1,0 +1,34 @@
+// The main job: everything Lightproof can say about a set of maps.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "lightproof/gate/gate.h"
+#include "lightproof/results/study_result.h"
+#include "lightproof/study/convergence.h"
+#include "lightproof/study/renders.h"
+#include "lightproof/study/throughput.h"
+
+namespace lightproof {
+
+struct StudyOptions {
+  GateOptions gate;
+  ConvergenceOptions convergence;
+  RenderOptions renders;
+  /// The benchmark program; without it the throughput is left out.
+  std::optional<std::filesystem::path> benchmarks;
+  std::uint64_t largest_width = 8192;  ///< of the maps that the throughput is measured on
+};
+
+/// A map's figures and some hundred points that binary_search draws from it.
+MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed);
+
+/// Puts what was measured into the study, and how it grows.
+void set_throughput(StudyResult& study, Throughput measured);
+
+StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& options,
+                      const Progress& progress = {});
+
+}  // namespace lightproof

@@ -1,0 +1,181 @@
+#include "lightproof/study/throughput.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "lightproof/core/child_process.h"
+#include "lightproof/core/error.h"
+#include "lightproof/core/temporary_folder.h"
+#include "lightproof/stats/median.h"
+
+namespace lightproof {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uint64_t kSmallestWidth = 256;
+/// Where bytes and errors of tables are compared.
+constexpr std::string_view kTableSize = "2048x1024";
+
+/// The repetitions of one benchmark.
+struct Group {
+  std::string name;
+  std::vector<nlohmann::json> runs;
+};
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t at = text.find(separator); at != std::string_view::npos;
+       at = text.find(separator)) {
+    parts.emplace_back(text.substr(0, at));
+    text.remove_prefix(at + 1);
+  }
+  parts.emplace_back(text);
+  return parts;
+}
+
+bool is_digits(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+int side_of(const std::string& digits) {
+  int side = 0;
+  const char* end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, side);
+  if (error != std::errc() || stop != end || side < 1) {
+    throw InputError(fmt::format("{} is no size of a map", digits));
+  }
+  return side;
+}
+
+/// The parts of sample/<sampler>/<map>/<W>x<H>/<order>.
+struct SampleName {
+  std::string sampler;
+  std::string map;
+  Extent extent;
+  std::string order;
+};
+
+/// Nothing for benchmarks of other things.
+std::optional<SampleName> sample_name(const std::string& name) {
+  const std::vector<std::string> parts = split(name, '/');
+  if (parts.size() != 5 || parts[0] != "sample") return std::nullopt;
+  const std::vector<std::string> sides = split(parts[3], 'x');
+  if (sides.size() != 2 || !is_digits(sides[0]) || !is_digits(sides[1])) return std::nullopt;
+  return SampleName{parts[1], parts[2], {side_of(sides[0]), side_of(sides[1])}, parts[4]};
+}
+
+double median_of(const std::vector<nlohmann::json>& runs, const char* counter) {
+  std::vector<double> values;
+  for (const auto& run : runs) values.push_back(run.at(counter).get<double>());
+  return median(std::move(values));
+}
+
+ThroughputRecord summarise(const SampleName& name, const std::vector<nlohmann::json>& runs) {
+  std::vector<double> times;
+  for (const auto& run : runs) times.push_back(run.at("ns_per_sample").get<double>());
+  const auto [low, high] = std::minmax_element(times.begin(), times.end());
+  return {name.sampler,
+          name.map,
+          name.extent,
+          median(times),
+          *low,
+          *high,
+          runs.front().at("table_bytes").get<double>(),
+          runs.front().at("build_ms").get<double>()};
+}
+
+TableRecord table_of(const SampleName& name, const std::vector<nlohmann::json>& runs) {
+  const bool has_ratios = runs.front().contains("times_baseline");
+  return {name.sampler,
+          name.map,
+          name.extent,
+          median_of(runs, "ns_per_sample"),
+          median_of(runs, "bytes_per_texel"),
+          median_of(runs, "worst_texel_error"),
+          has_ratios ? median_of(runs, "times_baseline") : 0.0,
+          has_ratios ? median_of(runs, "share_of_limit") : 0.0};
+}
+
+/// Throws InputError for a benchmark that reports an error: a sampler that fails its check must
+/// not drop out silently.
+std::vector<Group> groups_of(const nlohmann::json& document) {
+  std::vector<Group> groups;
+  for (const auto& run : document.at("benchmarks")) {
+    if (run.value("run_type", "") != "iteration") continue;
+    const std::string name = run.at("run_name");
+    if (run.value("error_occurred", false)) {
+      throw InputError(fmt::format("{} failed: {}", name, run.value("error_message", "no reason")));
+    }
+    if (groups.empty() || groups.back().name != name) groups.push_back({name, {}});
+    groups.back().runs.push_back(run);
+  }
+  return groups;
+}
+
+/// Bytes of the data or unified cache of this level.
+std::optional<double> cache_size(const nlohmann::json& context, int level) {
+  for (const auto& cache : context.value("caches", nlohmann::json::array())) {
+    if (cache.at("level") != level || cache.at("type") == "Instruction") continue;
+    const auto size = cache.at("size").get<double>();
+    if (size > 0.0) return size;
+  }
+  return std::nullopt;
+}
+
+Throughput records_of(const nlohmann::json& document) {
+  Throughput records;
+  for (const auto& [text, runs] : groups_of(document)) {
+    const std::optional<SampleName> name = sample_name(text);
+    if (!name) continue;
+    if (name->order == "random") {
+      records.samplers.push_back(summarise(*name, runs));
+    } else if (name->order == "fused" && runs.front().contains("worst_texel_error")) {
+      records.tables.push_back(table_of(*name, runs));
+    }
+  }
+  if (records.samplers.empty()) throw InputError("no benchmark is called sample/…/random");
+  const nlohmann::json context = document.value("context", nlohmann::json::object());
+  records.caches = {cache_size(context, 2), cache_size(context, 3)};
+  return records;
+}
+
+}  // namespace
+
+std::string throughput_filter(std::uint64_t largest_width) {
+  std::vector<std::uint64_t> widths;
+  for (std::uint64_t width = kSmallestWidth; width <= largest_width; width *= 2) {
+    widths.push_back(width);
+    if (width / 2 * 3 <= largest_width) widths.push_back(width / 2 * 3);
+  }
+  return fmt::format("^sample/[^/]*/[^/]*/(({})x[0-9]*/random|{}/fused)$", fmt::join(widths, "|"),
+                     kTableSize);
+}
+
+Throughput measure_throughput(const fs::path& program, std::uint64_t largest_width) {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "throughput.json";
+  run_child(program, {"--benchmark_filter=" + throughput_filter(largest_width),
+                      "--benchmark_out=" + file.string(), "--benchmark_out_format=json",
+                      "--benchmark_repetitions=3", "--benchmark_min_time=0.1"});
+  return read_throughput(file);
+}
+
+Throughput read_throughput(const fs::path& file) {
+  std::ifstream in(file);
+  if (!in) throw InputError(fmt::format("{}: cannot be read", file.string()));
+  try {
+    return records_of(nlohmann::json::parse(in));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: not a result of Google Benchmark (--benchmark_out): {}",
+                                 file.string(), error.what()));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace lightproof

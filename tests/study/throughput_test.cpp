@@ -1,0 +1,154 @@
+#include "lightproof/study/throughput.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "lightproof/core/error.h"
+
+namespace lightproof {
+namespace {
+
+class ThroughputFile : public testing::Test {
+ protected:
+  void TearDown() override { std::filesystem::remove(file_); }
+  void write(std::string_view text) { std::ofstream(file_) << text; }
+
+  std::filesystem::path file_ =
+      std::filesystem::temp_directory_path() /
+      ("lightproof-throughput-" +
+       std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".json");
+};
+
+std::string run(std::string_view name, double ns) {
+  return "{\"name\":\"" + std::string(name) + "\",\"run_name\":\"" + std::string(name) +
+         "\",\"run_type\":\"iteration\",\"ns_per_sample\":" + std::to_string(ns) +
+         ",\"table_bytes\":100,\"build_ms\":2.5}";
+}
+
+TEST_F(ThroughputFile, MedianAndRangeOfRepetitions) {
+  const std::string name = "sample/binary_search/sun-sky/512x256/random";
+  write("{\"benchmarks\":[" + run(name, 30) + "," + run(name, 50) + "," + run(name, 35) + "]}");
+  const auto records = read_throughput(file_).samplers;
+  ASSERT_EQ(records.size(), 1U);
+  EXPECT_EQ(records[0].sampler, "binary_search");
+  EXPECT_EQ(records[0].map, "sun-sky");
+  EXPECT_EQ(records[0].extent, (Extent{512, 256}));
+  EXPECT_EQ(records[0].ns_per_sample, 35.0);
+  EXPECT_EQ(records[0].ns_low, 30.0);
+  EXPECT_EQ(records[0].ns_high, 50.0);
+  EXPECT_EQ(records[0].table_bytes, 100.0);
+  EXPECT_EQ(records[0].build_ms, 2.5);
+}
+
+TEST_F(ThroughputFile, TablesAreTheFusedRowsThatKnowTheirError) {
+  const std::string counters =
+      ",\"bytes_per_texel\":8,\"worst_texel_error\":0.25,\"times_baseline\":30,"
+      "\"share_of_limit\":0.5}";
+  std::string fused = run("sample/alias/sun-sky/512x256/fused", 4);
+  fused.replace(fused.size() - 1, 1, counters);
+  write("{\"benchmarks\":[" + run("sample/a/b/4x2/random", 9) + "," + fused + "," +
+        run("sample/bare_gather_2B/sun-sky/512x256/fused", 2) + "]}");
+  const auto tables = read_throughput(file_).tables;
+  ASSERT_EQ(tables.size(), 1U);
+  EXPECT_EQ(tables[0].sampler, "alias");
+  EXPECT_EQ(tables[0].extent, (Extent{512, 256}));
+  EXPECT_EQ(tables[0].ns_per_sample, 4.0);
+  EXPECT_EQ(tables[0].bytes_per_texel, 8.0);
+  EXPECT_EQ(tables[0].worst_texel_error, 0.25);
+  EXPECT_EQ(tables[0].times_baseline, 30.0);
+  EXPECT_EQ(tables[0].share_of_limit, 0.5);
+}
+
+TEST_F(ThroughputFile, OtherBenchmarksAndAggregatesAreLeftOut) {
+  write("{\"benchmarks\":[" + run("render/uniform/lambert/64x32/plane", 9) + "," +
+        run("sample/a/b/4x2/random", 9) +
+        ",{\"run_name\":\"sample/a/b/2x1/random\",\"run_type\":\"aggregate\"}]}");
+  const auto records = read_throughput(file_).samplers;
+  ASSERT_EQ(records.size(), 1U);
+  EXPECT_EQ(records[0].extent, (Extent{4, 2}));
+}
+
+TEST_F(ThroughputFile, ABenchmarkThatFailedIsNotLeftOutSilently) {
+  write("{\"benchmarks\":[" + run("sample/a/b/4x2/random", 9) +
+        ",{\"run_name\":\"sample/wrong/b/4x2/random\",\"run_type\":\"iteration\","
+        "\"error_occurred\":true,\"error_message\":\"texel (1, 2)\"}]}");
+  try {
+    read_throughput(file_);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("sample/wrong/b/4x2/random"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("texel (1, 2)"));
+  }
+}
+
+TEST_F(ThroughputFile, WhatIsNotGoogleBenchmarksIsRefusedByName) {
+  const std::string huge = "{\"benchmarks\":[" + run("sample/a/b/99999999999x1/random", 9) + "]}";
+  for (const std::string_view text :
+       {std::string_view(""), std::string_view("not json"), std::string_view("[]"),
+        std::string_view("{\"benchmarks\":[]}"),
+        std::string_view("{\"benchmarks\":[{\"run_type\":3}]}"), std::string_view(huge)}) {
+    write(text);
+    try {
+      read_throughput(file_);
+      ADD_FAILURE() << "accepted: " << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(file_.string()), std::string::npos);
+    }
+  }
+  EXPECT_THROW(read_throughput("/no/such/file.json"), InputError);
+}
+
+TEST(MeasureThroughput, AProgramThatCannotRunIsNamed) {
+  EXPECT_THROW(measure_throughput("/no/such/program", 512), InputError);
+  EXPECT_THROW(measure_throughput("/bin/false", 512), InputError);
+}
+
+TEST(ThroughputFilter, ChoosesSingleSamplesUpToAWidthAndTheTablesOfOneSize) {
+  const std::string filter = throughput_filter(1024);
+  for (const char* name :
+       {"sample/alias/sun-sky/256x128/random", "sample/alias/sun-sky/384x192/random",
+        "sample/alias/sun-sky/768x384/random", "sample/alias/sun-sky/1024x512/random",
+        "sample/alias/sun-sky/2048x1024/fused", "sample/bare_gather_2B/sun-sky/2048x1024/fused"}) {
+    EXPECT_THAT(name, testing::MatchesRegex(filter));
+  }
+  for (const char* name :
+       {"sample/alias/sun-sky/1536x768/random", "sample/alias/sun-sky/2048x1024/random",
+        "sample/alias/sun-sky/1024x512/fused", "sample/alias/sun-sky/1024x512/batch",
+        "build/alias/sun-sky/256x128/random", "sample/alias/sun-sky/2560x128/random"}) {
+    EXPECT_THAT(name, testing::Not(testing::MatchesRegex(filter)));
+  }
+  EXPECT_THAT("sample/alias/sun-sky/16384x8192/random",
+              testing::MatchesRegex(throughput_filter(16384)));
+}
+
+TEST_F(ThroughputFile, NamesOfOtherShapesAreLeftOut) {
+  std::string runs = run("sample/a/b/4x2/random", 9);
+  for (const char* name : {"sample/a/b/4x2/random/extra", "sample/a/b/4x2", "sample/a/b/4/random",
+                           "sample/a/b/4x2x1/random", "sample/a/b/x2/random",
+                           "sample/a/b/-4x2/random", "sample/a/b/4x2/batch"}) {
+    runs += ',';
+    runs += run(name, 1);
+  }
+  write("{\"benchmarks\":[" + runs + "]}");
+  EXPECT_EQ(read_throughput(file_).samplers.size(), 1U);
+}
+
+TEST_F(ThroughputFile, CachesAreThoseOfTheMachineThatMeasured) {
+  const std::string benchmarks = "\"benchmarks\":[" + run("sample/a/b/4x2/random", 9) + "]}";
+  write(
+      "{\"context\":{\"caches\":[{\"type\":\"Data\",\"level\":1,\"size\":49152},"
+      "{\"type\":\"Instruction\",\"level\":2,\"size\":5},"
+      "{\"type\":\"Unified\",\"level\":2,\"size\":1048576}]}," +
+      benchmarks);
+  const CacheSizes caches = read_throughput(file_).caches;
+  EXPECT_EQ(caches.l2, 1048576.0);
+  EXPECT_EQ(caches.l3, std::nullopt);
+  write('{' + benchmarks);
+  EXPECT_EQ(read_throughput(file_).caches.l2, std::nullopt);
+}
+
+}  // namespace
+}  // namespace lightproof
