@@ -1,8 +1,8 @@
-// Where the render time goes: render/<strategy>/<material>/<W>x<H>/sphere-on-plane.
+// Where the render time goes: render/<estimator>/<material>/<W>x<H>/sphere-on-plane.
 //
 // The four phases of a batch are timed apart; beside them, bare Embree occlusion calls on the very
 // same rays. Counters: shares of the time in percent, rays per second. Drawing from the material
-// includes f_r cos and pdf of the direction drawn; every other strategy evaluates the material in
+// includes f_r cos and pdf of the direction drawn; every other source evaluates the material in
 // the rest.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -27,7 +27,6 @@ constexpr Extent kPicture = {64, 48};
 
 struct Stage {
   EnvironmentMap map = make_synthetic_map("sun-sky", kMapExtent);
-  EnvironmentLight light{map};
   const ReceiverInfo& receiver = receiver_by_name("sphere-on-plane");
   Scene scene{receiver.content};
   std::vector<Pixel> pixels = visible_pixels(receiver, scene, kPicture);
@@ -78,10 +77,22 @@ glm::dvec3 run_batch(LightBatch& batch, std::vector<ShadowRay>& copy, const Ligh
   return sum;
 }
 
-void render_benchmark(benchmark::State& state, const StrategyInfo& strategy,
+/// A source, by the name of the estimator that draws from it.
+struct NamedSource {
+  std::string_view name;
+  DirectionSource source;
+};
+const std::array<NamedSource, 4> kSources = {
+    {{"uniform", UniformSphere{}},
+     {"brdf", MaterialLobes{}},
+     {"environment_A", MapDensity{DensitySpace::texture}},
+     {"environment_B", MapDensity{DensitySpace::solid_angle}}}};
+
+void render_benchmark(benchmark::State& state, const NamedSource& named,
                       const MaterialInfo& material) {
   const Stage& set = stage();
-  const Lighting lighting{&set.scene, &set.light, material.material, strategy.strategy};
+  const EnvironmentLight light(set.map, named.source);
+  const Lighting lighting{&set.scene, &light, material.material};
   const RandomStream stream("bench/render", 1);
   auto batch = std::make_unique<LightBatch>();
   std::vector<ShadowRay> copy;
@@ -107,13 +118,11 @@ void render_benchmark(benchmark::State& state, const StrategyInfo& strategy,
 
 void register_render_benchmarks() {
   for (const MaterialInfo& material : materials()) {
-    for (const StrategyInfo& strategy : kStrategies) {
-      std::string name(strategy.name);
-      std::replace(name.begin(), name.end(), ' ', '_');
-      name = fmt::format("render/{}/{}/{}x{}/sphere-on-plane", name, material.name,
-                         kMapExtent.width, kMapExtent.height);
-      benchmark::RegisterBenchmark(name.c_str(), [&strategy, &material](benchmark::State& state) {
-        render_benchmark(state, strategy, material);
+    for (const NamedSource& named : kSources) {
+      const std::string name = fmt::format("render/{}/{}/{}x{}/sphere-on-plane", named.name,
+                                           material.name, kMapExtent.width, kMapExtent.height);
+      benchmark::RegisterBenchmark(name.c_str(), [&named, &material](benchmark::State& state) {
+        render_benchmark(state, named, material);
       });
     }
   }

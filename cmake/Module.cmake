@@ -3,8 +3,12 @@ add_library(lightproof_settings INTERFACE)
 target_compile_features(lightproof_settings INTERFACE cxx_std_20)
 target_compile_options(lightproof_settings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
-  -Wold-style-cast -Wdouble-promotion -Werror
-  -Wno-restrict  # false alarms of GCC 12 in std::string (GCC bug 105651)
+  -Wold-style-cast
+  # Clang counts the float INFINITY of <cmath> as a promotion.
+  $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion>
+  $<$<BOOL:${LIGHTPROOF_WERROR}>:-Werror>
+  # False alarms of GCC 12 in std::string (GCC bug 105651).
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   -ffp-contract=off
   -fno-math-errno -fno-trapping-math  # change no value, but allow vectors
   $<$<BOOL:${LIGHTPROOF_NATIVE}>:-march=native>)
@@ -19,14 +23,27 @@ target_compile_options(lightproof_glue INTERFACE $<$<CONFIG:Release>:-O1>)
 add_library(lightproof_vectors INTERFACE)
 target_compile_definitions(lightproof_vectors INTERFACE HWY_DISABLED_TARGETS=HWY_SSSE3)
 
+# What only the build of a folder needs: nothing of it is left in what is installed.
+set(lightproof_build_only
+  lightproof_settings lightproof_glue lightproof_vectors Boost::headers nlohmann_json::nlohmann_json)
+
 # lightproof_module(NAME SOURCES … [PUBLIC targets …] [PRIVATE targets …])
 function(lightproof_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(private "")
+  foreach(target lightproof_settings ${ARG_PRIVATE})
+    if(target IN_LIST lightproof_build_only)
+      set(target $<BUILD_INTERFACE:${target}>)
+    endif()
+    list(APPEND private ${target})
+  endforeach()
   add_library(lightproof_${name} STATIC ${ARG_SOURCES})
   add_library(lightproof::${name} ALIAS lightproof_${name})
+  set_target_properties(lightproof_${name} PROPERTIES EXPORT_NAME ${name})
   target_compile_features(lightproof_${name} PUBLIC cxx_std_20)
   target_include_directories(lightproof_${name} PUBLIC
-    ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
-  target_link_libraries(lightproof_${name}
-    PUBLIC ${ARG_PUBLIC} PRIVATE lightproof_settings ${ARG_PRIVATE})
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:include> $<INSTALL_INTERFACE:include/lightproof>)
+  target_link_libraries(lightproof_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${private})
+  set_property(GLOBAL APPEND PROPERTY LIGHTPROOF_MODULES lightproof_${name})
 endfunction()

@@ -106,15 +106,15 @@ class CellMoments {
     const double radiance = cell.at(node.at.s * width - cell.i, node.at.t * height - cell.j);
     const double light = radiance * k * node.solid_angle;
     const double over_pdf = pdf > 0.0 ? k / pdf : 0.0;
-    add(moments.uniform, light, kSphere * radiance * k);
-    add(moments.material, light, radiance * over_pdf);
-    add(moments.environment_a, light, a_ * k * node.sin_theta);
-    add(moments.environment_b, light, b_ * k);
+    add(moments[SampledDensity::uniform], light, kSphere * radiance * k);
+    add(moments[SampledDensity::material], light, radiance * over_pdf);
+    add(moments[SampledDensity::texture_space], light, a_ * k * node.sin_theta);
+    add(moments[SampledDensity::solid_angle], light, b_ * k);
     // Bilinear functions are largest at a corner.
-    raise(moments.uniform, kSphere * cell.brightest() * k);
-    raise(moments.material, cell.brightest() * over_pdf);
-    raise(moments.environment_a, a_ * k * node.sin_theta);
-    raise(moments.environment_b, b_ * k);
+    raise(moments[SampledDensity::uniform], kSphere * cell.brightest() * k);
+    raise(moments[SampledDensity::material], cell.brightest() * over_pdf);
+    raise(moments[SampledDensity::texture_space], a_ * k * node.sin_theta);
+    raise(moments[SampledDensity::solid_angle], b_ * k);
   }
 
   const Kernel* kernel_;
@@ -201,12 +201,7 @@ LightMoments bilinear_light_moments(const Kernel& kernel, const Grid<double>& ra
   std::vector<LightMoments> rows(static_cast<std::size_t>(cells.height));
   parallel_for(rows.size(), [&](std::size_t j) { moments.add_row(rows[j], static_cast<int>(j)); });
   LightMoments sum;
-  for (const LightMoments& row : rows) {
-    merge(sum.uniform, row.uniform);
-    merge(sum.material, row.material);
-    merge(sum.environment_a, row.environment_a);
-    merge(sum.environment_b, row.environment_b);
-  }
+  for (const LightMoments& row : rows) sum.merge(row);
   return sum;
 }
 

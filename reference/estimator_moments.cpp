@@ -78,21 +78,21 @@ void accumulate(LightMoments& moments, double radiance, const Totals& totals,
                 const TexelIntegrals& texel) {
   const double a = 2.0 * kPi * kPi * totals.mean;
   const auto raise = [](EstimatorMoments& m, double x) { m.largest = std::max(m.largest, x); };
-  raise(moments.uniform, kSphere * radiance * texel.largest);
-  raise(moments.material, radiance * texel.largest_ratio);
+  raise(moments[SampledDensity::uniform], kSphere * radiance * texel.largest);
+  raise(moments[SampledDensity::material], radiance * texel.largest_ratio);
   if (radiance > 0.0) {
-    raise(moments.environment_a, a * texel.largest_sine);
-    raise(moments.environment_b, totals.solid_angle_sum * texel.largest);
+    raise(moments[SampledDensity::texture_space], a * texel.largest_sine);
+    raise(moments[SampledDensity::solid_angle], totals.solid_angle_sum * texel.largest);
   }
   double uniform = radiance;
   double material = radiance;
   double environment_a = radiance;
   double environment_b = radiance;
   for (std::size_t m = 0; m < texel.plain.size(); ++m) {
-    moments.uniform.raw[m] += uniform * texel.plain[m];
-    moments.material.raw[m] += material * texel.material[m];
-    moments.environment_a.raw[m] += environment_a * texel.sine[m];
-    moments.environment_b.raw[m] += environment_b * texel.plain[m];
+    moments[SampledDensity::uniform].raw[m] += uniform * texel.plain[m];
+    moments[SampledDensity::material].raw[m] += material * texel.material[m];
+    moments[SampledDensity::texture_space].raw[m] += environment_a * texel.sine[m];
+    moments[SampledDensity::solid_angle].raw[m] += environment_b * texel.plain[m];
     uniform *= kSphere * radiance;
     material *= radiance;
     environment_a *= a;
@@ -100,12 +100,14 @@ void accumulate(LightMoments& moments, double radiance, const Totals& totals,
   }
 }
 
-void merge(EstimatorMoments& into, const EstimatorMoments& from) {
-  for (std::size_t m = 0; m < into.raw.size(); ++m) into.raw[m] += from.raw[m];
-  into.largest = std::max(into.largest, from.largest);
-}
-
 }  // namespace
+
+void LightMoments::merge(const LightMoments& other) {
+  for (std::size_t i = 0; i < of_.size(); ++i) {
+    for (std::size_t m = 0; m < of_[i].raw.size(); ++m) of_[i].raw[m] += other.of_[i].raw[m];
+    of_[i].largest = std::max(of_[i].largest, other.of_[i].largest);
+  }
+}
 
 double EstimatorMoments::variance() const { return std::max(0.0, raw[1] - raw[0] * raw[0]); }
 
@@ -156,10 +158,7 @@ std::vector<LightMoments> light_moments(const Kernel& kernel,
   std::vector<LightMoments> sums(radiance.size());
   for (const auto& row : rows) {
     for (std::size_t map = 0; map < radiance.size(); ++map) {
-      merge(sums[map].uniform, row[map].uniform);
-      merge(sums[map].material, row[map].material);
-      merge(sums[map].environment_a, row[map].environment_a);
-      merge(sums[map].environment_b, row[map].environment_b);
+      sums[map].merge(row[map]);
     }
   }
   return sums;

@@ -39,12 +39,29 @@ struct EstimatorMoments {
   double fourth_central() const;
 };
 
-/// The estimators of all strategies over one map.
-struct LightMoments {
-  EstimatorMoments uniform;        ///< p = 1 / 4 pi
-  EstimatorMoments material;       ///< p = KernelValue::pdf
-  EstimatorMoments environment_a;  ///< p(s,t) proportional to L
-  EstimatorMoments environment_b;  ///< p(omega) proportional to L
+/// A density p(omega) whose one-sample estimator X = L k / p has known moments.
+enum class SampledDensity {
+  uniform,        ///< 1 / 4 pi
+  material,       ///< KernelValue::pdf
+  texture_space,  ///< p(s,t) proportional to L
+  solid_angle,    ///< p(omega) proportional to L
+};
+inline constexpr std::size_t kSampledDensities = 4;
+
+/// The moments of the one-sample estimators of every density, over one map.
+class LightMoments {
+ public:
+  EstimatorMoments& operator[](SampledDensity density) {
+    return of_[static_cast<std::size_t>(density)];
+  }
+  const EstimatorMoments& operator[](SampledDensity density) const {
+    return of_[static_cast<std::size_t>(density)];
+  }
+  /// Adds the raw moments of all densities; the largest value is the larger one's.
+  void merge(const LightMoments& other);
+
+ private:
+  std::array<EstimatorMoments, kSampledDensities> of_;
 };
 
 /// One entry per grid of radiance L; all grids have one extent. Under A and B the density is

@@ -141,7 +141,7 @@ TEST(GateJson, HoldsWhatWasChosen) {
 
 TEST(GateJson, IsTheSameForAnyNumberOfThreads) {
   const TemporaryFolder folder;
-  // Three tasks of samples per configuration, the last one not full.
+  // Three tasks of samples per run, the last one not full.
   Words words = {"gate", "sun-sky", "--size", "32x16", "-n", "600000", "-q", "-t", "1"};
   std::vector<std::string> texts;
   for (const char* threads : {"1", "2", "7"}) {

@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
         HelpCase{"history", {"add", "compare", "trend"}},
         HelpCase{
             "list",
-            {"samplers", "maps", "presets", "materials", "receivers", "strategies", "--json"}}),
+            {"samplers", "maps", "presets", "materials", "receivers", "estimators", "--json"}}),
     [](const auto& test) {
       return test.param.subcommand.empty() ? "lightproof" : test.param.subcommand;
     });

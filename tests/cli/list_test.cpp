@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Registries, List,
                                          Registry{"presets", "openexr"},
                                          Registry{"materials", "phong"},
                                          Registry{"receivers", "sphere-on-plane"},
-                                         Registry{"strategies", "environment B"}),
+                                         Registry{"estimators", "environment B"}),
                          [](const auto& test) { return test.param.name; });
 
 TEST(ListSamplers, MarksKnownDefects) {

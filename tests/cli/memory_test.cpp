@@ -5,12 +5,6 @@
 
 #include "tests/cli/program.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kReservesAddresses = true;  // terabytes, for the sanitizer's own
-#else
-constexpr bool kReservesAddresses = false;
-#endif
-
 namespace lightproof::test {
 namespace {
 
@@ -32,7 +26,7 @@ Finished within(int megabytes, const Words& arguments, const std::filesystem::pa
 class Memory : public testing::Test {
  protected:
   void SetUp() override {
-    if (kReservesAddresses) GTEST_SKIP() << "a sanitizer cannot be limited";
+    if (!kHasOwnMemory) GTEST_SKIP() << "a sanitizer cannot be limited";
   }
   TemporaryFolder folder_;
 };

@@ -232,7 +232,7 @@ TEST_F(PendingFiles, ANameTooLongIsBadInput) {
 
 TEST_F(PendingFiles, AFolderThatHasGoneIsNamed) {
   const fs::path target = in_folder("report");
-  PendingFolder pending(target);
+  AtomicFolder pending(target);
   fs::remove_all(target);
   try {
     pending.commit();
@@ -245,14 +245,14 @@ TEST_F(PendingFiles, AFolderThatHasGoneIsNamed) {
 TEST_F(PendingFiles, AFolderAppearsWithAllItsFilesOrNotAtAll) {
   const fs::path target = in_folder("report");
   {
-    const PendingFolder pending(target);
+    const AtomicFolder pending(target);
     put(pending.temporary() / "a.txt", "new");
   }
   EXPECT_TRUE(!fs::exists(target) || fs::is_empty(target));
   put(target / "a.txt", "old");
   put(target / "kept.txt", "kept");
   {
-    PendingFolder pending(target);
+    AtomicFolder pending(target);
     put(pending.temporary() / "a.txt", "new");
     put(pending.temporary() / "b.txt", "more");
     EXPECT_EQ(content_of(target / "a.txt"), "old");
@@ -266,7 +266,7 @@ TEST_F(PendingFiles, AFolderAppearsWithAllItsFilesOrNotAtAll) {
 
 TEST_F(PendingFiles, AFolderThatIsAFileIsNamed) {
   put(in_folder("report"), "a file");
-  EXPECT_THROW(PendingFolder{in_folder("report")}, InputError);
+  EXPECT_THROW(AtomicFolder{in_folder("report")}, InputError);
 }
 
 }  // namespace

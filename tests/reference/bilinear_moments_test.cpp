@@ -36,9 +36,9 @@ TEST(BilinearMoments, OfAConstantMapAreThoseOfWholeTexels) {
         }
         EXPECT_NEAR(a.largest, b.largest, 1e-3 * b.largest);
       };
-      expect_same(tents.uniform, whole.uniform);
-      expect_same(tents.environment_a, whole.environment_a);
-      expect_same(tents.environment_b, whole.environment_b);
+      expect_same(tents[SampledDensity::uniform], whole[SampledDensity::uniform]);
+      expect_same(tents[SampledDensity::texture_space], whole[SampledDensity::texture_space]);
+      expect_same(tents[SampledDensity::solid_angle], whole[SampledDensity::solid_angle]);
     }
   }
 }
@@ -53,15 +53,15 @@ TEST(BilinearMoments, TwoColumns) {
   for (int m = 1; m <= 4; ++m) {
     const auto i = static_cast<std::size_t>(m - 1);
     const double uniform = std::pow(kSphere, m) * powers[i];
-    EXPECT_NEAR(moments.uniform.raw[i], uniform, kQuadrature * uniform);
-    EXPECT_NEAR(moments.material.raw[i], uniform, kQuadrature * uniform);
+    EXPECT_NEAR(moments[SampledDensity::uniform].raw[i], uniform, kQuadrature * uniform);
+    EXPECT_NEAR(moments[SampledDensity::material].raw[i], uniform, kQuadrature * uniform);
     // X = 2 pi^2 A sin(theta), and p(s,t) = L / A.
     const double a = std::pow(4.0 * kPi * kPi, m) * sines[i];
-    EXPECT_NEAR(moments.environment_a.raw[i], a, kQuadrature * a);
+    EXPECT_NEAR(moments[SampledDensity::texture_space].raw[i], a, kQuadrature * a);
     const double b = std::pow(8.0 * kPi, m);
-    EXPECT_NEAR(moments.environment_b.raw[i], b, kQuadrature * b);
+    EXPECT_NEAR(moments[SampledDensity::solid_angle].raw[i], b, kQuadrature * b);
   }
-  EXPECT_NEAR(moments.uniform.largest, 3.0 * kSphere, kQuadrature * 3.0 * kSphere);
+  EXPECT_NEAR(moments[SampledDensity::uniform].largest, 3.0 * kSphere, kQuadrature * 3.0 * kSphere);
 }
 
 // p(s,t) = L / A: E[1/p(omega)^2 in the bright part] = ∫ 4 pi^4 sin^2 A / L = 2 pi^4 A mean(1/L),

@@ -66,19 +66,19 @@ void expect_strategies(const LightMoments& exact, test::Value value) {
   const auto fine = test::strategy_moments(luminance, value, half_factor, {640, 512});
   {
     SCOPED_TRACE("uniform");
-    expect_moments(exact.uniform, coarse.uniform, fine.uniform);
+    expect_moments(exact[SampledDensity::uniform], coarse.uniform, fine.uniform);
   }
   {
     SCOPED_TRACE("material");
-    expect_moments(exact.material, coarse.material, fine.material);
+    expect_moments(exact[SampledDensity::material], coarse.material, fine.material);
   }
   {
     SCOPED_TRACE("environment A");
-    expect_moments(exact.environment_a, coarse.environment_a, fine.environment_a);
+    expect_moments(exact[SampledDensity::texture_space], coarse.environment_a, fine.environment_a);
   }
   {
     SCOPED_TRACE("environment B");
-    expect_moments(exact.environment_b, coarse.environment_b, fine.environment_b);
+    expect_moments(exact[SampledDensity::solid_angle], coarse.environment_b, fine.environment_b);
   }
 }
 

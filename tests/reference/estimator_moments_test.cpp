@@ -60,23 +60,26 @@ class EveryExtent : public testing::TestWithParam<Extent> {};
 
 TEST_P(EveryExtent, IntegralOfAConstantMapIsTheSphere) {
   const LightMoments m = constant_map(constant_kernel(), GetParam());
-  for (const EstimatorMoments* each : {&m.uniform, &m.environment_a, &m.environment_b}) {
+  for (const EstimatorMoments* each :
+       {&m[SampledDensity::uniform], &m[SampledDensity::texture_space],
+        &m[SampledDensity::solid_angle]}) {
     EXPECT_NEAR(each->mean() / kSphere, 1.0, kSmooth);
   }
-  EXPECT_NEAR(relative_variance(m.environment_a), kPi * kPi / 8.0 - 1.0, kSmooth);
-  EXPECT_NEAR(relative_variance(m.environment_a), 0.2337, 5e-5) << "as printed";
-  EXPECT_NEAR(relative_variance(m.environment_b), 0.0, kSmooth);
-  EXPECT_NEAR(relative_variance(m.uniform), 0.0, kSmooth);
+  EXPECT_NEAR(relative_variance(m[SampledDensity::texture_space]), kPi * kPi / 8.0 - 1.0, kSmooth);
+  EXPECT_NEAR(relative_variance(m[SampledDensity::texture_space]), 0.2337, 5e-5) << "as printed";
+  EXPECT_NEAR(relative_variance(m[SampledDensity::solid_angle]), 0.0, kSmooth);
+  EXPECT_NEAR(relative_variance(m[SampledDensity::uniform]), 0.0, kSmooth);
 }
 
 TEST_P(EveryExtent, IrradianceOfAConstantMapAtThePoles) {
   for (const double z : {-1.0, 1.0}) {
     const LightMoments m = constant_map(cosine_kernel({0, 0, z}), GetParam());
-    EXPECT_NEAR(m.uniform.mean(), kPi, kTolerance);
-    EXPECT_NEAR(relative_variance(m.environment_a), kPi * kPi / 4.0 - 1.0, kTolerance);
-    EXPECT_NEAR(relative_variance(m.environment_a), 1.4674, 5e-5) << "as printed";
-    EXPECT_NEAR(relative_variance(m.environment_b), 5.0 / 3.0, kTolerance);
-    EXPECT_NEAR(relative_variance(m.uniform), 5.0 / 3.0, kTolerance);
+    EXPECT_NEAR(m[SampledDensity::uniform].mean(), kPi, kTolerance);
+    EXPECT_NEAR(relative_variance(m[SampledDensity::texture_space]), kPi * kPi / 4.0 - 1.0,
+                kTolerance);
+    EXPECT_NEAR(relative_variance(m[SampledDensity::texture_space]), 1.4674, 5e-5) << "as printed";
+    EXPECT_NEAR(relative_variance(m[SampledDensity::solid_angle]), 5.0 / 3.0, kTolerance);
+    EXPECT_NEAR(relative_variance(m[SampledDensity::uniform]), 5.0 / 3.0, kTolerance);
   }
 }
 
@@ -84,23 +87,28 @@ TEST_P(EveryExtent, IrradianceOfAConstantMapAtTheHorizon) {
   for (const double azimuth : {0.0, 0.5 * kPi, 1.0, 4.0}) {
     const Direction normal = {std::cos(azimuth), std::sin(azimuth), 0.0};
     const LightMoments m = constant_map(cosine_kernel(normal), GetParam());
-    EXPECT_NEAR(m.uniform.mean(), kPi, kTolerance);
-    EXPECT_NEAR(relative_variance(m.environment_a), 3.0 * kPi * kPi / 8.0 - 1.0, kTolerance);
-    EXPECT_NEAR(relative_variance(m.environment_a), 2.701, 5e-4) << "as printed";
-    EXPECT_NEAR(relative_variance(m.environment_b), 5.0 / 3.0, kTolerance);
+    EXPECT_NEAR(m[SampledDensity::uniform].mean(), kPi, kTolerance);
+    EXPECT_NEAR(relative_variance(m[SampledDensity::texture_space]), 3.0 * kPi * kPi / 8.0 - 1.0,
+                kTolerance);
+    EXPECT_NEAR(relative_variance(m[SampledDensity::texture_space]), 2.701, 5e-4) << "as printed";
+    EXPECT_NEAR(relative_variance(m[SampledDensity::solid_angle]), 5.0 / 3.0, kTolerance);
   }
 }
 
 TEST_P(EveryExtent, IrradianceOfAConstantMapIsPiForAnyNormal) {
   for (const Direction along : {Direction(1, 2, 3), Direction(-3, 1, -0.5), Direction(0.1, 0, 1)}) {
     const LightMoments m = constant_map(cosine_kernel(glm::normalize(along)), GetParam());
-    for (const EstimatorMoments* each : {&m.uniform, &m.environment_a, &m.environment_b}) {
+    for (const EstimatorMoments* each :
+         {&m[SampledDensity::uniform], &m[SampledDensity::texture_space],
+          &m[SampledDensity::solid_angle]}) {
       EXPECT_NEAR(each->mean(), kPi, kTolerance);
     }
-    EXPECT_NEAR(relative_variance(m.environment_b), 5.0 / 3.0, kTolerance);
+    EXPECT_NEAR(relative_variance(m[SampledDensity::solid_angle]), 5.0 / 3.0, kTolerance);
     // E[X^3] = (4 pi)^2 2 pi/4 and E[X^4] = (4 pi)^3 2 pi/5: no kink is left in them.
-    EXPECT_NEAR(m.uniform.raw[2] / (kSphere * kSphere * kPi / 2.0), 1.0, kTolerance);
-    EXPECT_NEAR(m.uniform.raw[3] / (std::pow(kSphere, 3) * 2.0 * kPi / 5.0), 1.0, kTolerance);
+    EXPECT_NEAR(m[SampledDensity::uniform].raw[2] / (kSphere * kSphere * kPi / 2.0), 1.0,
+                kTolerance);
+    EXPECT_NEAR(m[SampledDensity::uniform].raw[3] / (std::pow(kSphere, 3) * 2.0 * kPi / 5.0), 1.0,
+                kTolerance);
   }
 }
 
@@ -113,11 +121,11 @@ TEST_P(EveryExtent, DiffuseStrategyHasNoVarianceOnAConstantMap) {
     return KernelValue{kAlbedo * pdf, pdf};
   };
   const LightMoments m = constant_map(lambert, GetParam());
-  EXPECT_NEAR(m.material.mean(), kAlbedo, kTolerance);
+  EXPECT_NEAR(m[SampledDensity::material].mean(), kAlbedo, kTolerance);
   // E[X^m] = albedo^m, times the same integral of the pdf, which is 1 up to the kink.
-  EXPECT_NEAR(m.material.variance(), 0.0, kTolerance);
-  EXPECT_NEAR(m.material.raw[3], std::pow(kAlbedo, 4), kTolerance);
-  EXPECT_NEAR(m.uniform.mean(), kAlbedo, kTolerance);
+  EXPECT_NEAR(m[SampledDensity::material].variance(), 0.0, kTolerance);
+  EXPECT_NEAR(m[SampledDensity::material].raw[3], std::pow(kAlbedo, 4), kTolerance);
+  EXPECT_NEAR(m[SampledDensity::uniform].mean(), kAlbedo, kTolerance);
 }
 
 constexpr Extent kShapes[] = {{1, 1}, {2, 1}, {3, 5}, {33, 17}, {64, 32}};
@@ -159,10 +167,11 @@ TEST(LightMoments, OfTheIntegralOfAnyMapAreClosedForms) {
       const LightMoments m = moments(constant_kernel(), map);
       for (std::size_t i = 0; i < 4; ++i) {
         const double power = std::pow(total, static_cast<double>(i + 1));
-        EXPECT_NEAR(m.environment_b.raw[i] / power, 1.0, kSmooth);
+        EXPECT_NEAR(m[SampledDensity::solid_angle].raw[i] / power, 1.0, kSmooth);
       }
-      EXPECT_NEAR(m.environment_a.mean() / total, 1.0, kSmooth);
-      EXPECT_NEAR(m.environment_a.raw[1] / second_moment_of_a(luminance), 1.0, kSmooth);
+      EXPECT_NEAR(m[SampledDensity::texture_space].mean() / total, 1.0, kSmooth);
+      EXPECT_NEAR(m[SampledDensity::texture_space].raw[1] / second_moment_of_a(luminance), 1.0,
+                  kSmooth);
     }
   }
 }
@@ -174,7 +183,7 @@ TEST(LightMoments, OfUniformDirectionsToOneTexelAreThoseOfAHit) {
   const double solid_angle = texel_solid_angle(extent, 3);
   for (std::size_t i = 0; i < 4; ++i) {
     const double exact = solid_angle * std::pow(kSphere, static_cast<double>(i));
-    EXPECT_NEAR(m.uniform.raw[i] / exact, 1.0, kSmooth);
+    EXPECT_NEAR(m[SampledDensity::uniform].raw[i] / exact, 1.0, kSmooth);
   }
 }
 
@@ -186,9 +195,12 @@ TEST(LightMoments, OfSeveralMapsAreThoseOfEach) {
   const Grid<double> grids[] = {luminance_of(first), luminance_of(second)};
   const auto together = light_moments(kernel, grids);
   ASSERT_EQ(together.size(), 2U);
-  EXPECT_EQ(together[0].environment_a.raw, moments(kernel, first).environment_a.raw);
-  EXPECT_EQ(together[1].environment_b.raw, moments(kernel, second).environment_b.raw);
-  EXPECT_EQ(together[1].uniform.raw, moments(kernel, second).uniform.raw);
+  EXPECT_EQ(together[0][SampledDensity::texture_space].raw,
+            moments(kernel, first)[SampledDensity::texture_space].raw);
+  EXPECT_EQ(together[1][SampledDensity::solid_angle].raw,
+            moments(kernel, second)[SampledDensity::solid_angle].raw);
+  EXPECT_EQ(together[1][SampledDensity::uniform].raw,
+            moments(kernel, second)[SampledDensity::uniform].raw);
 }
 
 TEST(LightMoments, ScaleWithTheExposure) {
@@ -202,9 +214,10 @@ TEST(LightMoments, ScaleWithTheExposure) {
   const LightMoments b = light_moments(kernel, bright).front();
   for (std::size_t m = 0; m < 4; ++m) {
     const double scale = std::pow(0x1p60, static_cast<double>(m + 1));
-    EXPECT_EQ(b.environment_a.raw[m], a.environment_a.raw[m] * scale);
-    EXPECT_EQ(b.environment_b.raw[m], a.environment_b.raw[m] * scale);
-    EXPECT_EQ(b.uniform.raw[m], a.uniform.raw[m] * scale);
+    EXPECT_EQ(b[SampledDensity::texture_space].raw[m],
+              a[SampledDensity::texture_space].raw[m] * scale);
+    EXPECT_EQ(b[SampledDensity::solid_angle].raw[m], a[SampledDensity::solid_angle].raw[m] * scale);
+    EXPECT_EQ(b[SampledDensity::uniform].raw[m], a[SampledDensity::uniform].raw[m] * scale);
   }
 }
 

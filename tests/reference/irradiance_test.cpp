@@ -19,9 +19,11 @@ constexpr Direction kAxis = {2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0};
 double irradiance(const Grid<double>& luminance, Direction normal) {
   const Grid<double> grids[] = {luminance};
   const LightMoments m = light_moments(cosine_kernel(normal), grids).front();
-  EXPECT_NEAR(m.environment_a.mean(), m.uniform.mean(), 1e-12 * m.uniform.mean());
-  EXPECT_NEAR(m.environment_b.mean(), m.uniform.mean(), 1e-12 * m.uniform.mean());
-  return m.uniform.mean();
+  EXPECT_NEAR(m[SampledDensity::texture_space].mean(), m[SampledDensity::uniform].mean(),
+              1e-12 * m[SampledDensity::uniform].mean());
+  EXPECT_NEAR(m[SampledDensity::solid_angle].mean(), m[SampledDensity::uniform].mean(),
+              1e-12 * m[SampledDensity::uniform].mean());
+  return m[SampledDensity::uniform].mean();
 }
 
 /// The unit vector at this angle from the axis, in one of two planes through it.

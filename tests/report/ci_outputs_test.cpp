@@ -115,7 +115,7 @@ TEST(Markdown, NamesTheWorstFirstAndStaysBelowItsLimit) {
 }
 
 /// Each sampler on each map has two rejected tests.
-GateResult gate_with_configurations(std::size_t runs) {
+GateResult gate_with_runs(std::size_t runs) {
   GateResult gate{1e-6, 4194304, 7, {}};
   for (std::size_t i = 0; i < runs; ++i) {
     for (const double log10_p : {-20.0, -30.0 - static_cast<double>(i)}) {
@@ -131,7 +131,7 @@ GateResult gate_with_configurations(std::size_t runs) {
 }
 
 TEST(Annotations, AreOneForEachSamplerAndMap) {
-  GateResult gate = gate_with_configurations(1);
+  GateResult gate = gate_with_runs(1);
   gate.rejections.push_back({"mine", "B", "map0", "upside-down", "t flipped", {}, {}});
   const std::string text = gate_annotations(gate, true);
   EXPECT_EQ(count_of(text, "::error "), 1U) << text;
@@ -144,15 +144,15 @@ TEST(Annotations, AreOneForEachSamplerAndMap) {
 }
 
 TEST(Annotations, AreNineAndTheNumberOfTheOthers) {
-  const std::string text = gate_annotations(gate_with_configurations(12), true);
+  const std::string text = gate_annotations(gate_with_runs(12), true);
   EXPECT_EQ(count_of(text, "::error "), 10U);
   EXPECT_LT(text.find("map11"), text.find("map10")) << "the least likely first";
-  EXPECT_THAT(text, HasSubstr("3 configurations more rejected"));
+  EXPECT_THAT(text, HasSubstr("3 runs more rejected"));
   EXPECT_EQ(gate_annotations(gate_with(0), true), "");
 }
 
 TEST(Annotations, LeaveOutKnownDefectsThatDoNotCount) {
-  GateResult gate = gate_with_configurations(1);
+  GateResult gate = gate_with_runs(1);
   for (TestRecord& test : gate.tests) test.known_defect = true;
   EXPECT_EQ(count_of(gate_annotations(gate, true), "::error "), 1U);
   EXPECT_EQ(gate_annotations(gate, false), "");

@@ -69,7 +69,7 @@ TEST(FileNames, AreSafeAndUnique) {
   a.map = "x/y";
   a.receiver = "r";
   a.material = "m";
-  a.strategy = "s";
+  a.estimator = "s";
   RenderRecord b = a;
   b.map = "x y";
   EXPECT_EQ(render_stems({a, b}), (std::vector<std::string>{"x_y-r-m-s", "x_y-r-m-s-2"}));

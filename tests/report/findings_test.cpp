@@ -20,7 +20,7 @@ ConvergenceRecord estimator(double slope, double ratio) {
   r.map = "city";
   r.receiver = "sphere";
   r.material = "Lambert";
-  r.strategy = "uniform";
+  r.estimator = "uniform";
   r.slope = slope;
   r.slope_error = 0.01;
   r.predicted_variance = 2.0;
@@ -99,7 +99,7 @@ TEST(SamplerFindings, NameTheWorstTestAndKnownDefects) {
   EXPECT_TRUE(findings[1].is_demonstration);
   EXPECT_EQ(findings[1].sentence,
             "linear_scan_published: 2 of 2 tests rejected (kept as published, with its known "
-            "defects); for example reference rows of linear_scan_published B on city (row 0 is "
+            "defects); for example reference/rows of linear_scan_published B on city (row 0 is "
             "never drawn)");
 }
 
@@ -251,14 +251,14 @@ TEST(BuildFinding, GivesTheExponentsAndTheSlowestOnTheLargestMap) {
 TEST(SavingFinding, ComparesTheBestWithTheWorstByPrediction) {
   ConvergenceRecord good = estimator(-0.5, 1.0);
   ConvergenceRecord bad = estimator(-0.5, 1.0);
-  good.strategy = "good";
-  bad.strategy = "bad";
+  good.estimator = "good";
+  bad.estimator = "bad";
   good.predicted_variance = 0.5;
   bad.predicted_variance = 20.0;
   EXPECT_EQ(saving_finding({&bad, &good}), "good needs 40 times fewer samples than bad");
   bad.predicted_variance = 18157.5;
   EXPECT_EQ(saving_finding({&bad, &good}), "good needs 36,000 times fewer samples than bad");
-  EXPECT_EQ(saving_finding({&good}), "no strategy is ahead");
+  EXPECT_EQ(saving_finding({&good}), "no estimator is ahead");
 }
 
 TEST(ThroughputFinding, DoesNotClaimGrowthOrSpeedThatIsNotThere) {
@@ -273,11 +273,11 @@ TEST(ThroughputFinding, DoesNotClaimGrowthOrSpeedThatIsNotThere) {
 
 TEST(RenderFinding, ComparesBestAndWorst) {
   RenderRecord good;
-  good.strategy = "environment B";
+  good.estimator = "environment B";
   good.samples = 64;
   good.rmse = 0.02;
   RenderRecord bad = good;
-  bad.strategy = "uniform";
+  bad.estimator = "uniform";
   bad.rmse = 0.5;
   EXPECT_EQ(render_finding({&bad, &good}),
             "At 64 samples per pixel environment B has the smallest error, 0.0200 of the mean; "

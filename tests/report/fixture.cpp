@@ -16,7 +16,7 @@ const std::array<std::string, 8> kMaps = {
 const std::array<std::string, 6> kSamplers = {"binary_search",         "linear_scan",
                                               "linear_scan_published", "alias_table",
                                               "hierarchical_warp",     "uniform"};
-const std::array<std::string, 4> kStrategies = {"uniform", "brdf", "environment A",
+const std::array<std::string, 4> kEstimators = {"uniform", "brdf", "environment A",
                                                 "environment B"};
 const std::array<std::string, 4> kReceivers = {"point up", "point sideways", "sphere", "plane"};
 
@@ -122,17 +122,17 @@ GateResult gate() {
   return result;
 }
 
-ConvergenceRecord convergence_record(std::size_t map, std::size_t receiver, std::size_t strategy) {
+ConvergenceRecord convergence_record(std::size_t map, std::size_t receiver, std::size_t estimator) {
   const std::array<double, 4> scale = {40.0, 9.0, 1.1, 0.7};
   ConvergenceRecord r;
   r.map = kMaps[map];
   r.receiver = kReceivers[receiver];
   r.material = receiver < 2 ? "Lambert" : "GGX, roughness 0.3";
-  r.strategy = kStrategies[strategy];
+  r.estimator = kEstimators[estimator];
   r.pixels = 64;
   r.replicates = 32;
-  const std::string name = r.map + r.receiver + r.strategy;
-  r.predicted_variance = scale[strategy] * std::pow(1.5, static_cast<double>(map)) *
+  const std::string name = r.map + r.receiver + r.estimator;
+  r.predicted_variance = scale[estimator] * std::pow(1.5, static_cast<double>(map)) *
                          (1.0 + 0.3 * static_cast<double>(receiver)) / 6.0;
   for (std::uint64_t i = 0; i < 6; ++i) {
     const std::uint64_t n = std::uint64_t{16} << (2U * i);
@@ -178,24 +178,24 @@ double shade(double x, double y) {
   return r2 > 1.0 ? 0.0 : 0.2 + std::max(0.0, 0.6 * std::sqrt(1.0 - r2) + 0.5 * y - 0.4 * x);
 }
 
-RenderRecord render(std::size_t strategy) {
+RenderRecord render(std::size_t estimator) {
   const std::array<double, 4> spread = {0.6, 0.25, 0.08, 0.06};
   const Extent size{96, 96};
   RenderRecord r{kMaps[0],
                  "sphere",
                  "GGX, roughness 0.3",
-                 kStrategies[strategy],
+                 kEstimators[estimator],
                  64,
                  Grid<Rgb>(size),
                  Grid<Rgb>(size),
                  Grid<double>(size),
-                 spread[strategy],
-                 0.8 + 0.3 * static_cast<double>(strategy)};
+                 spread[estimator],
+                 0.8 + 0.3 * static_cast<double>(estimator)};
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       const double light = shade((x - 47.5) / 44.0, (47.5 - y) / 44.0);
       const double error =
-          light * spread[strategy] * noise(r.strategy, static_cast<std::uint64_t>(96 * y + x));
+          light * spread[estimator] * noise(r.estimator, static_cast<std::uint64_t>(96 * y + x));
       r.reference(x, y) = Rgb(light, 0.9 * light, 0.75 * light);
       r.error(x, y) = error;
       r.picture(x, y) = r.reference(x, y) * static_cast<float>(std::max(0.0, 1.0 + error));
@@ -270,8 +270,8 @@ StudyResult synthetic_study() {
   study.gate = gate();
   for (std::size_t map = 0; map < 8; ++map) {
     for (std::size_t receiver = 0; receiver < 4; ++receiver) {
-      for (std::size_t strategy = 0; strategy < 4; ++strategy) {
-        study.convergence.push_back(convergence_record(map, receiver, strategy));
+      for (std::size_t estimator = 0; estimator < 4; ++estimator) {
+        study.convergence.push_back(convergence_record(map, receiver, estimator));
       }
     }
   }
@@ -289,8 +289,8 @@ StudyResult synthetic_study() {
   }
   study.growth[0].leaves_l3 = {4096, 2048};
   study.growth[0].breakpoints = {0.02, {{{512, 256}, 0.31}, {{1024, 512}, 0.12}}, 0.0021};
-  for (std::size_t strategy = 0; strategy < 4; ++strategy)
-    study.renders.push_back(render(strategy));
+  for (std::size_t estimator = 0; estimator < 4; ++estimator)
+    study.renders.push_back(render(estimator));
   study.self_test = self_test();
   return study;
 }

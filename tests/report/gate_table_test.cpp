@@ -29,7 +29,7 @@ GateResult mixed_gate() {
   return gate;
 }
 
-TEST(GateTable, HasOneLinePerConfigurationWithItsWorstTest) {
+TEST(GateTable, HasOneLinePerRunWithItsWorstTest) {
   const std::vector<std::string> lines = lines_of(gate_table(mixed_gate(), false));
   ASSERT_GE(lines.size(), 3U);
   EXPECT_NE(lines[1].find("\u2713 accept  binary_search B"), std::string::npos) << lines[1];
@@ -58,7 +58,7 @@ TEST(GateTable, TellsEveryRejectedTestInFull) {
   EXPECT_NE(text.find("log10 p -88.2"), std::string::npos) << text;
   EXPECT_NE(text.find("row 0 is never drawn"), std::string::npos) << text;
   EXPECT_NE(text.find("3 tests, 1 rejected, 0 inconclusive; family-wise error 1e-6, 4,194,304 "
-                      "samples per configuration, seed 7\n"),
+                      "samples per run, seed 7\n"),
             std::string::npos)
       << text;
 }
@@ -80,7 +80,8 @@ TEST(GateTable, ShowsKnownDefectsInASectionOfTheirOwn) {
     EXPECT_GT(text.find(word), section) << word << text;
   }
   EXPECT_EQ(text.find("\x1b[31m"), std::string::npos) << "red means a verdict";
-  EXPECT_EQ(lines_of(text).back().find("\x1b[32m\u2713 accept: 2 tests, 0 rejected"), 0U) << text;
+  EXPECT_EQ(lines_of(text).end()[-2].find("\x1b[32m\u2713 accept: 2 tests, 0 rejected"), 0U)
+      << text;
 }
 
 TEST(GateTable, SaysHowOftenTheWorstCellWasDrawn) {

@@ -16,7 +16,7 @@ void strip(lightproof::StudyResult& study) {
   study.renders.clear();
   study.maps.resize(1);
   study.self_test.reset();
-  study.convergence.resize(5);  // leaves a scene with one strategy
+  study.convergence.resize(5);  // leaves a scene with one estimator
   study.gate.tests.resize(3);
   study.gate.tests[1].outcome = lightproof::Outcome::inconclusive;
 }

@@ -14,9 +14,8 @@ namespace {
 
 std::vector<ConvergenceRecord> small_study(std::string_view name, std::uint64_t seed) {
   const EnvironmentMap map = make_synthetic_map(name, {64, 32});
-  const std::vector<EnvironmentLight> lights(1, EnvironmentLight(map));
   return study_convergence(
-      lights, {.seed = seed, .most_samples = 1024, .estimates = 64, .picture = {3, 2}});
+      {&map, 1}, {.seed = seed, .most_samples = 1024, .estimates = 64, .picture = {3, 2}});
 }
 
 // Measured squared errors are means of squares: skewed to the right, so a single one is judged at 8
@@ -32,7 +31,7 @@ TEST(Convergence, MeasuredErrorsAreThePredictedOnes) {
       if (!(point.rmse_error > 0.0 && point.rmse_error <= point.predicted / 6.0)) continue;
       const double z = (point.rmse - point.predicted) / point.rmse_error;
       EXPECT_LT(std::abs(z), 8.0) << record.receiver << ", " << record.material << ", "
-                                  << record.strategy << ", N = " << point.samples;
+                                  << record.estimator << ", N = " << point.samples;
       squares += z * z;
       ++points;
     }
@@ -49,7 +48,7 @@ TEST(Convergence, VariancesAndSlopesAreThePredictedOnes) {
     ASSERT_EQ(record.points.size(), 6U);
     EXPECT_NEAR(record.measured_variance / record.predicted_variance, 1.0,
                 6.0 * record.variance_ratio_error)
-        << record.receiver << ", " << record.material << ", " << record.strategy;
+        << record.receiver << ", " << record.material << ", " << record.estimator;
     const double w = 1.0 / (record.slope_error * record.slope_error);
     slope += w * record.slope;
     weight += w;
@@ -60,14 +59,14 @@ TEST(Convergence, VariancesAndSlopesAreThePredictedOnes) {
 TEST(Convergence, AWrongVarianceWouldShow) {
   for (const ConvergenceRecord& record : small_study("gradient", 1)) {
     EXPECT_LT(record.variance_ratio_error, 0.15)
-        << record.receiver << ", " << record.material << ", " << record.strategy;
+        << record.receiver << ", " << record.material << ", " << record.estimator;
   }
 }
 
 TEST(Convergence, CosineSamplingOfAConstantMapHasNoVariance) {
   int exact = 0;
   for (const ConvergenceRecord& record : small_study("constant", 1)) {
-    if (record.material != "lambert" || record.strategy != "brdf") continue;
+    if (record.material != "lambert" || record.estimator != "brdf") continue;
     if (record.receiver == "sphere-on-plane") continue;
     ++exact;
     EXPECT_TRUE(std::isnan(record.slope));

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/temporary_folder.h"
 
 namespace lightproof {
 namespace {
@@ -102,8 +103,8 @@ TEST_F(ThroughputFile, WhatIsNotGoogleBenchmarksIsRefusedByName) {
 }
 
 TEST(MeasureThroughput, AProgramThatCannotRunIsNamed) {
-  EXPECT_THROW(measure_throughput("/no/such/program", 512), InputError);
-  EXPECT_THROW(measure_throughput("/bin/false", 512), InputError);
+  EXPECT_THROW(measure_throughput({"/no/such/program", 512}), InputError);
+  EXPECT_THROW(measure_throughput({"/bin/false", 512}), InputError);
 }
 
 TEST(ThroughputFilter, ChoosesSingleSamplesUpToAWidthAndTheTablesOfOneSize) {
@@ -148,6 +149,64 @@ TEST_F(ThroughputFile, CachesAreThoseOfTheMachineThatMeasured) {
   EXPECT_EQ(caches.l3, std::nullopt);
   write('{' + benchmarks);
   EXPECT_EQ(read_throughput(file_).caches.l2, std::nullopt);
+}
+
+ThroughputSource small_source(const TemporaryFolder& folder) {
+  return {LIGHTPROOF_SMALL_BENCHMARK, 256, folder / "cache"};
+}
+
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
+  return {std::filesystem::directory_iterator(folder), {}};
+}
+
+// What is kept is told from what is measured by a mark that no benchmark makes.
+TEST(MeasuredThroughput, IsKeptAndTakenFromTheCache) {
+  const TemporaryFolder folder;
+  ThroughputSource source = small_source(folder);
+  const Throughput first = measure_throughput(source);
+  EXPECT_FALSE(first.origin.empty());
+  ASSERT_EQ(files_in(source.cache).size(), 1U);
+  const std::filesystem::path kept = files_in(source.cache)[0];
+  std::ofstream(kept) << R"({"context": {"date": "once"}, "benchmarks": [{"run_name":
+      "sample/own/constant/256x128/random", "run_type": "iteration", "ns_per_sample": 7.0,
+      "table_bytes": 1.0}]})";
+  const Throughput second = measure_throughput(source);
+  EXPECT_EQ(second.origin, "once");
+  EXPECT_EQ(second.samplers[0].ns_per_sample, 7.0);
+  source.measure_again = true;
+  EXPECT_EQ(measure_throughput(source).samplers[0].ns_per_sample, 2.0);
+  EXPECT_EQ(files_in(source.cache), std::vector{kept}) << "replaced";
+}
+
+TEST(MeasuredThroughput, IsMeasuredAgainWhereTheCacheIsDamaged) {
+  const TemporaryFolder folder;
+  const ThroughputSource source = small_source(folder);
+  measure_throughput(source);
+  const std::filesystem::path kept = files_in(source.cache)[0];
+  std::ofstream(kept) << "{";
+  EXPECT_EQ(measure_throughput(source).samplers[0].ns_per_sample, 2.0);
+  EXPECT_GT(std::filesystem::file_size(kept), 100U);
+}
+
+TEST(MeasuredThroughput, OfAnotherProgramOrOtherSizesIsAnother) {
+  const TemporaryFolder folder;
+  ThroughputSource source = small_source(folder);
+  measure_throughput(source);
+  source.largest_width = 512;
+  measure_throughput(source);
+  EXPECT_EQ(files_in(source.cache).size(), 2U);
+  std::filesystem::copy_file(source.program, folder / "other");
+  std::ofstream(folder / "other", std::ios::app) << "one byte more";
+  source.program = folder / "other";
+  measure_throughput(source);
+  EXPECT_EQ(files_in(source.cache).size(), 3U);
+}
+
+TEST(MeasuredThroughput, NeedsNoCache) {
+  ThroughputSource source = {LIGHTPROOF_SMALL_BENCHMARK, 256};
+  EXPECT_EQ(measure_throughput(source).samplers.size(), 1U);
+  source.cache = "/proc/no/such/place";
+  EXPECT_EQ(measure_throughput(source).samplers.size(), 1U);
 }
 
 }  // namespace

@@ -10,11 +10,11 @@
 #include "common.h"
 #include "describe_run.h"
 #include "known_names.h"
+#include "lightproof/estimators/registry.h"
 #include "lightproof/gate/direction_sampler.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/materials/material.h"
 #include "lightproof/render/receiver.h"
-#include "lightproof/render/strategy.h"
 #include "lightproof/samplers/registry.h"
 #include "lightproof/self_test/direction_mutant.h"
 #include "lightproof/self_test/mutant.h"
@@ -75,11 +75,11 @@ std::vector<Entry> entries_of(const std::string& registry) {
   if (registry == "presets") return described(presets());
   if (registry == "materials") return described(materials());
   if (registry == "receivers") return described(receivers());
-  return described(kStrategies);
+  return described(estimators());
 }
 
 const std::vector<std::string> kRegistries = {"samplers",  "mutants",   "maps",      "presets",
-                                              "materials", "receivers", "strategies"};
+                                              "materials", "receivers", "estimators"};
 
 using Json = nlohmann::ordered_json;
 

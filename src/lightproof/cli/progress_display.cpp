@@ -62,19 +62,38 @@ class Lines {
   explicit Lines(std::chrono::seconds interval)
       : printer_([this, interval](const std::stop_token& stop) { print_every(interval, stop); }) {}
 
+  ~Lines() {
+    const std::lock_guard lock(mutex_);
+    end_step();
+  }
+  Lines(const Lines&) = delete;
+  Lines& operator=(const Lines&) = delete;
+
   void show(std::string_view step, double fraction) {
     const std::lock_guard lock(mutex_);
-    step_ = step;
+    if (step_ != step) {
+      end_step();
+      step_ = step;
+      step_start_ = Clock::now();
+    }
     fraction_ = fraction;
   }
 
  private:
+  /// Says how long it took, of every step that took a second or more.
+  void end_step() const {
+    const std::chrono::duration<double> spent = Clock::now() - step_start_;
+    if (step_.empty() || spent.count() < 1.0) return;
+    fmt::print(stderr, "{}: done in {:.1f} s\n", step_, spent.count());
+    std::fflush(stderr);
+  }
+
   void print_every(std::chrono::seconds interval, const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     while (!stop.stop_requested()) {
       ended_.wait_for(lock, stop, interval, [] { return false; });
       if (stop.stop_requested()) return;
-      fmt::print(stderr, "{}: {:.0f} %{}\n", step_, 100.0 * fraction_,
+      fmt::print(stderr, "{}: {:.0f} %{}\n", step_.empty() ? "starting" : step_, 100.0 * fraction_,
                  time_left(start_, fraction_));
       std::fflush(stderr);
     }
@@ -83,7 +102,8 @@ class Lines {
   std::mutex mutex_;
   std::condition_variable_any ended_;
   Clock::time_point start_ = Clock::now();
-  std::string step_ = "starting";
+  Clock::time_point step_start_ = start_;
+  std::string step_;
   double fraction_ = 0.0;
   std::jthread printer_;  ///< last: it uses the others
 };

@@ -4,6 +4,7 @@
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
@@ -28,6 +29,8 @@ struct Options : CommonOptions {
   bool force = false;
   bool no_throughput = false;
   bool no_self_test = false;
+  bool measure_again = false;
+  std::uint64_t largest_width = 8192;
   StudyOptions study;
 };
 
@@ -49,6 +52,18 @@ std::optional<fs::path> benchmark_program(const Options& options) {
       program.string()));
 }
 
+/// Where measurements are kept, as in ci/lib.sh; empty if there is no place for them.
+fs::path cache_folder() {
+  const auto folder = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr ? fs::path(value) : fs::path();
+  };
+  if (const fs::path own = folder("LIGHTPROOF_CACHE"); !own.empty()) return own;
+  if (const fs::path all = folder("XDG_CACHE_HOME"); !all.empty()) return all / "lightproof";
+  const fs::path home = folder("HOME");
+  return home.empty() ? home : home / ".cache" / "lightproof";
+}
+
 /// All that goes into the report. Progress is shown until it returns.
 StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
   StudyResult result = run_study(std::move(maps), options.study, progress_of(options));
@@ -61,7 +76,10 @@ StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
 
 int run(Options options) {
   const ThreadLimit threads(options.threads);
-  options.study.benchmarks = benchmark_program(options);
+  if (const auto program = benchmark_program(options)) {
+    options.study.throughput = {*program, options.largest_width, cache_folder(),
+                                options.measure_again};
+  }
   options.study.gate.seed = options.study.convergence.seed = options.study.renders.seed =
       options.seed;
   Throughput throughput;
@@ -94,9 +112,11 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
                         "take throughput from this output of lightproof_bench");
   command->add_flag("--no-throughput", options->no_throughput, "leave throughput out")
       ->excludes(file);
-  add_number(*command, "--largest", options->study.largest_width, 512, 16384,
+  add_number(*command, "--largest", options->largest_width, 512, 16384,
              "width of the largest map that throughput is measured on; 16384 takes 8 GB")
       ->excludes(file);
+  command->add_flag("--measure-again", options->measure_again,
+                    "measure the throughput, even if it is kept of this program and machine");
   command->add_flag("--no-self-test", options->no_self_test,
                     "leave out the test of the gate itself (mutants, calibration, power)");
   command->footer(

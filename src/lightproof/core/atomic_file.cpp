@@ -81,7 +81,7 @@ void AtomicFile::commit() {
   committed_ = true;
 }
 
-PendingFolder::PendingFolder(fs::path target) : target_(std::move(target)) {
+AtomicFolder::AtomicFolder(fs::path target) : target_(std::move(target)) {
   std::error_code error;
   fs::create_directories(target_, error);
   if (error) {
@@ -93,12 +93,12 @@ PendingFolder::PendingFolder(fs::path target) : target_(std::move(target)) {
   if (error) fail(target_, error.value());
 }
 
-PendingFolder::~PendingFolder() {
+AtomicFolder::~AtomicFolder() {
   std::error_code ignored;
   fs::remove_all(temporary_, ignored);
 }
 
-void PendingFolder::commit() {
+void AtomicFolder::commit() {
   std::vector<fs::path> files;
   std::error_code error;
   for (fs::directory_iterator entry(temporary_, error), end; !error && entry != end;

@@ -30,13 +30,13 @@ class AtomicFile {
 /// A folder of files being written. Write into temporary(), then commit(): nothing appears in the
 /// target before everything is on the disk, and then it only takes renaming. Without commit the
 /// temporary folder is removed and the target untouched.
-class PendingFolder {
+class AtomicFolder {
  public:
   /// Makes the target if it is not there. Throws InputError if it cannot be made or written.
-  explicit PendingFolder(std::filesystem::path target);
-  ~PendingFolder();
-  PendingFolder(const PendingFolder&) = delete;
-  PendingFolder& operator=(const PendingFolder&) = delete;
+  explicit AtomicFolder(std::filesystem::path target);
+  ~AtomicFolder();
+  AtomicFolder(const AtomicFolder&) = delete;
+  AtomicFolder& operator=(const AtomicFolder&) = delete;
 
   /// Inside the target, so that files move by renaming.
   const std::filesystem::path& temporary() const { return temporary_; }
@@ -48,7 +48,7 @@ class PendingFolder {
   std::filesystem::path temporary_;
 };
 
-/// Writes `content` to `path` through a AtomicFile. A link is followed; a pipe or device is
+/// Writes `content` to `path` through an AtomicFile. A link is followed; a pipe or device is
 /// written to as it is. Throws InputError (a full disk included).
 void write_file(const std::filesystem::path& path, std::string_view content);
 

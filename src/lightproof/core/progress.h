@@ -10,6 +10,12 @@ namespace lightproof {
 /// from any thread.
 using Progress = std::function<void(std::string_view step, double fraction)>;
 
+/// The same, whatever the steps inside are called.
+inline Progress named(const Progress& whole, std::string_view step) {
+  if (!whole) return {};
+  return [whole, step](std::string_view /*inner*/, double fraction) { whole(step, fraction); };
+}
+
 /// The part [from, to] of a larger progress.
 inline Progress part_of(const Progress& whole, double from, double to) {
   if (!whole) return {};

@@ -98,8 +98,8 @@ void add_estimators(Expectation& expectation, const Lobes& distribution) {
                                       },
                                       never};
     const auto moments = reference::light_moments(kernel, {&expectation.luminance, 1});
-    expectation.estimators[i] = moments[0].material;
-    expectation.uniform[i] = moments[0].uniform;
+    expectation.estimators[i] = moments[0][reference::SampledDensity::material];
+    expectation.uniform[i] = moments[0][reference::SampledDensity::uniform];
   }
   Grid<double> bright(expectation.luminance.extent());
   for (std::size_t i = 0; i < bright.values().size(); ++i) {
@@ -109,7 +109,8 @@ void add_estimators(Expectation& expectation, const Lobes& distribution) {
                                    return reference::KernelValue{1.0, density(d)};
                                  },
                                  never};
-  expectation.inverse_pdf = reference::light_moments(one, {&bright, 1})[0].material;
+  expectation.inverse_pdf =
+      reference::light_moments(one, {&bright, 1})[0][reference::SampledDensity::material];
 }
 
 Expectation expectation_of(const Lobes& distribution) {

@@ -126,9 +126,9 @@ Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
   for (std::size_t i = 0; i < kMeanCaseCount; ++i) {
     const auto moments = light_moments(expectation, kMeanCases[i].normal);
     expectation.estimators[i] = target.density_space == DensitySpace::texture
-                                    ? moments.environment_a
-                                    : moments.environment_b;
-    expectation.uniform[i] = moments.uniform;
+                                    ? moments[reference::SampledDensity::texture_space]
+                                    : moments[reference::SampledDensity::solid_angle];
+    expectation.uniform[i] = moments[reference::SampledDensity::uniform];
   }
   expectation.inverse_pdf = inverse_pdf_moments(expectation);
   expectation.is_summed = true;

@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 /// The names in order of first appearance, each once.
 std::vector<std::string> unique_names(const std::vector<std::string>& names);
 
-/// How a strategy or sampler is told apart: by colour and by shape.
+/// How an estimator or sampler is told apart: by colour and by shape.
 struct SeriesStyle {
   std::string name;
   std::string colour;  ///< "#rrggbb"

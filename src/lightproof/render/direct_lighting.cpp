@@ -39,19 +39,14 @@ void LightBatch::draw(const Lighting& lighting, const ShadingPoint& at, const Ra
                       std::uint64_t first, std::size_t count) {
   assert(count <= kCapacity);
   count_ = count;
-  switch (lighting.strategy) {
-    case Strategy::uniform:
-      fill_points(stream, first, std::span(s_).first(count), std::span(u_).first(count));
-      return fill_from_sphere(count);
-    case Strategy::material:
-      fill_points(stream, first, std::span(s_).first(count), std::span(u_).first(count));
-      return fill_from_material(count, lighting.material, at);
-    case Strategy::environment_a:
-      return fill_from_map(count, lighting.light->sampler(DensitySpace::texture), stream, first);
-    case Strategy::environment_b:
-      return fill_from_map(count, lighting.light->sampler(DensitySpace::solid_angle), stream,
-                           first);
+  if (const auto& sampler = lighting.light->sampler()) {
+    return fill_from_map(count, *sampler, stream, first);
   }
+  fill_points(stream, first, std::span(s_).first(count), std::span(u_).first(count));
+  if (std::holds_alternative<MaterialLobes>(lighting.light->source())) {
+    return fill_from_material(count, lighting.material, at);
+  }
+  fill_from_sphere(count);
 }
 
 void LightBatch::locate(Extent map) {
@@ -65,14 +60,14 @@ void LightBatch::shade(const Lighting& lighting, const ShadingPoint& at) {
   const Grid<Rgb>& radiance = lighting.light->map().radiance;
   const DirectionArrays directions = {std::span(x_).first(count_), std::span(y_).first(count_),
                                       std::span(z_).first(count_)};
-  if (lighting.strategy == Strategy::material) {
+  if (std::holds_alternative<MaterialLobes>(lighting.light->source())) {
     approximate_positions(directions.x, directions.y, directions.z,
                           {std::span(s_).first(count_), std::span(t_).first(count_)});
   } else {
     reflected_cosines(lighting.material, at, directions,
                       std::span(reflected_cosine_).first(count_));
   }
-  if (!draws_from_map(lighting.strategy)) locate(radiance.extent());
+  if (!lighting.light->sampler()) locate(radiance.extent());
   const auto width = static_cast<std::size_t>(radiance.extent().width);
   // Every sample is written; those that do not matter are overwritten by the next.
   ray_count_ = 0;

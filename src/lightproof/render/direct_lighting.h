@@ -11,16 +11,14 @@
 #include "lightproof/materials/material.h"
 #include "lightproof/render/environment_light.h"
 #include "lightproof/render/scene.h"
-#include "lightproof/render/strategy.h"
 
 namespace lightproof {
 
-/// What is estimated and how. The scene and the light must outlive it.
+/// What is estimated, and with the light, how. The scene and the light must outlive it.
 struct Lighting {
   const Scene* scene;
   const EnvironmentLight* light;
   Material material;
-  Strategy strategy;
 };
 
 /// Up to kCapacity samples on their way; one per thread, reused.

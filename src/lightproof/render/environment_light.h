@@ -1,29 +1,35 @@
-// An environment map ready to light a scene.
+// An environment map ready to light a scene, its directions drawn from one source.
 #pragma once
 
+#include <optional>
+
 #include "lightproof/image/environment_map.h"
+#include "lightproof/render/direction_source.h"
 #include "lightproof/samplers/guide_table.h"
 
 namespace lightproof {
 
-/// The map with a sampler of its luminance for each density: the fastest monotone one, so that
-/// stratified points stay stratified. Refers to the map, which must outlive it.
+/// The map, and, if directions are drawn from it, a sampler of its luminance: the fastest monotone
+/// one, so that stratified points stay stratified. Refers to the map, which must outlive it.
 class EnvironmentLight {
  public:
-  explicit EnvironmentLight(const EnvironmentMap& map)
-      : map_(&map),
-        by_a_(map, on_map({DensitySpace::texture}, map)),
-        by_b_(map, on_map({DensitySpace::solid_angle}, map)) {}
+  EnvironmentLight(const EnvironmentMap& map, DirectionSource source)
+      : map_(&map), source_(source) {
+    if (const auto* density = std::get_if<MapDensity>(&source)) {
+      sampler_.emplace(map, on_map({density->density_space}, map));
+    }
+  }
 
   const EnvironmentMap& map() const { return *map_; }
-  const GuideTable& sampler(DensitySpace density_space) const {
-    return density_space == DensitySpace::texture ? by_a_ : by_b_;
-  }
+  const DirectionSource& source() const { return source_; }
+  /// There if the source is a MapDensity.
+  const std::optional<GuideTable>& sampler() const { return sampler_; }
+  std::size_t table_bytes() const { return sampler_ ? sampler_->table_bytes() : 0; }
 
  private:
   const EnvironmentMap* map_;
-  GuideTable by_a_;
-  GuideTable by_b_;
+  DirectionSource source_;
+  std::optional<GuideTable> sampler_;
 };
 
 }  // namespace lightproof

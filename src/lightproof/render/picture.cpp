@@ -3,23 +3,11 @@
 #include <algorithm>
 
 #include "lightproof/core/parallel.h"
+#include "lightproof/samplers/sampler.h"
 #include "lightproof/warp/lat_long.h"
 
 namespace lightproof {
 namespace {
-
-Rgb mean_estimate(const Lighting& lighting, const ShadingPoint& at, const RandomStream& stream,
-                  std::uint64_t samples) {
-  LightBatch batch;
-  glm::dvec3 sum(0.0);
-  for (std::uint64_t first = 0; first < samples; first += LightBatch::kCapacity) {
-    const auto count = std::min<std::uint64_t>(samples - first, LightBatch::kCapacity);
-    for (const Rgb estimate : batch.estimate(lighting, at, stream, first, count)) {
-      sum += glm::dvec3(estimate);
-    }
-  }
-  return Rgb(sum / static_cast<double>(samples));
-}
 
 Grid<Rgb> backdrop(const Grid<Rgb>& radiance, Extent extent) {
   Grid<Rgb> picture(extent);
@@ -35,17 +23,17 @@ Grid<Rgb> backdrop(const Grid<Rgb>& radiance, Extent extent) {
 
 }  // namespace
 
-Grid<Rgb> render_picture(const Lighting& lighting, const ReceiverInfo& receiver, Extent extent,
-                         std::uint64_t samples, const RandomStream& stream) {
-  Grid<Rgb> picture = backdrop(lighting.light->map().radiance, extent);
-  const std::vector<Pixel> pixels = visible_pixels(receiver, *lighting.scene, extent);
+Grid<Rgb> render_picture(const EnvironmentMap& map, const Scene& scene,
+                         const ReceiverInfo& receiver, Extent extent, const RandomStream& stream,
+                         const Shade& shade) {
+  Grid<Rgb> picture = backdrop(map.radiance, extent);
+  const std::vector<Pixel> pixels = visible_pixels(receiver, scene, extent);
   constexpr std::size_t kPixelsPerTask = 64;
   const std::size_t tasks = (pixels.size() + kPixelsPerTask - 1) / kPixelsPerTask;
   parallel_for(tasks, [&](std::size_t task) {
     const std::size_t end = std::min(pixels.size(), (task + 1) * kPixelsPerTask);
     for (std::size_t i = task * kPixelsPerTask; i < end; ++i) {
-      picture(pixels[i].x, pixels[i].y) =
-          mean_estimate(lighting, pixels[i].point, stream.substream(i), samples);
+      picture(pixels[i].x, pixels[i].y) = shade(pixels[i].point, stream.substream(i));
     }
   });
   return picture;

@@ -1,17 +1,22 @@
 // Pictures of a receiver.
 #pragma once
 
-#include <cstdint>
+#include <functional>
 
 #include "lightproof/core/grid.h"
-#include "lightproof/render/direct_lighting.h"
+#include "lightproof/core/random.h"
+#include "lightproof/image/environment_map.h"
 #include "lightproof/render/receiver.h"
 
 namespace lightproof {
 
-/// The mean of `samples` estimates per pixel; pixels beside the receiver show the map itself. Row 0
-/// at the top. The same bits for any number of threads.
-Grid<Rgb> render_picture(const Lighting& lighting, const ReceiverInfo& receiver, Extent picture,
-                         std::uint64_t samples, const RandomStream& stream);
+/// The radiance that a point reflects to the camera, by the points of a stream of its own.
+using Shade = std::function<Rgb(const ShadingPoint& at, const RandomStream& stream)>;
+
+/// `shade` at every pixel that shows the receiver; the others show the map itself. Row 0 at the
+/// top. The same bits for any number of threads.
+Grid<Rgb> render_picture(const EnvironmentMap& map, const Scene& scene,
+                         const ReceiverInfo& receiver, Extent picture, const RandomStream& stream,
+                         const Shade& shade);
 
 }  // namespace lightproof

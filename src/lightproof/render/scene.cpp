@@ -1,6 +1,10 @@
 #include "lightproof/render/scene.h"
 
+#if LIGHTPROOF_EMBREE >= 4
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include <cstddef>
 #include <stdexcept>
@@ -18,6 +22,29 @@ static_assert(offsetof(ShadowRay, flags) == offsetof(RTCRay, flags));
 /// Half the side of the plane: to a point one radius above it, its horizon lies 1e-4 rad below
 /// the true one.
 constexpr float kPlaneHalfSide = 1e4F;
+
+#if LIGHTPROOF_EMBREE >= 4
+void find_first(RTCScene scene, RTCRayHit& query) { rtcIntersect1(scene, &query, nullptr); }
+
+/// Sets tfar of the rays that something blocks to minus infinity.
+void find_any(RTCScene scene, std::span<ShadowRay> rays) {
+  for (ShadowRay& ray : rays) rtcOccluded1(scene, reinterpret_cast<RTCRay*>(&ray), nullptr);
+}
+#else
+void find_first(RTCScene scene, RTCRayHit& query) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &query);
+}
+
+/// Sets tfar of the rays that something blocks to minus infinity.
+void find_any(RTCScene scene, std::span<ShadowRay> rays) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1M(scene, &context, reinterpret_cast<RTCRay*>(rays.data()),
+                static_cast<unsigned>(rays.size()), sizeof(ShadowRay));
+}
+#endif
 
 void attach_sphere(RTCDevice device, RTCScene scene) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
@@ -72,8 +99,6 @@ Scene::~Scene() {
 }
 
 std::optional<SurfaceHit> Scene::intersect(glm::dvec3 origin, Direction direction) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   RTCRayHit query{};
   const ShadowRay ray = shadow_ray(origin, direction);
   query.ray = {ray.origin[0],
@@ -89,7 +114,7 @@ std::optional<SurfaceHit> Scene::intersect(glm::dvec3 origin, Direction directio
                0U,
                0U};
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(device_->scene, &context, &query);
+  find_first(device_->scene, query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   const glm::dvec3 position = origin + static_cast<double>(query.ray.tfar) * direction;
   // The exact surface: float distances of far cameras are not good enough to start from.
@@ -102,10 +127,7 @@ std::optional<SurfaceHit> Scene::intersect(glm::dvec3 origin, Direction directio
 
 void Scene::trace(std::span<ShadowRay> rays) const {
   if (rays.empty() || (!content_.sphere && !content_.plane)) return;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1M(device_->scene, &context, reinterpret_cast<RTCRay*>(rays.data()),
-                static_cast<unsigned>(rays.size()), sizeof(ShadowRay));
+  find_any(device_->scene, rays);
 }
 
 bool Scene::is_visible(glm::dvec3 origin, Direction direction) const {

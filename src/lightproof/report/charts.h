@@ -11,8 +11,8 @@
 
 namespace lightproof {
 
-/// The strategies of the records, styled.
-std::vector<SeriesStyle> strategy_styles(const std::vector<ConvergenceRecord>& records);
+/// The estimators of the records, styled.
+std::vector<SeriesStyle> estimator_styles(const std::vector<ConvergenceRecord>& records);
 
 /// "receiver, material".
 std::string scene_name(const ConvergenceRecord& record);

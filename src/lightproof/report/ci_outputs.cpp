@@ -110,7 +110,7 @@ std::vector<GateCell> rejected_cells(const GateResult& gate) {
 /// One defect, however many tests see it.
 std::string annotation(const GateResult& gate, const GateCell& cell) {
   const TestRecord& worst = *cell.worst;
-  const std::string title = fmt::format("lightproof: {} on {}", cell.configuration, cell.map);
+  const std::string title = fmt::format("lightproof: {} on {}", cell.sampler_and_density, cell.map);
   const std::string message =
       fmt::format("{} of {} rejected, the worst {}: {}. Again: {}", cell.tally.rejected,
                   counted(cell.tally.tests, "test"), full_name(worst.test), message_of(gate, worst),
@@ -168,7 +168,7 @@ std::string gate_markdown(const GateResult& gate, bool count_known_defects) {
       tally_of(gate, [&](const TestRecord& test) { return counts(test, count_known_defects); });
   std::string text = fmt::format(
       "### Lightproof gate: {}\n\n{}, {} rejected, {} inconclusive{}; family-wise error {}, {} "
-      "samples per configuration, seed {}.\n",
+      "samples per run, seed {}.\n",
       outcome_text(tally.outcome()), counted(tally.tests, "test"), tally.rejected,
       tally.inconclusive, limited_text(tally), significant(gate.family_alpha),
       with_thousands(gate.samples), gate.seed);
@@ -195,7 +195,7 @@ std::string gate_annotations(const GateResult& gate, bool count_known_defects) {
   }
   if (shown < rejected.size()) {
     text += fmt::format("::error title=lightproof::{} more rejected: see the summary or the log\n",
-                        counted(rejected.size() - shown, "configuration"));
+                        counted(rejected.size() - shown, "run"));
   }
   const Tally tally = tally_of(deciding, [](const TestRecord&) { return true; });
   if (tally.inconclusive > 0) {

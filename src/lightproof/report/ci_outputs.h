@@ -7,7 +7,7 @@
 
 namespace lightproof {
 
-/// The command that draws the same samples again, for one configuration, quoted for a shell.
+/// The command that draws the same samples again, for one run, quoted for a shell.
 std::string replay_command(const GateResult& gate, const TestRecord& test);
 /// Of the rejected sampler.
 std::string replay_command(const GateResult& gate, const Rejection& rejection);

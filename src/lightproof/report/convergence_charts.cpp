@@ -16,7 +16,7 @@ namespace {
 Json convergence_row(const ConvergenceRecord& r, const ConvergencePoint& p) {
   // A logarithmic axis has no room for an end at or below zero.
   const double low = std::max(p.rmse - kBarHalfLength * p.rmse_error, 0.05 * p.rmse);
-  Json row = {{"series", r.strategy},
+  Json row = {{"series", r.estimator},
               {"n", p.samples},
               {"rmse", rounded(p.rmse)},
               {"drawn_low", rounded(low)},
@@ -80,7 +80,7 @@ Json kind_of_line(const char* kind, bool legend) {
 }
 
 Json convergence_tooltip() {
-  return {tooltip("series", "strategy", ""),
+  return {tooltip("series", "estimator", ""),
           tooltip("n", "samples N", ",d"),
           tooltip("rmse", "measured RMSE / mean", ".3~g"),
           tooltip("low", "minus 2 SE", ".3~g"),
@@ -169,9 +169,9 @@ Json convergence_rows(const std::vector<ConvergenceRecord>& records, Rows kind) 
 
 }  // namespace
 
-std::vector<SeriesStyle> strategy_styles(const std::vector<ConvergenceRecord>& records) {
+std::vector<SeriesStyle> estimator_styles(const std::vector<ConvergenceRecord>& records) {
   std::vector<std::string> names;
-  for (const ConvergenceRecord& r : records) names.push_back(r.strategy);
+  for (const ConvergenceRecord& r : records) names.push_back(r.estimator);
   return series_styles(names);
 }
 
@@ -194,7 +194,7 @@ std::string convergence_chart(const std::vector<ConvergenceRecord>& records) {
   chart["data"] = {{"values", convergence_rows(records, choices.full ? Rows::with_map_and_scene
                                                                      : Rows::with_place)}};
   chart["encoding"] = {{"x", samples_axis(records, "samples N per estimate (log)", 12)}};
-  chart["layer"] = convergence_layers(strategy_styles(records), error_range(records), true);
+  chart["layer"] = convergence_layers(estimator_styles(records), error_range(records), true);
   return text_of(chart);
 }
 
@@ -208,7 +208,7 @@ std::string small_convergence_chart(const std::vector<ConvergenceRecord>& record
   Json chart = base_chart(190);
   chart["data"] = {{"values", convergence_rows(shown, Rows::plain)}};
   chart["encoding"] = {{"x", samples_axis(records, "samples N (log)", 4)}};
-  chart["layer"] = convergence_layers(strategy_styles(records), range, false);
+  chart["layer"] = convergence_layers(estimator_styles(records), range, false);
   for (Json& layer : chart["layer"]) {
     layer["encoding"]["y"]["scale"]["domain"] = {range.low / 1.2, range.high * 1.2};
   }

@@ -15,12 +15,12 @@ namespace lightproof {
 namespace {
 
 Table slope_table(const std::vector<ConvergenceRecord>& records) {
-  Table table("Fitted slopes", {"Strategy", "Map", "Receiver", "Material", "Slope",
+  Table table("Fitted slopes", {"Estimator", "Map", "Receiver", "Material", "Slope",
                                 "Standard error", "Largest N", "RMSE / mean there", "Predicted"});
   for (const ConvergenceRecord& r : records) {
     if (r.points.empty()) continue;
     const ConvergencePoint& last = r.points.back();
-    table.add({text_cell(r.strategy),
+    table.add({text_cell(r.estimator),
                text_cell(r.map),
                text_cell(r.receiver),
                text_cell(r.material),
@@ -34,11 +34,11 @@ Table slope_table(const std::vector<ConvergenceRecord>& records) {
 }
 
 Table variance_table(const std::vector<ConvergenceRecord>& records) {
-  Table table("Variances", {"Strategy", "Map", "Receiver", "Material", "Measured / mean\u00b2",
+  Table table("Variances", {"Estimator", "Map", "Receiver", "Material", "Measured / mean\u00b2",
                             "Predicted / mean\u00b2", "Ratio", "Standard error"});
   for (const ConvergenceRecord& r : records) {
     const bool ratio = has_ratio(r);
-    table.add({text_cell(r.strategy), text_cell(r.map), text_cell(r.receiver),
+    table.add({text_cell(r.estimator), text_cell(r.map), text_cell(r.receiver),
                text_cell(r.material), number_cell(r.measured_variance),
                number_cell(r.predicted_variance),
                ratio ? number_cell(r.measured_variance / r.predicted_variance, 4)
@@ -66,7 +66,7 @@ std::string glyph(const SeriesStyle& style) {
 
 std::string legend(const std::vector<ConvergenceRecord>& records) {
   std::string items;
-  for (const SeriesStyle& style : strategy_styles(records)) {
+  for (const SeriesStyle& style : estimator_styles(records)) {
     items += fmt::format("<li>{} {}</li>", glyph(style), escaped(style.name));
   }
   return "<ul class=\"legend\">" + items +
@@ -125,7 +125,7 @@ std::string convergence_section(const std::vector<ConvergenceRecord>& records) {
                         counted(exact, "estimator"), exact == 1 ? "is" : "are");
   }
   const Chart chart = {"convergence-chart", convergence_finding(records),
-                       "Error of each strategy against its number of samples, measured and "
+                       "Error of each estimator against its number of samples, measured and "
                        "predicted, for a map and receiver of your choice",
                        note, convergence_chart(records)};
   html += chart_figure(chart, collapsible("Slopes as a table", slope_table(records).html()) +

@@ -97,10 +97,10 @@ std::string mutants_csv(const std::vector<KillRecord>& mutants) {
 
 std::string convergence_csv(const std::vector<ConvergenceRecord>& records) {
   std::string csv =
-      "map,receiver,material,strategy,pixels,replicates,samples,rmse,rmse_error,predicted\n";
+      "map,receiver,material,estimator,pixels,replicates,samples,rmse,rmse_error,predicted\n";
   for (const ConvergenceRecord& r : records) {
     for (const ConvergencePoint& p : r.points) {
-      csv += row(r.map, r.receiver, r.material, r.strategy, r.pixels, r.replicates, p.samples,
+      csv += row(r.map, r.receiver, r.material, r.estimator, r.pixels, r.replicates, p.samples,
                  p.rmse, p.rmse_error, p.predicted);
     }
   }
@@ -109,12 +109,12 @@ std::string convergence_csv(const std::vector<ConvergenceRecord>& records) {
 
 std::string variance_csv(const std::vector<ConvergenceRecord>& records) {
   std::string csv =
-      "map,receiver,material,strategy,measured_variance,predicted_variance,ratio,ratio_error,"
+      "map,receiver,material,estimator,measured_variance,predicted_variance,ratio,ratio_error,"
       "slope,slope_error\n";
   for (const ConvergenceRecord& r : records) {
-    csv += row(r.map, r.receiver, r.material, r.strategy, r.measured_variance, r.predicted_variance,
-               r.measured_variance / r.predicted_variance, r.variance_ratio_error, r.slope,
-               r.slope_error);
+    csv += row(r.map, r.receiver, r.material, r.estimator, r.measured_variance,
+               r.predicted_variance, r.measured_variance / r.predicted_variance,
+               r.variance_ratio_error, r.slope, r.slope_error);
   }
   return csv;
 }
@@ -169,11 +169,11 @@ std::string tables_csv(const std::vector<TableRecord>& records) {
 }
 
 std::string renders_csv(const std::vector<RenderRecord>& records) {
-  std::string csv = "map,receiver,material,strategy,samples,width,height,rmse,seconds,picture\n";
+  std::string csv = "map,receiver,material,estimator,samples,width,height,rmse,seconds,picture\n";
   const std::vector<std::string> stems = render_stems(records);
   for (std::size_t i = 0; i < records.size(); ++i) {
     const RenderRecord& r = records[i];
-    csv += row(r.map, r.receiver, r.material, r.strategy, r.samples, r.picture.extent().width,
+    csv += row(r.map, r.receiver, r.material, r.estimator, r.samples, r.picture.extent().width,
                r.picture.extent().height, r.rmse, r.seconds, stems[i] + ".exr");
   }
   return csv;

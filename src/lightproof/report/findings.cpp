@@ -27,7 +27,7 @@ std::string capitalised(std::string text) {
 }
 
 std::string place_of(const ConvergenceRecord& r) {
-  return fmt::format("{} on {}, {}, {}", r.strategy, r.map, r.receiver, r.material);
+  return fmt::format("{} on {}, {}, {}", r.estimator, r.map, r.receiver, r.material);
 }
 
 /// |value - expected| in standard errors; without a standard error any difference is infinite.
@@ -188,16 +188,16 @@ std::string saving_finding(const std::vector<const ConvergenceRecord*>& records)
   };
   const ConvergenceRecord& best = **std::min_element(records.begin(), records.end(), by_variance);
   const ConvergenceRecord& worst = **std::max_element(records.begin(), records.end(), by_variance);
-  if (is_all_but_exact(best)) return fmt::format("{} is exact", best.strategy);
+  if (is_all_but_exact(best)) return fmt::format("{} is exact", best.estimator);
   const double factor = worst.predicted_variance / best.predicted_variance;
-  if (!(factor > 1.0)) return "no strategy is ahead";
+  if (!(factor > 1.0)) return "no estimator is ahead";
   const double digit = std::pow(10.0, std::floor(std::log10(factor)) - 1.0);
   const std::string times =
       factor < 100.0
           ? format_number(factor, 2)
           : with_thousands(static_cast<std::uint64_t>(std::round(factor / digit) * digit));
-  return fmt::format("{} needs {} times fewer samples than {}", best.strategy, times,
-                     worst.strategy);
+  return fmt::format("{} needs {} times fewer samples than {}", best.estimator, times,
+                     worst.estimator);
 }
 
 std::string render_finding(const std::vector<const RenderRecord*>& scene) {
@@ -211,9 +211,9 @@ std::string render_finding(const std::vector<const RenderRecord*>& scene) {
   std::string text =
       fmt::format("{}{} has the smallest error, {} of the mean",
                   equal ? fmt::format("At {} per pixel ", counted(best.samples, "sample")) : "",
-                  best.strategy, format_number(best.rmse));
+                  best.estimator, format_number(best.rmse));
   if (&best != &worst && best.rmse > 0.0) {
-    text += fmt::format("; that of {} is {} times as large", worst.strategy,
+    text += fmt::format("; that of {} is {} times as large", worst.estimator,
                         format_number(worst.rmse / best.rmse, 2));
   }
   return text;
@@ -228,7 +228,7 @@ std::string renders_finding(const std::vector<RenderRecord>& renders) {
                                                 [&](std::size_t a, std::size_t b) {
                                                   return renders[a].rmse < renders[b].rmse;
                                                 })]
-                          .strategy);
+                          .estimator);
   }
   std::string text;
   for (const std::string& name : unique_names(winners)) {

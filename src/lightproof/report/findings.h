@@ -64,14 +64,14 @@ std::string build_finding(const StudyResult& study);
 std::string tables_finding(const std::vector<TableRecord>& records, TableCost cost,
                            std::string_view better);
 
-/// How many times fewer samples the best strategy needs than the worst for the same error, by the
+/// How many times fewer samples the best estimator needs than the worst for the same error, by the
 /// predicted variances. `records` is not empty.
 std::string saving_finding(const std::vector<const ConvergenceRecord*>& records);
 
-/// Which strategy has the smallest error in one scene. `scene` is not empty.
+/// Which estimator has the smallest error in one scene. `scene` is not empty.
 std::string render_finding(const std::vector<const RenderRecord*>& scene);
 
-/// Which strategy wins how often over all scenes. `renders` is not empty.
+/// Which estimator wins how often over all scenes. `renders` is not empty.
 std::string renders_finding(const std::vector<RenderRecord>& renders);
 
 /// What the effective fraction means for this map, with the variance of uniform sampling.

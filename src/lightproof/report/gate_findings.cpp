@@ -74,7 +74,7 @@ SamplerFinding sampler_finding(const GateResult& gate, const std::string& sample
   for (const GateCell& cell : summarise(gate)) {
     if (cell.sampler != sampler || cell.worst->outcome != finding.outcome) continue;
     finding.sentence += fmt::format("; for example {} of {} on {}", full_name(cell.worst->test),
-                                    cell.configuration, cell.map);
+                                    cell.sampler_and_density, cell.map);
     if (!cell.worst->detail.empty()) finding.sentence += " (" + cell.worst->detail + ")";
     break;
   }

@@ -37,7 +37,7 @@ Cell tally_cell(const GateCell& cell) {
 std::string direction_verdicts(const std::vector<GateCell>& cells) {
   Table table("Verdict of every warp and material", {"Sampler", "Verdict"}, "matrix");
   for (const GateCell& cell : cells) {
-    table.add({text_cell(cell.configuration), tally_cell(cell)});
+    table.add({text_cell(cell.sampler_and_density), tally_cell(cell)});
   }
   return cells.empty() ? "" : "<h4>Warps and materials</h4>\n" + table.html();
 }
@@ -45,20 +45,20 @@ std::string direction_verdicts(const std::vector<GateCell>& cells) {
 std::string matrix(const std::vector<GateCell>& cells) {
   if (cells.empty()) return "";
   std::vector<std::string> maps;
-  std::vector<std::string> configurations;
+  std::vector<std::string> tested;
   for (const GateCell& cell : cells) {
     maps.push_back(cell.map);
-    configurations.push_back(cell.configuration);
+    tested.push_back(cell.sampler_and_density);
   }
   maps = unique_names(maps);
   std::vector<std::string> columns = {"Sampler"};
   columns.insert(columns.end(), maps.begin(), maps.end());
   Table table("Verdict of every sampler on every map", columns, "matrix");
-  for (const std::string& configuration : unique_names(configurations)) {
-    std::vector<Cell> row = {text_cell(configuration)};
+  for (const std::string& name : unique_names(tested)) {
+    std::vector<Cell> row = {text_cell(name)};
     for (const std::string& map : maps) {
       const auto found = std::find_if(cells.begin(), cells.end(), [&](const GateCell& c) {
-        return c.configuration == configuration && c.map == map;
+        return c.sampler_and_density == name && c.map == map;
       });
       row.push_back(found == cells.end() ? Cell{"\u2013 not run", "absent", ""}
                                          : tally_cell(*found));

@@ -49,7 +49,7 @@ std::vector<GateCell> summarise(const GateResult& gate) {
   for (const TestRecord& test : gate.tests) {
     const std::string name = sampler_and_density(test);
     auto cell = std::find_if(cells.begin(), cells.end(), [&](const GateCell& c) {
-      return c.configuration == name && c.map == test.map;
+      return c.sampler_and_density == name && c.map == test.map;
     });
     if (cell == cells.end()) {
       cell = cells.insert(cells.end(),

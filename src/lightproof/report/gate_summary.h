@@ -1,4 +1,5 @@
-// The tests of a gate counted by configuration; tables, pages and sentences all start from here.
+// The tests of a gate counted by run (a sampler, a density and a map); tables, pages and sentences
+// all start from here.
 #pragma once
 
 #include <string>
@@ -11,7 +12,7 @@ namespace lightproof {
 
 /// All tests of one sampler, density and map.
 struct GateCell {
-  std::string configuration;  ///< see sampler_and_density
+  std::string sampler_and_density;  ///< see sampler_and_density()
   std::string sampler;
   std::string map;
   bool known_defect = false;
@@ -22,7 +23,7 @@ struct GateCell {
 /// "binary_search B"; the sampler alone where there is no density.
 std::string sampler_and_density(const TestRecord& test);
 
-/// In the order in which the configurations first appear.
+/// In the order in which the runs first appear.
 std::vector<GateCell> summarise(const GateResult& gate);
 
 /// Whether the rejection is of a sampler that is kept as published, with its known defects.

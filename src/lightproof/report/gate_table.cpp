@@ -35,7 +35,7 @@ std::string summary_lines(const GateResult& gate, Colour colour) {
       {"verdict", "sampler", "map", "passed", "worst test", "log10 p", "effect", "detectable"}};
   for (const GateCell& cell : cells) {
     const TestRecord& worst = *cell.worst;
-    rows.push_back({outcome_text(cell.tally.outcome()), cell.configuration, cell.map,
+    rows.push_back({outcome_text(cell.tally.outcome()), cell.sampler_and_density, cell.map,
                     tally_text(cell.tally), full_name(worst.test), log10_p_text(worst),
                     effect_text(worst), minimum_detectable_text(worst)});
   }
@@ -131,8 +131,8 @@ std::string gate_table(const GateResult& gate, bool count_known_defects, Colour 
   const SplitGate split = split_gate(gate, count_known_defects);
   const Tally all = tally_of(split.deciding, [](const TestRecord&) { return true; });
   const std::string total = fmt::format(
-      "{}: {}, {} rejected, {} inconclusive{}; family-wise error {}, {} samples per "
-      "configuration, seed {}",
+      "{}: {}, {} rejected, {} inconclusive{}; family-wise error {}, {} samples per run, "
+      "seed {}",
       outcome_text(all.outcome()), counted(all.tests, "test"), all.rejected, all.inconclusive,
       limited_text(all), significant(gate.family_alpha), with_thousands(gate.samples), gate.seed);
   return all_lines(split.deciding, colour) + demonstration_lines(split.known_defects) + "\n" +

@@ -10,9 +10,9 @@ namespace lightproof {
 enum class Colour { off, ansi };
 
 /// Aligned columns: one line per sampler, density and map with its worst test, then every
-/// rejected test in full, then the totals of the tests that count (see overall_outcome), which are
-/// the last line. Samplers with known defects that do not count stand before that in a section of
-/// their own. Ends with a newline.
+/// rejected test in full, then the totals of the tests that count (see overall_outcome), and
+/// what an accepting run could have seen. Samplers with known defects that do not count stand
+/// before that in a section of their own. Ends with a newline.
 std::string gate_table(const GateResult& gate, bool count_known_defects,
                        Colour colour = Colour::off);
 

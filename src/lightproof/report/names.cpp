@@ -37,7 +37,7 @@ std::string file_name_part(std::string_view text) {
 std::vector<std::string> render_stems(const std::vector<RenderRecord>& renders) {
   std::vector<std::string> stems;
   for (const RenderRecord& r : renders) {
-    stems.push_back(unused(scene_stem(r) + "-" + file_name_part(r.strategy), stems));
+    stems.push_back(unused(scene_stem(r) + "-" + file_name_part(r.estimator), stems));
   }
   return stems;
 }

@@ -13,7 +13,7 @@ namespace lightproof {
 /// without leading dots: safe in any folder and in a URL. Never empty.
 std::string file_name_part(std::string_view text);
 
-/// One stem per render, "<map>-<receiver>-<material>-<strategy>", all different: a repeated one
+/// One stem per render, "<map>-<receiver>-<material>-<estimator>", all different: a repeated one
 /// gets "-2", "-3", …
 std::vector<std::string> render_stems(const std::vector<RenderRecord>& renders);
 

@@ -46,7 +46,7 @@ std::string facts(const StudyResult& study) {
          fact("Machine", study.machine) + fact("Seed", std::to_string(study.seed)) +
          fact("Maps", std::to_string(study.maps.size())) +
          fact("Tests", with_thousands(study.gate.tests.size())) +
-         fact("Samples per tested configuration", with_thousands(study.gate.samples)) +
+         fact("Samples per run of a sampler", with_thousands(study.gate.samples)) +
          fact("Family-wise error", significant(study.gate.family_alpha)) + "</dl>\n";
 }
 

@@ -29,15 +29,15 @@ std::string seconds_text(double seconds) {
   return seconds > 0.0 ? format_number(seconds) + " s" : "time not measured";
 }
 
-std::string strategy_figure(const RenderRecord& r, double scale, double range) {
+std::string estimator_figure(const RenderRecord& r, double scale, double range) {
   return fmt::format(
       "<figure>{}\n{}\n<figcaption><strong>{}</strong><br>RMSE / mean {}<br>{}, {} per "
       "pixel</figcaption></figure>\n",
-      image(tone_mapped(r.picture, scale), "Picture by " + r.strategy),
+      image(tone_mapped(r.picture, scale), "Picture by " + r.estimator),
       image(
           diverging_picture(r.error, range),
-          fmt::format("Signed error of {}, from blue (too dark) to red (too bright)", r.strategy)),
-      escaped(r.strategy), format_number(r.rmse), seconds_text(r.seconds),
+          fmt::format("Signed error of {}, from blue (too dark) to red (too bright)", r.estimator)),
+      escaped(r.estimator), format_number(r.rmse), seconds_text(r.seconds),
       counted(r.samples, "sample"));
 }
 
@@ -79,15 +79,15 @@ std::string scene_html(const Scene& scene) {
       fmt::format("<figure>{}\n{}<figcaption><strong>Reference</strong>{}</figcaption></figure>\n",
                   image(tone_mapped(first.reference, scale), "Reference picture"),
                   colour_bar(range), reference_text(first));
-  for (const RenderRecord* r : scene) html += strategy_figure(*r, scale, range);
+  for (const RenderRecord* r : scene) html += estimator_figure(*r, scale, range);
   return html + "</div>\n";
 }
 
 std::string render_table(const std::vector<RenderRecord>& renders) {
-  Table table("Renders", {"Strategy", "Map", "Receiver", "Material", "Samples per pixel",
+  Table table("Renders", {"Estimator", "Map", "Receiver", "Material", "Samples per pixel",
                           "RMSE / mean", "Seconds"});
   for (const RenderRecord& r : renders) {
-    table.add({text_cell(r.strategy),
+    table.add({text_cell(r.estimator),
                text_cell(r.map),
                text_cell(r.receiver),
                text_cell(r.material),
@@ -101,7 +101,7 @@ std::string render_table(const std::vector<RenderRecord>& renders) {
 constexpr std::string_view kNote =
     "Above: the picture, exposed so that the mean luminance of the reference's lit pixels is 0.35, "
     "clipped and sRGB-encoded. Below: picture minus reference in luminance, relative to the "
-    "reference's mean over the pixels that show the receiver, on one scale for all strategies of a "
+    "reference's mean over the pixels that show the receiver, on one scale for all estimators of a "
     "scene; at most "
     "1\u00a0% of the errors lie beyond its ends. Equal numbers of samples are not equal times: the "
     "seconds are in the captions.";

@@ -18,7 +18,7 @@ std::set<std::string> report_file_names();
 ///   results.json   everything but the pixels (report/json.h)
 ///   gate.csv, convergence.csv, variance.csv, throughput.csv, growth.csv, build.csv, tables.csv,
 ///   renders.csv, maps.csv, mutants.csv
-///   <map>-<receiver>-<material>-<strategy>.exr, …-error.exr (signed, relative to the reference's
+///   <map>-<receiver>-<material>-<estimator>.exr, …-error.exr (signed, relative to the reference's
 ///   mean, the same in R, G and B), <map>-<receiver>-<material>-reference.exr; the pictures and
 ///   the reference as .png too, at one exposure a scene
 ///   manifest.json  the list of these (report/result_folder.h)

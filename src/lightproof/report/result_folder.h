@@ -50,7 +50,7 @@ class ResultFolder {
  private:
   std::filesystem::path folder_;
   std::set<std::string> earlier_;
-  PendingFolder file_;
+  AtomicFolder file_;
 };
 
 }  // namespace lightproof

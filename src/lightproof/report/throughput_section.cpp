@@ -195,6 +195,11 @@ std::string throughput_section(const StudyResult& study) {
   const Chart chart = {"throughput-chart", throughput_finding(study),
                        "Time per sample of each sampler against the size of the map",
                        std::string(kNote), throughput_chart(study)};
+  if (!study.throughput_origin.empty()) {
+    html +=
+        paragraph("Measured: " + study.throughput_origin + ". It depends on machine and build " +
+                  "alone, and is kept for later studies.");
+  }
   return html +
          chart_figure(chart, collapsible("Times as a table", throughput_table(study.throughput)) +
                                  download_link("throughput.csv", throughput_csv(study.throughput)) +

@@ -14,7 +14,7 @@ Json variance_rows(const std::vector<ConvergenceRecord>& records) {
     if (!has_ratio(r)) continue;
     const double ratio = r.measured_variance / r.predicted_variance;
     const double half = kBarHalfLength * r.variance_ratio_error;
-    rows.push_back({{"series", r.strategy},
+    rows.push_back({{"series", r.estimator},
                     {"map", r.map},
                     {"scene", scene_name(r)},
                     {"predicted", rounded(r.predicted_variance)},
@@ -26,7 +26,7 @@ Json variance_rows(const std::vector<ConvergenceRecord>& records) {
 }
 
 Json variance_tooltip() {
-  return {tooltip("series", "strategy", ""),
+  return {tooltip("series", "estimator", ""),
           tooltip("map", "map", ""),
           tooltip("scene", "receiver, material", ""),
           tooltip("predicted", "predicted variance / mean\u00b2", ".3~g"),
@@ -63,7 +63,7 @@ Json ratio_axis(const std::string& field) {
 }  // namespace
 
 std::string variance_chart(const std::vector<ConvergenceRecord>& records) {
-  const std::vector<SeriesStyle> styles = strategy_styles(records);
+  const std::vector<SeriesStyle> styles = estimator_styles(records);
   const Json legend = {{"title", nullptr}};
   const Json colour = series(styles, &SeriesStyle::colour, legend);
   Json dots = points(ratio_axis("ratio"), colour, series(styles, &SeriesStyle::shape, legend));

@@ -19,7 +19,7 @@ struct ConvergenceRecord {
   std::string map;
   std::string receiver;
   std::string material;
-  std::string strategy;
+  std::string estimator;
   int pixels = 0;
   int replicates = 0;                    ///< per pixel and number of samples
   std::vector<ConvergencePoint> points;  ///< ascending numbers of samples

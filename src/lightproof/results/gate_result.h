@@ -10,7 +10,7 @@
 
 namespace lightproof {
 
-/// A configuration that was rejected, for whoever has to mend it.
+/// A run that was rejected, for whoever has to mend it.
 struct Rejection {
   std::string sampler;
   std::string density_space;
@@ -25,8 +25,7 @@ struct Rejection {
 
 struct GateResult {
   double family_alpha = 0.0;  ///< probability that a run over correct samplers rejects anything
-  std::uint64_t samples =
-      0;  ///< per configuration; below the screening level tests are run again with four times
+  std::uint64_t samples = 0;  ///< per run; tests below the screening level get four times
   std::uint64_t seed = 0;
   std::vector<TestRecord> tests;
   std::vector<Rejection> rejections = {};

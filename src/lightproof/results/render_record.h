@@ -1,4 +1,4 @@
-// A picture of a scene by one strategy, beside its reference.
+// A picture of a scene by one estimator, beside its reference.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace lightproof {
 
-/// One picture of a receiver, by one strategy at equal numbers of samples.
+/// One picture of a receiver, by one estimator at equal numbers of samples.
 struct RenderRecord {
   std::string map;
   std::string receiver;
   std::string material;
-  std::string strategy;
+  std::string estimator;
   std::uint64_t samples = 0;
   Grid<Rgb> picture;    ///< row 0 at the top
-  Grid<Rgb> reference;  ///< the same for every strategy
+  Grid<Rgb> reference;  ///< the same for every estimator
   Grid<double> error;   ///< signed, over the reference's mean luminance at the receiver
   double rmse = 0.0;    ///< of `error` at the pixels that show the receiver
   double seconds = 0.0;

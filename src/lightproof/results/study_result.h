@@ -25,7 +25,8 @@ struct StudyResult {
   GateResult gate;
   std::vector<ConvergenceRecord> convergence;
   std::vector<ThroughputRecord> throughput;
-  CacheSizes caches;  ///< of the machine that measured the throughput
+  std::string throughput_origin;  ///< when, where and of what the throughput was measured
+  CacheSizes caches;              ///< of the machine that measured the throughput
   std::vector<GrowthFit> growth;
   std::vector<TableRecord> tables;
   std::vector<RenderRecord> renders;

@@ -21,7 +21,7 @@ inline constexpr double kDetectionPower = 0.99;
 /// run must have been able to see with kDetectionPower, unless another one is asked for.
 inline constexpr double kMustDetect = 0.1;
 
-/// One test of one configuration.
+/// One test of one run.
 struct TestRecord {
   std::string sampler;
   std::string density_space;  ///< "A" (p proportional to g) or "B" (g times solid angle)

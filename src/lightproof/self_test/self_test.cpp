@@ -19,7 +19,7 @@ SelfTestResult run_self_test(std::span<const MapRecord> maps, std::uint64_t seed
   return {calibrate(calibration, part_of(progress, 0.0, 0.15)),
           measure_power(power, part_of(progress, 0.15, 0.2)),
           measure_kills(seed, part_of(progress, 0.2, 0.5)),
-          measure_naming(maps, naming, part_of(progress, 0.5, 1.0))};
+          measure_naming(maps, naming, named(part_of(progress, 0.5, 1.0), "self-test"))};
 }
 
 }  // namespace lightproof

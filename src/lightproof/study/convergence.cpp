@@ -10,7 +10,7 @@
 
 #include "lightproof/core/moments.h"
 #include "lightproof/core/parallel.h"
-#include "lightproof/render/direct_lighting.h"
+#include "lightproof/estimators/registry.h"
 #include "lightproof/render/receiver.h"
 #include "lightproof/stats/power_law.h"
 #include "lightproof/study/exact_light.h"
@@ -39,32 +39,35 @@ std::vector<std::uint64_t> sample_counts(std::uint64_t most) {
 /// the points of a convergence line are independent.
 class PixelEstimator {
  public:
-  PixelEstimator(const Lighting& lighting, const ShadingPoint& point, const RandomStream& stream)
-      : lighting_(&lighting), point_(&point), stream_(stream) {}
+  PixelEstimator(const BoundEstimator& estimator, const ShadingPoint& point,
+                 const RandomStream& stream, LuminanceWeights weights)
+      : estimator_(&estimator), point_(&point), stream_(stream), weights_(weights) {}
 
-  /// The mean of the next `count` luminance estimates.
+  /// The luminance of an estimate that uses the next `count` samples.
   double mean(std::uint64_t count) {
     double sum = 0.0;
-    for (std::uint64_t done = 0; done < count; done += LightBatch::kCapacity) {
-      const auto part = std::min<std::uint64_t>(count - done, LightBatch::kCapacity);
-      for (const Rgb estimate : batch_.estimate(*lighting_, *point_, stream_, next_, part)) {
-        const double luminance = luminance_of(estimate, lighting_->light->map().weights);
-        sum += luminance;
-        single_.add(luminance);
-      }
-      next_ += part;
-    }
-    return sum / static_cast<double>(count);
+    bool is_mean = false;
+    const Rgb estimate =
+        estimator_->integrate(*point_, stream_, {next_, count}, [&](std::span<const Rgb> singles) {
+          is_mean = true;
+          for (const Rgb single : singles) {
+            const double luminance = luminance_of(single, weights_);
+            sum += luminance;
+            single_.add(luminance);
+          }
+        });
+    next_ += count;
+    return is_mean ? sum / static_cast<double>(count) : luminance_of(estimate, weights_);
   }
 
-  /// Of all estimates so far.
+  /// Of all single estimates so far.
   const Moments& single() const { return single_; }
 
  private:
-  const Lighting* lighting_;
+  const BoundEstimator* estimator_;
   const ShadingPoint* point_;
   RandomStream stream_;
-  LightBatch batch_;
+  LuminanceWeights weights_;
   std::uint64_t next_ = 0;
   Moments single_;
 };
@@ -92,18 +95,18 @@ double squared_error_variance(const reference::EstimatorMoments& exact, double n
 
 /// One line of the study, with the pixels of its receiver.
 struct Line {
-  const EnvironmentLight* light;
+  const EnvironmentMap* map;
   const ReceiverInfo* receiver;
-  const Scene* scene;
   const MaterialInfo* material;
-  StrategyInfo strategy;
+  const EstimatorInfo* info;
+  BoundEstimator estimator;
   std::span<const Pixel> pixels;
   std::vector<reference::EstimatorMoments> exact;
   int replicates;
 
   RandomStream stream(std::uint64_t seed) const {
-    return {fmt::format("convergence/{}/{}/{}/{}", light->map().name, receiver->name,
-                        material->name, strategy.name),
+    return {fmt::format("convergence/{}/{}/{}/{}", map->name, receiver->name, material->name,
+                        info->name),
             seed};
   }
 };
@@ -170,10 +173,10 @@ void measure_variance(const Line& line, std::span<const PixelErrors> errors,
 ConvergenceRecord record_of(const Line& line, std::span<const PixelErrors> errors,
                             std::span<const std::uint64_t> counts) {
   ConvergenceRecord record;
-  record.map = line.light->map().name;
+  record.map = line.map->name;
   record.receiver = line.receiver->name;
   record.material = line.material->name;
-  record.strategy = line.strategy.name;
+  record.estimator = line.info->name;
   record.pixels = static_cast<int>(errors.size());
   record.replicates = line.replicates;
   record.points = convergence_points(line, errors, counts);
@@ -208,20 +211,48 @@ struct Stage {
   std::vector<Pixel> pixels;
 };
 
-std::vector<Line> lines_of(std::span<const EnvironmentLight> lights,
-                           std::span<const Grid<double>> luminances, const Stage& stage,
-                           const MaterialInfo& material, int estimates) {
+/// Every estimator, prepared for one map.
+using PreparedEstimators = std::vector<PreparedEstimator>;
+
+PreparedEstimators prepared_for(const EnvironmentMap& map) {
+  PreparedEstimators prepared;
+  for (const EstimatorInfo& info : estimators()) prepared.push_back(info.prepare(map));
+  return prepared;
+}
+
+/// What light is gathered from: the maps, their luminances, and what the estimators keep of them.
+struct Lights {
+  std::span<const EnvironmentMap> maps;
+  std::vector<Grid<double>> luminances;
+  std::vector<PreparedEstimators> prepared;
+
+  explicit Lights(std::span<const EnvironmentMap> all) : maps(all) {
+    for (const EnvironmentMap& map : maps) {
+      luminances.push_back(luminance_of(map));
+      prepared.push_back(prepared_for(map));
+    }
+  }
+};
+
+std::vector<Line> lines_of(const Lights& lights, const Stage& stage, const MaterialInfo& material,
+                           int estimates) {
   const auto exact =
-      exact_light(luminances, *stage.receiver, stage.scene, material.material, stage.pixels);
+      exact_light(lights.luminances, *stage.receiver, stage.scene, material.material, stage.pixels);
   const int pixels = static_cast<int>(stage.pixels.size());
   std::vector<Line> lines;
-  for (std::size_t map = 0; map < lights.size(); ++map) {
-    for (const StrategyInfo& strategy : kStrategies) {
-      Line line{&lights[map], stage.receiver, &stage.scene, &material,
-                strategy,     stage.pixels,   {},           (estimates + pixels - 1) / pixels};
-      for (const auto& moments : exact[map]) {
-        line.exact.push_back(moments_of(moments, strategy.strategy));
-      }
+  for (std::size_t map = 0; map < lights.maps.size(); ++map) {
+    for (std::size_t i = 0; i < estimators().size(); ++i) {
+      const EstimatorInfo& info = estimators()[i];
+      if (!info.density) continue;  // its error is not predicted
+      Line line{&lights.maps[map],
+                stage.receiver,
+                &material,
+                &info,
+                lights.prepared[map][i].bind(stage.scene, material.material),
+                stage.pixels,
+                {},
+                (estimates + pixels - 1) / pixels};
+      for (const auto& moments : exact[map]) line.exact.push_back(moments[*info.density]);
       lines.push_back(std::move(line));
     }
   }
@@ -238,12 +269,10 @@ std::vector<ConvergenceRecord> measure_lines(std::span<const Line> lines,
   std::size_t done = 0;
   parallel_for(lines.size(), [&](std::size_t i) {
     const Line& line = lines[i];
-    const Lighting lighting{line.scene, line.light, line.material->material,
-                            line.strategy.strategy};
     std::vector<PixelErrors> errors(line.pixels.size());
     parallel_for(errors.size(), [&](std::size_t pixel) {
-      PixelEstimator estimator(lighting, line.pixels[pixel].point,
-                               line.stream(options.seed).substream(pixel));
+      PixelEstimator estimator(line.estimator, line.pixels[pixel].point,
+                               line.stream(options.seed).substream(pixel), line.map->weights);
       errors[pixel] = measure_pixel(estimator, line.exact[pixel].mean(), counts, line.replicates);
     });
     records[i] = record_of(line, errors, counts);
@@ -258,11 +287,10 @@ std::vector<ConvergenceRecord> measure_lines(std::span<const Line> lines,
 
 }  // namespace
 
-std::vector<ConvergenceRecord> study_convergence(std::span<const EnvironmentLight> lights,
+std::vector<ConvergenceRecord> study_convergence(std::span<const EnvironmentMap> maps,
                                                  const ConvergenceOptions& options,
                                                  const Progress& progress) {
-  std::vector<Grid<double>> luminances;
-  for (const EnvironmentLight& light : lights) luminances.push_back(luminance_of(light.map()));
+  const Lights lights(maps);
   std::vector<std::unique_ptr<Stage>> stages;
   for (const ReceiverInfo& receiver : receivers()) {
     stages.push_back(std::make_unique<Stage>(receiver, options.picture));
@@ -274,7 +302,7 @@ std::vector<ConvergenceRecord> study_convergence(std::span<const EnvironmentLigh
   for (const auto& stage : stages) {
     for (const MaterialInfo& material : materials()) {
       if (exact) exact("exact light", done++ / pairs);
-      auto more = lines_of(lights, luminances, *stage, material, options.estimates);
+      auto more = lines_of(lights, *stage, material, options.estimates);
       std::move(more.begin(), more.end(), std::back_inserter(lines));
     }
   }

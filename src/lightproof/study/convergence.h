@@ -1,4 +1,4 @@
-// How fast each strategy converges, and how well that was predicted.
+// How fast each estimator converges, and how well that was predicted.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lightproof/core/progress.h"
-#include "lightproof/render/environment_light.h"
+#include "lightproof/image/environment_map.h"
 #include "lightproof/results/convergence_record.h"
 
 namespace lightproof {
@@ -21,9 +21,9 @@ struct ConvergenceOptions {
   Extent picture = {8, 6};
 };
 
-/// Every map, receiver, material and strategy: errors of independent estimates against quadrature,
+/// Every map, receiver, material and estimator: errors of independent estimates against quadrature,
 /// beside the exact variance. The same bits for any number of threads.
-std::vector<ConvergenceRecord> study_convergence(std::span<const EnvironmentLight> lights,
+std::vector<ConvergenceRecord> study_convergence(std::span<const EnvironmentMap> maps,
                                                  const ConvergenceOptions& options,
                                                  const Progress& progress = {});
 

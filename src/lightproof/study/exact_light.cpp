@@ -43,19 +43,4 @@ std::vector<std::vector<reference::LightMoments>> exact_light(
   return moments;
 }
 
-const reference::EstimatorMoments& moments_of(const reference::LightMoments& moments,
-                                              Strategy strategy) {
-  switch (strategy) {
-    case Strategy::uniform:
-      return moments.uniform;
-    case Strategy::material:
-      return moments.material;
-    case Strategy::environment_a:
-      return moments.environment_a;
-    case Strategy::environment_b:
-      break;
-  }
-  return moments.environment_b;
-}
-
 }  // namespace lightproof

@@ -1,4 +1,5 @@
-// The exact light at the pixels of a receiver, for every strategy: what renders are held against.
+// The exact light at the pixels of a receiver, for every density that is sampled: what renders are
+// held against.
 #pragma once
 
 #include <span>
@@ -7,7 +8,6 @@
 #include "lightproof/core/progress.h"
 #include "lightproof/materials/material.h"
 #include "lightproof/render/receiver.h"
-#include "lightproof/render/strategy.h"
 #include "reference/estimator_moments.h"
 
 namespace lightproof {
@@ -20,8 +20,5 @@ reference::Kernel kernel_at(const ReceiverInfo& receiver, const Scene& scene,
 std::vector<std::vector<reference::LightMoments>> exact_light(
     std::span<const Grid<double>> luminances, const ReceiverInfo& receiver, const Scene& scene,
     const Material& material, std::span<const Pixel> pixels);
-
-const reference::EstimatorMoments& moments_of(const reference::LightMoments& moments,
-                                              Strategy strategy);
 
 }  // namespace lightproof

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "lightproof/estimators/registry.h"
 #include "lightproof/render/picture.h"
 
 namespace lightproof {
@@ -12,6 +13,8 @@ namespace {
 
 constexpr std::string_view kReceiver = "sphere-on-plane";
 constexpr std::string_view kMaterial = "phong";
+/// With which references are rendered.
+constexpr std::string_view kReferenceEstimator = "environment B";
 
 /// Signed errors of the luminances at the receiver's pixels over the mean of the reference there;
 /// and their root mean square. Pixels beside the receiver show the map and have no error.
@@ -35,42 +38,45 @@ void compare(RenderRecord& record, std::span<const Pixel> pixels, LuminanceWeigh
 
 }  // namespace
 
-std::vector<RenderRecord> study_renders(std::span<const EnvironmentLight> lights,
+std::vector<RenderRecord> study_renders(std::span<const EnvironmentMap> maps,
                                         const RenderOptions& options, const Progress& progress) {
   const ReceiverInfo& receiver = receiver_by_name(kReceiver);
   const MaterialInfo& material = material_by_name(kMaterial);
   const Scene scene(receiver.content);
   const std::vector<Pixel> pixels = visible_pixels(receiver, scene, options.picture);
   std::vector<RenderRecord> records;
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    const EnvironmentLight& light = lights[i];
-    const auto render = [&](const StrategyInfo& strategy, std::uint64_t samples,
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const EnvironmentMap& map = maps[i];
+    const auto render = [&](const EstimatorInfo& info, std::uint64_t samples,
                             std::string_view purpose) {
-      const RandomStream stream(fmt::format("{}/{}/{}", purpose, light.map().name, strategy.name),
+      const BoundEstimator estimator = info.prepare(map).bind(scene, material.material);
+      const RandomStream stream(fmt::format("{}/{}/{}", purpose, map.name, info.name),
                                 options.seed);
-      return render_picture({&scene, &light, material.material, strategy.strategy}, receiver,
-                            options.picture, samples, stream);
+      return render_picture(map, scene, receiver, options.picture, stream,
+                            [&](const ShadingPoint& at, const RandomStream& of_pixel) {
+                              return estimator.integrate(at, of_pixel, {0, samples}, {});
+                            });
     };
-    const Grid<Rgb> reference =
-        render(kStrategies.back(), options.reference_samples, "render-reference");
-    for (const StrategyInfo& strategy : kStrategies) {
+    const Grid<Rgb> reference = render(estimator_by_name(kReferenceEstimator),
+                                       options.reference_samples, "render-reference");
+    for (const EstimatorInfo& info : estimators()) {
       const auto start = std::chrono::steady_clock::now();
       RenderRecord record;
-      record.picture = render(strategy, options.samples, "render");
+      record.picture = render(info, options.samples, "render");
       record.seconds =
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      record.map = light.map().name;
+      record.map = map.name;
       record.receiver = receiver.name;
       record.material = material.name;
-      record.strategy = strategy.name;
+      record.estimator = info.name;
       record.samples = options.samples;
       record.reference = reference;
       record.reference_samples = options.reference_samples;
-      compare(record, pixels, light.map().weights);
+      compare(record, pixels, map.weights);
       records.push_back(std::move(record));
     }
     if (progress) {
-      progress("renders", static_cast<double>(i + 1) / static_cast<double>(lights.size()));
+      progress("renders", static_cast<double>(i + 1) / static_cast<double>(maps.size()));
     }
   }
   return records;

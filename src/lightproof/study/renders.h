@@ -1,4 +1,4 @@
-// Pictures by every strategy at equal numbers of samples, beside a reference.
+// Pictures by every estimator at equal numbers of samples, beside a reference.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lightproof/core/progress.h"
-#include "lightproof/render/environment_light.h"
+#include "lightproof/image/environment_map.h"
 #include "lightproof/results/render_record.h"
 
 namespace lightproof {
@@ -14,12 +14,12 @@ namespace lightproof {
 struct RenderOptions {
   std::uint64_t seed = 1;
   Extent picture = {160, 120};
-  std::uint64_t samples = 64;              ///< per pixel and strategy
+  std::uint64_t samples = 64;              ///< per pixel and estimator
   std::uint64_t reference_samples = 2048;  ///< per pixel, by environment B
 };
 
 /// The sphere on a plane, modified Phong, under every map.
-std::vector<RenderRecord> study_renders(std::span<const EnvironmentLight> lights,
+std::vector<RenderRecord> study_renders(std::span<const EnvironmentMap> maps,
                                         const RenderOptions& options,
                                         const Progress& progress = {});
 

@@ -38,6 +38,7 @@ void set_throughput(StudyResult& study, Throughput measured) {
   study.throughput = std::move(measured.samplers);
   study.tables = std::move(measured.tables);
   study.caches = measured.caches;
+  study.throughput_origin = std::move(measured.origin);
   study.growth = growth_of(study.throughput, study.caches);
 }
 
@@ -49,19 +50,18 @@ StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& opti
   result.seed = options.gate.seed;
   // Speed first, while nothing else has warmed or filled the machine.
   // Shares of the time that each part takes on eight maps.
-  const double gate_start = options.benchmarks ? 0.1 : 0.0;
-  if (options.benchmarks) {
+  const double gate_start = options.throughput ? 0.1 : 0.0;
+  if (options.throughput) {
     if (progress) progress("throughput", 0.0);
-    set_throughput(result, measure_throughput(*options.benchmarks, options.largest_width));
+    set_throughput(result, measure_throughput(*options.throughput));
   }
   for (const EnvironmentMap& map : maps) {
     result.maps.push_back(describe_map(map, options.gate.seed));
   }
   result.gate = run_gate(test_cases_of(maps, all_samplers_under_test(), direction_samplers()),
                          options.gate, part_of(progress, gate_start, 0.5));
-  const std::vector<EnvironmentLight> lights(maps.begin(), maps.end());
-  result.convergence = study_convergence(lights, options.convergence, part_of(progress, 0.5, 0.93));
-  result.renders = study_renders(lights, options.renders, part_of(progress, 0.93, 1.0));
+  result.convergence = study_convergence(maps, options.convergence, part_of(progress, 0.5, 0.93));
+  result.renders = study_renders(maps, options.renders, part_of(progress, 0.93, 1.0));
   return result;
 }
 

@@ -1,7 +1,6 @@
 // The main job: everything Lightproof can say about a set of maps.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -17,9 +16,8 @@ struct StudyOptions {
   GateOptions gate;
   ConvergenceOptions convergence;
   RenderOptions renders;
-  /// The benchmark program; without it the throughput is left out.
-  std::optional<std::filesystem::path> benchmarks;
-  std::uint64_t largest_width = 8192;  ///< of the maps that the throughput is measured on
+  /// Without it the throughput is left out.
+  std::optional<ThroughputSource> throughput;
 };
 
 /// A map's figures and some hundred points that binary_search draws from it.

@@ -8,8 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "lightproof/core/atomic_file.h"
 #include "lightproof/core/child_process.h"
 #include "lightproof/core/error.h"
+#include "lightproof/core/machine.h"
 #include "lightproof/core/temporary_folder.h"
 #include "lightproof/stats/median.h"
 
@@ -127,6 +129,18 @@ std::optional<double> cache_size(const nlohmann::json& context, int level) {
   return std::nullopt;
 }
 
+/// "2026-11-28T13:41:08+00:00, 2 x processor, GNU 12.2.0, commit 1a2b3c…", as far as it is known.
+std::string origin_of(const nlohmann::json& context) {
+  std::vector<std::string> parts;
+  for (const char* key : {"date", "machine", "compiler"}) {
+    if (const std::string text = context.value(key, ""); !text.empty()) parts.push_back(text);
+  }
+  if (const std::string commit = context.value("commit", ""); !commit.empty()) {
+    parts.push_back("commit " + commit.substr(0, 12));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 Throughput records_of(const nlohmann::json& document) {
   Throughput records;
   for (const auto& [text, runs] : groups_of(document)) {
@@ -141,7 +155,36 @@ Throughput records_of(const nlohmann::json& document) {
   if (records.samplers.empty()) throw InputError("no benchmark is called sample/…/random");
   const nlohmann::json context = document.value("context", nlohmann::json::object());
   records.caches = {cache_size(context, 2), cache_size(context, 3)};
+  records.origin = origin_of(context);
   return records;
+}
+
+/// FNV-1a, to tell files apart.
+std::uint64_t hash_of(std::string_view text, std::uint64_t hash = 0xcbf29ce484222325U) {
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
+}
+
+std::string content_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+fs::path kept_file(const ThroughputSource& source, const std::string& filter) {
+  const std::uint64_t key =
+      hash_of(filter, hash_of(machine_name(), hash_of(content_of(source.program))));
+  return source.cache / fmt::format("throughput-{:016x}.json", key);
+}
+
+/// A cache that cannot be written to is no reason to lose what was measured.
+void keep(const fs::path& file, const fs::path& kept) {
+  try {
+    fs::create_directories(kept.parent_path());
+    AtomicFile whole(kept);
+    fs::copy_file(file, whole.temporary(), fs::copy_options::overwrite_existing);
+    whole.commit();
+  } catch (const std::exception&) {
+  }
 }
 
 }  // namespace
@@ -156,13 +199,23 @@ std::string throughput_filter(std::uint64_t largest_width) {
                      kTableSize);
 }
 
-Throughput measure_throughput(const fs::path& program, std::uint64_t largest_width) {
+Throughput measure_throughput(const ThroughputSource& source) {
+  const std::string filter = throughput_filter(source.largest_width);
+  const fs::path kept = source.cache.empty() ? fs::path() : kept_file(source, filter);
+  if (!kept.empty() && !source.measure_again && fs::exists(kept)) {
+    try {
+      return read_throughput(kept);
+    } catch (const InputError&) {  // damaged: measured again, and replaced
+    }
+  }
   const TemporaryFolder folder;
   const fs::path file = folder / "throughput.json";
-  run_child(program, {"--benchmark_filter=" + throughput_filter(largest_width),
-                      "--benchmark_out=" + file.string(), "--benchmark_out_format=json",
-                      "--benchmark_repetitions=3", "--benchmark_min_time=0.1"});
-  return read_throughput(file);
+  run_child(source.program, {"--benchmark_filter=" + filter, "--benchmark_out=" + file.string(),
+                             "--benchmark_out_format=json", "--benchmark_repetitions=3",
+                             "--benchmark_min_time=0.1"});
+  Throughput measured = read_throughput(file);
+  if (!kept.empty()) keep(file, kept);
+  return measured;
 }
 
 Throughput read_throughput(const fs::path& file) {

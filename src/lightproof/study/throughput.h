@@ -14,15 +14,26 @@ struct Throughput {
   std::vector<ThroughputRecord> samplers;
   std::vector<TableRecord> tables;
   CacheSizes caches;
+  std::string origin;  ///< when, where and of what it was measured, as the file says
 };
 
 /// The benchmarks of a study, as a pattern of names: one sample at a time on maps from 256x128 to
 /// the largest width (16384 takes 8 GB), and the tables, in batches, on one size.
 std::string throughput_filter(std::uint64_t largest_width);
 
-/// Runs these of the benchmark program and reads what it measured. Throws InputError if it cannot
-/// be started or fails, Interrupted if it was interrupted.
-Throughput measure_throughput(const std::filesystem::path& program, std::uint64_t largest_width);
+/// Where throughput is measured, and kept.
+struct ThroughputSource {
+  std::filesystem::path program;       ///< the benchmark program
+  std::uint64_t largest_width = 8192;  ///< of the maps
+  std::filesystem::path cache = {};    ///< folder of what was measured before; empty: none
+  bool measure_again = false;          ///< whatever is kept
+};
+
+/// Runs these of the benchmark program and reads what it measured, which is kept in the cache; or
+/// takes what is kept there of the same program, to the last byte, on this machine and up to this
+/// width. Throws InputError if the program cannot be started or fails, Interrupted if it was
+/// interrupted.
+Throughput measure_throughput(const ThroughputSource& source);
 
 /// The rows named sample/<sampler>/<map>/<W>x<H>/random of such a file, medians over repetitions,
 /// and those of the order `fused` that say what a texel's error is; the caches are those of the

@@ -1,0 +1,20 @@
+# The libraries, their headers and a package file: find_package(lightproof) in another project gives
+# lightproof::lightproof, which stands for all parts, and each part by its folder's name.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+get_property(modules GLOBAL PROPERTY LIGHTPROOF_MODULES)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/lightproof)
+install(TARGETS ${modules} lightproof_all EXPORT lightproof)
+install(TARGETS lightproof RUNTIME)
+install(EXPORT lightproof NAMESPACE lightproof:: FILE lightproofTargets.cmake
+  DESTINATION ${package_folder})
+install(DIRECTORY src/lightproof DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING PATTERN "*.h" PATTERN "*-inl.h" EXCLUDE PATTERN "cli" EXCLUDE
+  PATTERN "assets" EXCLUDE)
+install(DIRECTORY reference DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lightproof
+  FILES_MATCHING PATTERN "*.h")
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/lightproofConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES cmake/lightproofConfig.cmake cmake/Dependencies.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/lightproofConfigVersion.cmake DESTINATION ${package_folder})

@@ -1,0 +1,16 @@
+// All estimators, in one table: the study, the lists and the tests iterate over it.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "lightproof/estimators/estimator.h"
+
+namespace lightproof {
+
+std::span<const EstimatorInfo> estimators();
+
+/// Throws InputError, which lists the names, if there is none of this name.
+const EstimatorInfo& estimator_by_name(std::string_view name);
+
+}  // namespace lightproof

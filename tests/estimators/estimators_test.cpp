@@ -1,0 +1,185 @@
+// Every estimator against quadrature where nothing is in the way, and against uniform sampling
+// where something is.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "lightproof/core/error.h"
+#include "lightproof/core/moments.h"
+#include "lightproof/core/parallel.h"
+#include "lightproof/estimators/registry.h"
+#include "lightproof/image/synthetic.h"
+#include "lightproof/render/receiver.h"
+#include "lightproof/stats/moment_tests.h"
+#include "lightproof/study/exact_light.h"
+
+namespace lightproof {
+namespace {
+
+/// All tests of this file together reject a correct integrator with probability 1e-6.
+constexpr double kFamilyAlpha = 1e-6;
+
+Moments luminance_moments(const BoundEstimator& estimator, const ShadingPoint& point,
+                          const RandomStream& stream, std::uint64_t samples) {
+  constexpr std::uint64_t kTask = std::uint64_t{1} << 16U;
+  std::vector<Moments> parts((samples + kTask - 1) / kTask);
+  parallel_for(parts.size(), [&](std::size_t task) {
+    const std::uint64_t first = task * kTask;
+    estimator.integrate(point, stream, {first, std::min(samples - first, kTask)},
+                        [&](std::span<const Rgb> estimates) {
+                          for (const Rgb rgb : estimates) parts[task].add(luminance_of(rgb));
+                        });
+  });
+  Moments all;
+  for (const Moments& part : parts) all.merge(part);
+  return all;
+}
+
+/// The number of samples at which the first two terms of Edgeworth's expansion change a p-value at
+/// z = 6 by no more than a factor e^(1/3) each: z^3 skewness / (6 sqrt N) and z^4 kurtosis / (24
+/// N).
+std::uint64_t samples_for_normal_tails(const reference::EstimatorMoments& exact) {
+  constexpr double kZ = 6.0;
+  const double variance = std::max(exact.variance(), 1e-300);
+  const double m = exact.mean();
+  const double third = exact.raw[2] - 3.0 * m * exact.raw[1] + 2.0 * m * m * m;
+  const double root = 0.5 * kZ * kZ * kZ * third / std::pow(variance, 1.5);
+  const double kurtosis = exact.fourth_central() / (variance * variance);
+  const double needed = std::max({65536.0, root * root, kZ * kZ * kZ * kZ * kurtosis / 8.0});
+  EXPECT_LE(needed, 1.6e7) << "a case that normal tails do not fit";
+  return static_cast<std::uint64_t>(std::min(needed, 1.6e7));
+}
+
+struct Case {
+  std::string_view map;
+  std::string_view receiver;
+};
+
+std::vector<Pixel> few_pixels(const ReceiverInfo& receiver, const Scene& scene) {
+  return visible_pixels(receiver, scene, {3, 2});
+}
+
+class Unoccluded : public testing::TestWithParam<Case> {};
+
+TEST_P(Unoccluded, EveryEstimatorAgreesWithQuadrature) {
+  const EnvironmentMap map = make_synthetic_map(GetParam().map, {128, 64});
+  const ReceiverInfo& receiver = receiver_by_name(GetParam().receiver);
+  const Scene scene(receiver.content);
+  const auto pixels = few_pixels(receiver, scene);
+  const Grid<double> luminance = luminance_of(map);
+  // 3 receivers, 3 maps, 2 materials, 4 estimators, at most 6 pixels.
+  const double log10_level = std::log10(0.5 * kFamilyAlpha / (3 * 3 * 2 * 4 * 6));
+  for (const MaterialInfo& material : materials()) {
+    const auto exact = exact_light({&luminance, 1}, receiver, scene, material.material, pixels);
+    for (const EstimatorInfo& info : estimators()) {
+      const BoundEstimator estimator = info.prepare(map).bind(scene, material.material);
+      for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const reference::EstimatorMoments& moments = exact[0][i][info.density.value()];
+        const std::string name =
+            fmt::format("{}/{}/{}/{}/{}", map.name, receiver.name, material.name, info.name, i);
+        const bool constant = moments.variance() < 1e-8 * moments.raw[1];
+        const Moments measured =
+            luminance_moments(estimator, pixels[i].point, RandomStream("unoccluded/" + name, 1),
+                              constant ? 65536 : samples_for_normal_tails(moments));
+        if (constant) {
+          // No variance but the quadrature's error; float radiance and weights, a few roundings.
+          EXPECT_NEAR(measured.mean() / moments.mean(), 1.0, 1e-6) << name;
+          continue;
+        }
+        const ZTest test = mean_test(measured, {moments.mean(), moments.variance()});
+        EXPECT_GT(test.log10_p, log10_level) << name << ": z = " << test.z;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Unoccluded,
+                         testing::Values(Case{"gradient", "point"}, Case{"gradient", "sphere"},
+                                         Case{"gradient", "plane"}, Case{"constant", "point"},
+                                         Case{"constant", "sphere"}, Case{"constant", "plane"},
+                                         Case{"checker", "point"}, Case{"checker", "sphere"},
+                                         Case{"checker", "plane"}));
+
+class Occluded : public testing::TestWithParam<std::string_view> {};
+
+TEST_P(Occluded, EveryEstimatorAgreesWithUniformSampling) {
+  const EnvironmentMap map = make_synthetic_map(GetParam(), {128, 64});
+  const ReceiverInfo& receiver = receiver_by_name("sphere-on-plane");
+  const Scene scene(receiver.content);
+  const auto pixels = few_pixels(receiver, scene);
+  const Grid<double> luminance = luminance_of(map);
+  // 2 maps, 2 materials, 3 pairs, at most 6 pixels.
+  const double log10_level = std::log10(0.5 * kFamilyAlpha / (2 * 2 * 3 * 6));
+  for (const MaterialInfo& material : materials()) {
+    const auto exact = exact_light({&luminance, 1}, receiver, scene, material.material, pixels);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const auto measure = [&](const EstimatorInfo& info) {
+        const std::string name =
+            fmt::format("occluded/{}/{}/{}/{}", map.name, material.name, info.name, i);
+        return luminance_moments(info.prepare(map).bind(scene, material.material), pixels[i].point,
+                                 RandomStream(name, 1),
+                                 samples_for_normal_tails(exact[0][i][info.density.value()]));
+      };
+      const Moments uniform = measure(estimators().front());
+      for (const EstimatorInfo& info : estimators().subspan(1)) {
+        const ZTest test = welch_test(measure(info), uniform);
+        EXPECT_GT(test.log10_p, log10_level)
+            << material.name << ", " << info.name << ", pixel " << i << ": z = " << test.z;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Maps, Occluded, testing::Values("gradient", "checker"));
+
+// What is shown one by one is what the estimate is the mean of; a budget that begins later goes on
+// where the one before ended.
+TEST(Estimators, AreTheMeanOfWhatTheyShow) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
+  const ReceiverInfo& receiver = receiver_by_name("sphere-on-plane");
+  const Scene scene(receiver.content);
+  const ShadingPoint& at = few_pixels(receiver, scene)[0].point;
+  const RandomStream stream("mean", 1);
+  for (const EstimatorInfo& info : estimators()) {
+    const BoundEstimator estimator =
+        info.prepare(map).bind(scene, material_by_name("phong").material);
+    std::vector<Rgb> shown;
+    const auto show = [&](std::span<const Rgb> some) {
+      shown.insert(shown.end(), some.begin(), some.end());
+    };
+    const Rgb whole = estimator.integrate(at, stream, {0, 1000}, show);
+    ASSERT_EQ(shown.size(), 1000U) << info.name;
+    glm::dvec3 sum(0.0);
+    for (const Rgb rgb : shown) sum += glm::dvec3(rgb);
+    EXPECT_EQ(whole, Rgb(sum / 1000.0)) << info.name;
+    const std::vector<Rgb> before = std::move(shown);
+    shown.clear();
+    estimator.integrate(at, stream, {600, 400}, show);
+    EXPECT_TRUE(std::equal(shown.begin(), shown.end(), before.begin() + 600)) << info.name;
+  }
+}
+
+TEST(Estimators, KeepATableIfTheyDrawFromTheMap) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
+  for (const EstimatorInfo& info : estimators()) {
+    const bool draws_from_map = info.name.starts_with("environment");
+    EXPECT_EQ(info.prepare(map).bytes > 64 * 32, draws_from_map) << info.name;
+  }
+}
+
+TEST(Estimators, HaveNamesThatAreFoundAndDiffer) {
+  std::set<std::string_view> names;
+  for (const EstimatorInfo& info : estimators()) {
+    names.insert(info.name);
+    EXPECT_EQ(&estimator_by_name(info.name), &info);
+    EXPECT_FALSE(info.source.empty());
+  }
+  EXPECT_EQ(names.size(), estimators().size());
+  EXPECT_THROW(estimator_by_name("environment C"), InputError);
+}
+
+}  // namespace
+}  // namespace lightproof
