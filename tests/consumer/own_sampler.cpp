@@ -15,7 +15,7 @@ class UniformOverMap {
   explicit UniformOverMap(Extent extent) : extent_(extent) {}
 
   TexelSample sample(SquarePoint u) const {
-    return {cell_of(u.s, extent_.width), cell_of(u.t, extent_.height), u, {1.0}};
+    return {u, cell_of(u.s, extent_.width), cell_of(u.t, extent_.height), {1.0}};
   }
   PerSquare pdf(SquarePoint /*at*/) const { return {1.0}; }
   std::size_t table_bytes() const { return 0; }

@@ -169,7 +169,7 @@ TEST(MeasuredThroughput, IsKeptAndTakenFromTheCache) {
   const std::filesystem::path kept = files_in(source.cache)[0];
   std::ofstream(kept) << R"({"context": {"date": "once"}, "benchmarks": [{"run_name":
       "sample/own/constant/256x128/random", "run_type": "iteration", "ns_per_sample": 7.0,
-      "table_bytes": 1.0}]})";
+      "table_bytes": 1.0, "build_ms": 1.0}]})";
   const Throughput second = measure_throughput(source);
   EXPECT_EQ(second.origin, "once");
   EXPECT_EQ(second.samplers[0].ns_per_sample, 7.0);
