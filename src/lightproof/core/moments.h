@@ -8,6 +8,8 @@
 #include <numeric>
 #include <span>
 
+#include "lightproof/core/serialise.h"
+
 namespace lightproof {
 
 /// Count, mean and central moments of what was added. `merge` follows Chan et al. 1979 and
@@ -66,6 +68,19 @@ class Moments {
     m4_ = m4;
     mean_ += dn * nb;
     count_ += other.count_;
+  }
+
+  void write(ByteWriter& writer) const {
+    writer.add(count_);
+    for (const double value : {mean_, m2_, m3_, m4_}) writer.add(value);
+  }
+  static Moments read(ByteReader& reader) {
+    Moments moments;
+    moments.count_ = reader.number();
+    for (double* value : {&moments.mean_, &moments.m2_, &moments.m3_, &moments.m4_}) {
+      *value = reader.real();
+    }
+    return moments;
   }
 
   std::uint64_t count() const { return count_; }

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <mutex>
 
+#include "lightproof/core/executor.h"
 #include "lightproof/core/moments.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/estimators/registry.h"
@@ -27,6 +27,23 @@ constexpr double kMeasurableError = 0.25;
 struct PixelErrors {
   std::vector<double> squared;
   Moments single;
+
+  void write(ByteWriter& writer) const {
+    writer.add(squared);
+    writer.add(single);
+  }
+  static PixelErrors read(ByteReader& reader) {
+    std::vector<double> squared = reader.reals();
+    return {std::move(squared), Moments::read(reader)};
+  }
+};
+
+/// The pixels of one line of the study.
+struct LineErrors {
+  std::vector<PixelErrors> pixels;
+
+  void write(ByteWriter& writer) const { writer.add(pixels); }
+  static LineErrors read(ByteReader& reader) { return {reader.list(PixelErrors::read)}; }
 };
 
 std::vector<std::uint64_t> sample_counts(std::uint64_t most) {
@@ -104,10 +121,10 @@ struct Line {
   std::vector<reference::EstimatorMoments> exact;
   int replicates;
 
-  RandomStream stream(std::uint64_t seed) const {
-    return {fmt::format("convergence/{}/{}/{}/{}", map->name, receiver->name, material->name,
-                        info->name),
-            seed};
+  /// Of its cell of work, and of its random numbers.
+  std::string key() const {
+    return fmt::format("convergence/{}/{}/{}/{}", map->name, receiver->name, material->name,
+                       info->name);
   }
 };
 
@@ -259,29 +276,34 @@ std::vector<Line> lines_of(const Lights& lights, const Stage& stage, const Mater
   return lines;
 }
 
-/// Measures all pixels of all lines, in parallel, and sums each line up.
+LineErrors measure_line(const Line& line, std::span<const std::uint64_t> counts,
+                        std::uint64_t seed) {
+  const RandomStream stream(line.key(), seed);
+  LineErrors errors{std::vector<PixelErrors>(line.pixels.size())};
+  parallel_for(errors.pixels.size(), [&](std::size_t pixel) {
+    PixelEstimator estimator(line.estimator, line.pixels[pixel].point, stream.substream(pixel),
+                             line.map->weights);
+    errors.pixels[pixel] =
+        measure_pixel(estimator, line.exact[pixel].mean(), counts, line.replicates);
+  });
+  return errors;
+}
+
+/// A cell of work for every line; then each line summed up.
 std::vector<ConvergenceRecord> measure_lines(std::span<const Line> lines,
                                              const ConvergenceOptions& options,
                                              const Progress& progress) {
   const std::vector<std::uint64_t> counts = sample_counts(options.most_samples);
-  std::vector<ConvergenceRecord> records(lines.size());
-  std::mutex mutex;
-  std::size_t done = 0;
-  parallel_for(lines.size(), [&](std::size_t i) {
-    const Line& line = lines[i];
-    std::vector<PixelErrors> errors(line.pixels.size());
-    parallel_for(errors.size(), [&](std::size_t pixel) {
-      PixelEstimator estimator(line.estimator, line.pixels[pixel].point,
-                               line.stream(options.seed).substream(pixel), line.map->weights);
-      errors[pixel] = measure_pixel(estimator, line.exact[pixel].mean(), counts, line.replicates);
-    });
-    records[i] = record_of(line, errors, counts);
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (progress) {
-      progress("convergence", static_cast<double>(done) / static_cast<double>(lines.size()));
-    }
-  });
+  std::vector<WorkCell<LineErrors>> cells;
+  for (const Line& line : lines) {
+    cells.push_back({line.key(), [&] { return measure_line(line, counts, options.seed); }});
+  }
+  const CellResults<LineErrors> results =
+      compute_cells<LineErrors>(cells, {}, progress, "convergence");
+  std::vector<ConvergenceRecord> records;
+  for (const Line& line : lines) {
+    records.push_back(record_of(line, results.at(line.key()).pixels, counts));
+  }
   return records;
 }
 
