@@ -1,8 +1,10 @@
 // A sampler whose type no longer matters.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -11,12 +13,24 @@
 
 namespace lightproof {
 
-/// A sampler of points of the square, built and ready. Its type is erased once per batch, not per
-/// sample.
+/// A source of samples over the square, built and ready. Its type is erased once per batch, not per
+/// sample. What it cannot do is left empty, and the tests that need it are recorded as not run.
 struct BoundSampler {
-  /// Both spans have the same length.
+  /// Draws at given points; both spans have the same length. Empty where samples come in an order
+  /// of their own.
   std::function<void(std::span<const SquarePoint>, std::span<TexelSample>)> sample;
+  /// The density over the square, per unit square, at any position. Empty where it is not known.
   std::function<PerSquare(SquarePoint)> pdf;
+  /// The samples from number `first` on, of a source that takes no points: the same ones whenever
+  /// it is asked, and independent of each other. Many threads may ask.
+  std::function<void(std::uint64_t first, std::span<TexelSample>)> sample_in_order = {};
+  /// How many samples there are in order; none: any number.
+  std::optional<std::uint64_t> count = {};
+  /// Whether the density that comes with a sample means anything: else estimates cannot be weighed.
+  bool has_weights = true;
+
+  bool takes_points() const { return static_cast<bool>(sample); }
+  bool has_pdf() const { return static_cast<bool>(pdf); }
 };
 
 template <EnvSampler Sampler>

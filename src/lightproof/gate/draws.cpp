@@ -192,6 +192,22 @@ void add_estimates(Draws& draws, Batch& batch) {
   draws.inverse_pdf.add(estimates);
 }
 
+/// The batch's samples: at points of the stream, or those that stand there in the source's order.
+void draw_batch(Batch& batch, const BoundSampler& sampler, const RandomStream& stream,
+                std::uint64_t first) {
+  const auto points = std::span(batch.points).first(batch.size);
+  const auto samples = std::span(batch.samples).first(batch.size);
+  if (sampler.takes_points()) {
+    fill_points(stream, first, points);
+    sampler.sample(points, samples);
+  } else {
+    std::fill(points.begin(), points.end(), SquarePoint{std::nan(""), std::nan("")});
+    sampler.sample_in_order(first, samples);
+  }
+  if (sampler.has_weights) return;
+  for (TexelSample& sample : samples) sample.pdf = {1.0};
+}
+
 Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
                const RandomStream& stream, PointRange range) {
   Part part(expectation.bands.size());
@@ -200,9 +216,7 @@ Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
   Batch batch;
   for (std::uint64_t done = 0; done < range.count; done += kBatch) {
     batch.size = static_cast<std::size_t>(std::min(kBatch, range.count - done));
-    fill_points(stream, range.first + done, std::span(batch.points).first(batch.size));
-    sampler.sample(std::span(batch.points).first(batch.size),
-                   std::span(batch.samples).first(batch.size));
+    draw_batch(batch, sampler, stream, range.first + done);
     count_repeats(part.draws, batch);
     count_out_of_domain(part.draws, batch, expectation.masses.extent());
     find_directions(batch);

@@ -80,7 +80,8 @@ struct PointRange {
   std::uint64_t count;
 };
 
-/// Draws these points of the stream, in parallel.
+/// Draws these points of the stream, or the samples of these numbers of a source that has an order
+/// of its own, in parallel.
 Draws draw_samples(const BoundSampler& sampler, const Expectation& expectation,
                    const RandomStream& stream, PointRange range);
 

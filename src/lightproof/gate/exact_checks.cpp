@@ -291,9 +291,22 @@ CheckResult check_declared_density(const DensityComparison& density) {
 
 Inspection inspect(const BoundSampler& sampler, const Expectation& expectation,
                    const MassRounding& rounding) {
-  return {integrate_pdf(sampler, expectation.smooth_cells()),
-          compare_density(sampler, expectation, rounding), check_edges(sampler, expectation),
-          position_of_returned_pdf(sampler, expectation.masses.extent())};
+  Inspection found{.own = {std::nan(""), Grid<double>(kGateBins, std::nan(""))},
+                   .density = {},
+                   .edges = {},
+                   .returned_pdf_of = {},
+                   .has_pdf = sampler.has_pdf(),
+                   .has_weights = sampler.has_weights,
+                   .takes_points = sampler.takes_points()};
+  if (found.has_pdf) {
+    found.own = integrate_pdf(sampler, expectation.smooth_cells());
+    found.density = compare_density(sampler, expectation, rounding);
+  }
+  if (found.takes_points) found.edges = check_edges(sampler, expectation);
+  if (found.takes_points && found.has_pdf && found.has_weights) {
+    found.returned_pdf_of = position_of_returned_pdf(sampler, expectation.masses.extent());
+  }
+  return found;
 }
 
 CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,

@@ -58,7 +58,7 @@ CheckResult check_support(const DensityComparison& density);
 /// its rounding. The deviation is the largest relative one, of cells that can be reached.
 CheckResult check_declared_density(const DensityComparison& density);
 
-/// What can be said of a sampler whatever the seed.
+/// What can be said of a sampler whatever the seed. What its source cannot do is left as it is.
 struct Inspection {
   OwnDensity own;
   DensityComparison density;
@@ -66,6 +66,9 @@ struct Inspection {
   /// "one column to the right": where pdf() is what sample() returns, at every point where that is
   /// not the pdf of the sample's own place; none if there is no such point or no such place.
   std::optional<std::string_view> returned_pdf_of;
+  bool has_pdf = true;       ///< as the BoundSampler
+  bool has_weights = true;   ///< likewise
+  bool takes_points = true;  ///< likewise
 };
 Inspection inspect(const BoundSampler& sampler, const Expectation& expectation,
                    const MassRounding& rounding);

@@ -68,11 +68,18 @@ void append(std::vector<Measured>& tests, std::vector<Measured> more) {
   std::move(more.begin(), more.end(), std::back_inserter(tests));
 }
 
+/// Of these that are wanted, what a source has left behind its first ones.
+std::uint64_t confirmation_samples(const BoundSampler& sampler, std::uint64_t first,
+                                   std::uint64_t wanted) {
+  return sampler.count ? std::min(wanted, *sampler.count - first) : wanted;
+}
+
 RunState run_first(const TestRun& run, const SharedDraws& shared, double screening_level) {
   const Expectation& expectation = shared.expectation;
   const BoundSampler sampler = run.instance->bind();
   const Inspection inspection = run.instance->inspect(sampler, expectation, run.instance->rounding);
-  Draws draws = draw_samples_of(run, expectation, sampler, "draws", shared.samples);
+  const std::uint64_t samples = std::min(shared.samples, sampler.count.value_or(shared.samples));
+  Draws draws = draw_samples_of(run, expectation, sampler, "draws", samples);
   RunState state{test_draws(run, expectation, inspection, draws, shared.uniform), std::nullopt,
                  inspection};
   append(state.tests, test_against_reference(run, draws, shared.reference_implementation));
@@ -81,6 +88,12 @@ RunState run_first(const TestRun& run, const SharedDraws& shared, double screeni
          test_exactly(run, expectation, sampler, inspection, draws,
                       shared.reference_implementation ? &shared.reference_implementation->sampler
                                                       : nullptr));
+  const std::uint64_t confirmation =
+      confirmation_samples(sampler, samples, kSecondStage * shared.samples);
+  for (Measured& test : state.tests) {
+    test.first_samples = static_cast<double>(samples);
+    test.confirmation_samples = confirmation;
+  }
   const bool clean = std::all_of(state.tests.begin(), state.tests.end(), [&](const Measured& test) {
     const TestRecord& r = test.record;
     return r.log10_p ? *r.log10_p >= std::log10(screening_level)
@@ -107,7 +120,10 @@ void confirm(const TestRun& run, const SharedDraws& shared,
              const ConfirmationRange& needs_confirmation, RunState& state) {
   const Expectation& expectation = shared.expectation;
   const BoundSampler sampler = run.instance->bind();
-  Draws draws = draw_samples_of(run, expectation, sampler, "draws again", shared.samples);
+  const std::uint64_t first = state.tests.front().record.samples;
+  const std::uint64_t samples = confirmation_samples(sampler, first, shared.samples);
+  if (samples == 0) return;
+  Draws draws = draw_samples_of(run, expectation, sampler, "draws again", samples, first);
   auto again = test_draws(run, expectation, state.inspection, draws, shared.uniform);
   append(again, test_against_reference(run, draws, shared.reference_implementation));
   append(again, test_validity(run, draws));
@@ -117,8 +133,12 @@ void confirm(const TestRun& run, const SharedDraws& shared,
     });
     if (same == again.end() || same->record.outcome == Outcome::not_run) continue;
     if (!needs_confirmation(test) && same->record.outcome != Outcome::reject) continue;
+    const double first_samples = test.first_samples;
+    const std::uint64_t confirmation = test.confirmation_samples;
     test = *same;
     test.record.stage = 2;
+    test.first_samples = first_samples;
+    test.confirmation_samples = confirmation;
   }
   state.draws = std::move(draws);
 }
@@ -127,8 +147,7 @@ void confirm(const TestRun& run, const SharedDraws& shared,
 class Judge {
  public:
   Judge(const GateOptions& options, std::size_t tests)
-      : samples_(static_cast<double>(options.samples)),
-        screening_level_(options.screening_level),
+      : screening_level_(options.screening_level),
         immediate_level_(immediate_level_of(options, tests)),
         second_alpha_(0.5 * options.family_alpha),
         second_level_(strictest_level(second_alpha_, tests)),
@@ -167,16 +186,19 @@ class Judge {
   /// kDetectionPower; none where it is infinite or cannot be computed.
   std::optional<double> minimum_detectable_effect(const Measured& test) const {
     if (!test.minimum_detectable) return std::nullopt;
-    const double second_stage = static_cast<double>(kSecondStage) * samples_;
+    const double second_stage = static_cast<double>(test.confirmation_samples);
     double effect = INFINITY;
     const auto failure = failure_of([&] {
-      effect = std::max(test.minimum_detectable(screening_level_, kStagePower, samples_),
+      if (test.confirmation_samples == 0) {
+        effect = test.minimum_detectable(immediate_level_, kDetectionPower, test.first_samples);
+        return;
+      }
+      effect = std::max(test.minimum_detectable(screening_level_, kStagePower, test.first_samples),
                         test.minimum_detectable(second_level_, kStagePower, second_stage));
     });
     return !failure && std::isfinite(effect) ? std::optional(effect) : std::nullopt;
   }
 
-  double samples_;
   double screening_level_;
   double immediate_level_;
   double second_alpha_;

@@ -53,7 +53,9 @@ void Records::add_fit(TestId test, std::span<const std::uint64_t> observed,
                       std::span<const double> probability) {
   attempt(test, [&] {
     const GoodnessOfFit fit = cressie_read(observed, probability, samples_);
-    auto& [record, minimum_detectable] = add(test);
+    Measured& added = add(test);
+    TestRecord& record = added.record;
+    auto& minimum_detectable = added.minimum_detectable;
     if (fit.dof > 0.0) {
       minimum_detectable = [dof = fit.dof](double level, double power, double samples) {
         return minimum_detectable_w(dof, level, power, samples);
@@ -73,7 +75,9 @@ void Records::add_fit(TestId test, std::span<const std::uint64_t> observed,
 }
 
 void Records::add_partial_fit(TestId test, const GoodnessOfFit& fit, std::uint64_t fit_samples) {
-  auto& [record, minimum_detectable] = add(test);
+  Measured& added = add(test);
+  TestRecord& record = added.record;
+  auto& minimum_detectable = added.minimum_detectable;
   set_fit(record, fit);
   const double share = static_cast<double>(fit_samples) / static_cast<double>(samples_);
   minimum_detectable = [dof = fit.dof, share](double level, double power, double samples) {
@@ -88,7 +92,9 @@ void Records::add_not_run(TestId test, std::string why) {
 }
 
 void Records::add_two_samples(TestId test, const GoodnessOfFit& fit, double share) {
-  auto& [record, minimum_detectable] = add(test);
+  Measured& added = add(test);
+  TestRecord& record = added.record;
+  auto& minimum_detectable = added.minimum_detectable;
   record.statistic = fit.statistic;
   record.dof = fit.dof;
   record.effect = fit.effect;
@@ -113,7 +119,9 @@ void Records::add_worst(TestId test, std::span<const std::uint64_t> observed,
                         std::span<const double> probability) {
   attempt(test, [&] {
     const WorstCell worst = worst_cell(observed, probability, samples_);
-    auto& [record, minimum_detectable] = add(test);
+    Measured& added = add(test);
+    TestRecord& record = added.record;
+    auto& minimum_detectable = added.minimum_detectable;
     minimum_detectable = [worst](double level, double power, double samples) {
       return minimum_detectable_excess(worst, level, power, samples);
     };
@@ -126,7 +134,9 @@ void Records::add_worst(TestId test, std::span<const std::uint64_t> observed,
 }
 
 void Records::add_z(TestId test, const ZTest& z, const ExactMoments& distribution, double exact) {
-  auto& [record, minimum_detectable] = add(test);
+  Measured& added = add(test);
+  TestRecord& record = added.record;
+  auto& minimum_detectable = added.minimum_detectable;
   minimum_detectable = [distribution, exact](double level, double power, double samples) {
     return minimum_detectable_factor(level, power, samples, distribution, exact) - 1.0;
   };

@@ -78,10 +78,11 @@ Finding watch(const TestRun& run, const Expectation& expectation, const GateOpti
   const EProcesses evidence(expectation);
   const RandomStream stream = run.stream("sequential");
   Draws draws(expectation.masses.extent(), expectation.bands.size());
+  const std::uint64_t most = std::min(options.samples, sampler.count.value_or(options.samples));
   double log10_e = 0.0;
-  for (std::uint64_t next = kFirstLook; log10_e < enough && draws.samples < options.samples;
+  for (std::uint64_t next = kFirstLook; log10_e < enough && draws.samples < most;
        next += next / 2) {
-    const std::uint64_t target = std::min(next, options.samples);
+    const std::uint64_t target = std::min(next, most);
     const Draws more =
         draw_samples(sampler, expectation, stream, {draws.samples, target - draws.samples});
     draws.merge(more);
@@ -92,7 +93,7 @@ Finding watch(const TestRun& run, const Expectation& expectation, const GateOpti
   record.log10_p = std::min(0.0, -log10_e);
   record.outcome = log10_e >= enough ? Outcome::reject : Outcome::accept;
   const auto failure = failure_of([&] {
-    const double minimum_detectable = evidence.minimum_detectable_effect(enough, options.samples);
+    const double minimum_detectable = evidence.minimum_detectable_effect(enough, most);
     if (std::isfinite(minimum_detectable)) record.minimum_detectable_effect = minimum_detectable;
     record.effect =
         cressie_read(serpentine(draws.bins), serpentine(expectation.bins), draws.samples).effect;

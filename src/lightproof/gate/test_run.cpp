@@ -195,6 +195,36 @@ void add_positions(Records& records, const Expectation& expectation, const Draws
   if (bands > 1) add(TestId::positions_last_row, bands - 1, bands);
 }
 
+constexpr const char* kNoPdf = "the source tells no density at given positions";
+constexpr const char* kNoWeights = "the samples come without densities";
+constexpr const char* kNoPoints = "the source does not draw at given random numbers";
+
+void add_estimators(Records& records, const Expectation& expectation, const Inspection& inspection,
+                    const Draws& draws, const UniformEstimates& uniform) {
+  for (std::size_t i = 0; i < kMeanCaseCount; ++i) {
+    const auto& [moments, against_uniform] = kMeanCaseTests[i];
+    records.attempt(moments.mean, [&, &moments = moments, &against_uniform = against_uniform] {
+      add_moments(records, moments, draws.estimators[i], expectation.estimators[i],
+                  inspection.density);
+      add_against_uniform(records, against_uniform, draws.estimators[i], expectation.estimators[i],
+                          uniform[i], expectation.uniform[i]);
+    });
+  }
+  records.attempt(kInversePdfTests.mean, [&] {
+    add_moments(records, kInversePdfTests, draws.inverse_pdf, expectation.inverse_pdf,
+                inspection.density);
+  });
+}
+
+void add_estimators_not_run(Records& records) {
+  for (const auto& [moments, against_uniform] : kMeanCaseTests) {
+    records.add_not_run(moments.mean, kNoWeights);
+    records.add_not_run(*moments.variance, kNoWeights);
+    records.add_not_run(against_uniform, kNoWeights);
+  }
+  records.add_not_run(kInversePdfTests.mean, kNoWeights);
+}
+
 }  // namespace
 
 std::string TestRun::name() const {
@@ -234,12 +264,15 @@ void require_power(TestRecord& record, double must_detect) {
 }
 
 Draws draw_samples_of(const TestRun& run, const Expectation& expectation,
-                      const BoundSampler& sampler, std::string_view purpose,
-                      std::uint64_t samples) {
+                      const BoundSampler& sampler, std::string_view purpose, std::uint64_t samples,
+                      std::uint64_t first) {
   /// Points directed at each pole's row, as a share of the samples.
   constexpr std::uint64_t kDirected = 64;
-  Draws draws = draw_samples(sampler, expectation, run.stream(purpose), {0, samples});
-  if (!run.instance->inverts_rows || expectation.bands.empty()) return draws;
+  const std::uint64_t begin = sampler.takes_points() ? 0 : first;
+  Draws draws = draw_samples(sampler, expectation, run.stream(purpose), {begin, samples});
+  if (!run.instance->inverts_rows || !sampler.takes_points() || expectation.bands.empty()) {
+    return draws;
+  }
   const std::size_t last = expectation.bands.size() - 1;
   for (const std::size_t band : last > 0 ? std::vector{std::size_t{0}, last} : std::vector{last}) {
     if (expectation.bands[band].mass <= 0.0) continue;
@@ -272,7 +305,9 @@ std::vector<Measured> test_draws(const TestRun& run, const Expectation& expectat
   records.add_worst(TestId::worst_texel, draws.texels.values(), expectation.masses.values());
   records.add_worst(TestId::worst_row, rows, expectation.rows);
   records.add_worst(TestId::worst_column, columns, expectation.columns);
-  if (std::isfinite(own.integral) && own.integral > 0.0) {
+  if (!inspection.has_pdf) {
+    records.add_not_run(TestId::own_pdf_bins, kNoPdf);
+  } else if (std::isfinite(own.integral) && own.integral > 0.0) {
     records.add_fit(TestId::own_pdf_bins, serpentine(draws.bins), serpentine(own.bins));
   }
   if (expectation.transform) {
@@ -290,19 +325,11 @@ std::vector<Measured> test_draws(const TestRun& run, const Expectation& expectat
     for (std::size_t lag = 0; lag < kLags.size(); ++lag) add_pairs(records, draws, lag);
     add_runs(records, draws);
   }
-  for (std::size_t i = 0; i < kMeanCaseCount; ++i) {
-    const auto& [moments, against_uniform] = kMeanCaseTests[i];
-    records.attempt(moments.mean, [&, &moments = moments, &against_uniform = against_uniform] {
-      add_moments(records, moments, draws.estimators[i], expectation.estimators[i],
-                  inspection.density);
-      add_against_uniform(records, against_uniform, draws.estimators[i], expectation.estimators[i],
-                          uniform[i], expectation.uniform[i]);
-    });
+  if (inspection.has_weights) {
+    add_estimators(records, expectation, inspection, draws, uniform);
+  } else {
+    add_estimators_not_run(records);
   }
-  records.attempt(kInversePdfTests.mean, [&] {
-    add_moments(records, kInversePdfTests, draws.inverse_pdf, expectation.inverse_pdf,
-                inspection.density);
-  });
   return records.take();
 }
 
@@ -344,12 +371,31 @@ std::vector<Measured> test_exactly(const TestRun& run, const Expectation& expect
   };
   if (expectation.transform) records.add_check(check_resolution(draws));
   const RandomStream stream = run.stream("checks");
-  records.add_check(check_pdf_integral(inspection.own));
-  records.add_check(check_support(inspection.density));
-  records.add_check(check_declared_density(inspection.density));
+  if (inspection.has_pdf) {
+    records.add_check(check_pdf_integral(inspection.own));
+    records.add_check(check_support(inspection.density));
+    records.add_check(check_declared_density(inspection.density));
+  } else {
+    for (const TestId test :
+         {TestId::pdf_integral, TestId::pdf_support, TestId::declared_density}) {
+      records.add_not_run(test, kNoPdf);
+    }
+  }
   const std::uint64_t points = std::min(draws.samples, kMostCheckPoints);
-  attempt(TestId::returned_pdf, [&] { return check_returned_pdf(sampler, stream, points); });
-  for (const CheckResult& check : inspection.edges) records.add_check(check);
+  if (inspection.has_pdf && inspection.has_weights && inspection.takes_points) {
+    attempt(TestId::returned_pdf, [&] { return check_returned_pdf(sampler, stream, points); });
+  } else {
+    records.add_not_run(TestId::returned_pdf, !inspection.has_pdf       ? kNoPdf
+                                              : !inspection.has_weights ? kNoWeights
+                                                                        : kNoPoints);
+  }
+  if (inspection.takes_points) {
+    for (const CheckResult& check : inspection.edges) records.add_check(check);
+  } else {
+    for (const TestId test : {TestId::next_to_one, TestId::edge_points}) {
+      records.add_not_run(test, kNoPoints);
+    }
+  }
   if (run.instance->claims_reference_texels) {
     attempt(TestId::same_texel, [&] {
       return check_same_texel(sampler, *reference_implementation, expectation, stream, points);

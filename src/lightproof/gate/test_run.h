@@ -37,12 +37,17 @@ struct Measured {
   TestRecord record;
   /// The effect that is found with `power` by a test of size `level`; empty for exact checks.
   std::function<double(double level, double power, double samples)> minimum_detectable = {};
+  double first_samples = 0.0;  ///< that were drawn in the screening stage
+  /// Of the confirmation stage, should it come to that; 0: the source has none left.
+  std::uint64_t confirmation_samples = 0;
 };
 
-/// Draws so many samples for a purpose that names their stream; and, of a sampler that can be asked
-/// for them, positions in the rows of the poles, where few samples lie.
+/// Draws so many samples for a purpose that names their stream, or, of a source that has an order
+/// of its own, those from number `first` on; and, of a sampler that can be asked for them,
+/// positions in the rows of the poles, where few samples lie.
 Draws draw_samples_of(const TestRun& run, const Expectation& expectation,
-                      const BoundSampler& sampler, std::string_view purpose, std::uint64_t samples);
+                      const BoundSampler& sampler, std::string_view purpose, std::uint64_t samples,
+                      std::uint64_t first = 0);
 
 /// The tests of drawn samples; their p-values are not judged yet.
 std::vector<Measured> test_draws(const TestRun& run, const Expectation& expectation,

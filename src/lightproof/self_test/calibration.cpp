@@ -110,7 +110,8 @@ CalibrationResult calibrate(const CalibrationOptions& options, const Progress& p
   });
   std::map<TestId, std::vector<double>> p_values;
   for (const std::vector<Measured>& tests : replicates) {
-    for (const auto& [record, minimum_detectable] : tests) {
+    for (const Measured& measured : tests) {
+      const TestRecord& record = measured.record;
       if (record.log10_p) p_values[record.test].push_back(std::pow(10.0, *record.log10_p));
     }
   }

@@ -42,7 +42,8 @@ std::vector<PowerRecord> predictions(const Trial& trial, std::uint64_t samples) 
 void count_rejections(PowerRecord& record, const std::vector<std::vector<Measured>>& replicates) {
   record.replicates = replicates.size();
   for (const auto& tests : replicates) {
-    for (const auto& [test, minimum_detectable] : tests) {
+    for (const Measured& measured : tests) {
+      const TestRecord& test = measured.record;
       if (test.test != record.test || !test.log10_p) continue;
       record.rejected += *test.log10_p < std::log10(record.level) ? 1 : 0;
     }
