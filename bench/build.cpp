@@ -76,9 +76,8 @@ struct BaselineBuild {
 constexpr std::array<BaselineBuild, 2> kBaselines = {
     {{"copy_of_map", copy_benchmark}, {"vose_baseline", vose_benchmark}}};
 
-std::string name_of(std::string_view under_test, Extent extent, std::string_view threads) {
-  return fmt::format("build/{}/{}/{}x{}/{}", under_test, kMap, extent.width, extent.height,
-                     threads);
+std::string name_of(std::string_view what, Extent extent, std::string_view threads) {
+  return fmt::format("build/{}/{}/{}x{}/{}", what, kMap, extent.width, extent.height, threads);
 }
 
 void register_samplers(Extent extent) {
@@ -99,10 +98,11 @@ void register_samplers(Extent extent) {
 
 void register_build_benchmarks() {
   for (const Extent extent : kExtents) {
-    for (const BaselineBuild& shared : kBaselines) {
-      const std::string name = name_of(shared.name, extent, "one-thread");
+    for (const BaselineBuild& baseline : kBaselines) {
+      const std::string name = name_of(baseline.name, extent, "one-thread");
       benchmark::RegisterBenchmark(
-          name.c_str(), [&shared, extent](benchmark::State& state) { shared.run(state, extent); })
+          name.c_str(),
+          [&baseline, extent](benchmark::State& state) { baseline.run(state, extent); })
           ->Unit(benchmark::kMillisecond)
           ->UseRealTime();
     }

@@ -47,13 +47,13 @@ std::vector<SquarePoint> make_points() {
 }
 
 /// The distribution that all samplers of this target draw.
-struct Law {
+struct ExactDistribution {
   Grid<double> masses;
   std::vector<double> bins;
 };
 
-const Law& exact_moments(Extent extent, TargetDensity target) {
-  static Law distribution;
+const ExactDistribution& exact_distribution(Extent extent, TargetDensity target) {
+  static ExactDistribution distribution;
   static Extent made_for;
   static TargetDensity made_with = {};
   if (!(made_for == extent) || !(made_with == target)) {
@@ -88,7 +88,8 @@ std::string misfit(const Sampler& sampler, const SamplerInfo& info, Extent exten
     ++counts(cell_of(sample.at.s, kGateBins.width), cell_of(sample.at.t, kGateBins.height));
   }
   const double log10_p =
-      cressie_read(serpentine(counts), exact_moments(extent, info.target(kWeighting)).bins, count)
+      cressie_read(serpentine(counts), exact_distribution(extent, info.target(kDensitySpace)).bins,
+                   count)
           .log10_p;
   return log10_p > kLeastLog10P
              ? ""
@@ -101,7 +102,7 @@ template <class Sampler>
 std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent extent) {
   const bool sums_texels = info.resolution != 0.0 && info.lookup == Lookup::nearest;
   if (!sums_texels) return "";
-  const auto& reference = reference_of(extent, info.target(kWeighting));
+  const auto& reference = reference_of(extent, info.target(kDensitySpace));
   const double tolerance = entry_tolerance(info, extent);
   for (const SquarePoint u : random_points().first(256)) {
     const TexelSample sample = sampler.sample(u);
@@ -163,7 +164,7 @@ std::span<const SquarePoint> random_points() {
 
 double worst_texel_error(Extent extent, TargetDensity target,
                          const std::function<double(SquarePoint)>& pdf) {
-  const Grid<double>& masses = exact_moments(extent, target).masses;
+  const Grid<double>& masses = exact_distribution(extent, target).masses;
   const double texels = static_cast<double>(extent.count());
   std::vector<double> worst(static_cast<std::size_t>(extent.height));
   parallel_for(worst.size(), [&](std::size_t row) {
@@ -189,15 +190,17 @@ const Prepared& prepared(const SamplerInfo& info, Extent extent) {
   the_last = {};
   name.clear();
   const EnvironmentMap& map = map_of(extent);
-  the_last.build_ms = median_build_ms(the_last.sampler, [&] { return info.make(map, kWeighting); });
+  the_last.build_ms =
+      median_build_ms(the_last.sampler, [&] { return info.make(map, kDensitySpace); });
   std::visit(
       [&](const auto& sampler) {
         the_last.why_not = misfit(sampler, info, extent);
         if (the_last.why_not.empty()) the_last.why_not = disagreement(sampler, info, extent);
         if (the_last.why_not.empty()) the_last.why_not = other_batch(sampler);
         if (!draws_texels(info)) return;
-        the_last.worst_texel_error = worst_texel_error(
-            extent, info.target(kWeighting), [&](SquarePoint at) { return sampler.pdf(at).value; });
+        the_last.worst_texel_error =
+            worst_texel_error(extent, info.target(kDensitySpace),
+                              [&](SquarePoint at) { return sampler.pdf(at).value; });
       },
       *the_last.sampler);
   name = info.name;

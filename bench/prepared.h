@@ -12,7 +12,7 @@
 namespace lightproof::bench {
 
 /// The lecture's density.
-inline constexpr DensitySpace kWeighting = DensitySpace::texture;
+inline constexpr DensitySpace kDensitySpace = DensitySpace::texture;
 
 /// Uniform points, 2^21, the same in every run.
 std::span<const SquarePoint> random_points();

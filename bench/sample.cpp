@@ -176,8 +176,8 @@ enum class Order { random, batch, fused };
 
 void sample_benchmark(benchmark::State& state, const SamplerInfo& info, Extent extent,
                       Order order) {
-  const Prepared& under_test = prepared(info, extent);
-  if (!under_test.why_not.empty()) return disagree(state, under_test.why_not);
+  const Prepared& prepared_sampler = prepared(info, extent);
+  if (!prepared_sampler.why_not.empty()) return disagree(state, prepared_sampler.why_not);
   std::visit(
       [&](const auto& sampler) {
         switch (order) {
@@ -192,9 +192,9 @@ void sample_benchmark(benchmark::State& state, const SamplerInfo& info, Extent e
         }
         set_table_counters(state, sampler.table_bytes(), extent);
       },
-      *under_test.sampler);
-  state.counters["build_ms"] = under_test.build_ms;
-  if (draws_texels(info)) state.counters["worst_texel_error"] = under_test.worst_texel_error;
+      *prepared_sampler.sampler);
+  state.counters["build_ms"] = prepared_sampler.build_ms;
+  if (draws_texels(info)) state.counters["worst_texel_error"] = prepared_sampler.worst_texel_error;
 }
 
 void baseline_benchmark(benchmark::State& state, Extent extent) {
@@ -203,7 +203,7 @@ void baseline_benchmark(benchmark::State& state, Extent extent) {
   time_batches(state, std::ref(draw));
   set_table_counters(state, baseline.table_bytes(), extent);
   state.counters["worst_texel_error"] = worst_texel_error(
-      extent, {kWeighting, kRec709}, [&](SquarePoint at) { return baseline.pdf(at).value; });
+      extent, {kDensitySpace, kRec709}, [&](SquarePoint at) { return baseline.pdf(at).value; });
 }
 
 void limit_benchmark(benchmark::State& state, Extent extent) {
@@ -253,10 +253,11 @@ bool any_disagreement() { return disagreed; }
 
 void register_sample_benchmarks() {
   for (const Extent extent : kExtents) {
-    for (const BaselineInfo& shared : kBaselines) {
-      const std::string name = name_of(shared.name, extent, "fused");
-      benchmark::RegisterBenchmark(
-          name.c_str(), [&shared, extent](benchmark::State& state) { shared.run(state, extent); });
+    for (const BaselineInfo& baseline : kBaselines) {
+      const std::string name = name_of(baseline.name, extent, "fused");
+      benchmark::RegisterBenchmark(name.c_str(), [&baseline, extent](benchmark::State& state) {
+        baseline.run(state, extent);
+      });
     }
     register_samplers(extent, kOrders);
     if (extent == kExtents.back()) continue;

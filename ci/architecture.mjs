@@ -1,6 +1,6 @@
 // What ci/architecture does. Usage: architecture.mjs [--check] [ROOT]
 import { existsSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
-import { basename, dirname, join } from "node:path";
+import { basename, join } from "node:path";
 
 const check = process.argv.includes("--check");
 const root = process.argv.slice(2).find((argument) => !argument.startsWith("--")) ?? ".";
@@ -134,10 +134,14 @@ const end = "<!-- Written by ci/architecture: end -->";
 function pageWith(content) {
   const now = existsSync(page) ? readFileSync(page, "utf8") : `${begin}\n${end}\n`;
   const [before, rest] = now.split(begin);
+  if (!rest?.includes(end)) {
+    console.error(`architecture: ${page} lacks the lines "${begin}" and "${end}"`);
+    process.exit(2);
+  }
   return `${before}${begin}\n\n${content}\n\n${end}${rest.split(end)[1]}`;
 }
 
-if (dirname(page) && !existsSync(join(root, "src/lightproof"))) {
+if (!existsSync(join(root, "src/lightproof"))) {
   console.error(`architecture: ${root} holds no src/lightproof`);
   process.exit(2);
 }
@@ -146,7 +150,7 @@ const faults = faultsOf(folders);
 if (faults.length === 0) {
   const wanted = pageWith(generated(folders));
   if (!check) writeFileSync(page, wanted);
-  else if (wanted !== readFileSync(page, "utf8")) faults.push("docs/architecture.md is not what ci/architecture writes: run it");
+  else if (!existsSync(page) || wanted !== readFileSync(page, "utf8")) faults.push("docs/architecture.md is not what ci/architecture writes: run it");
 }
 for (const fault of faults) console.error(`architecture: ${fault}`);
 if (faults.length === 0) console.log(`architecture: ${folders.size} folders, ${arrowsOf(folders).length} arrows, all hold`);

@@ -1,3 +1,5 @@
+include(GNUInstallDirs)
+
 # One library target per folder. Warnings and optimisation settings stay private to Lightproof.
 add_library(lightproof_settings INTERFACE)
 target_compile_features(lightproof_settings INTERFACE cxx_std_20)
@@ -43,7 +45,8 @@ function(lightproof_module name)
   target_compile_features(lightproof_${name} PUBLIC cxx_std_20)
   target_include_directories(lightproof_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-    $<INSTALL_INTERFACE:include> $<INSTALL_INTERFACE:include/lightproof>)
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/lightproof>)
   target_link_libraries(lightproof_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${private})
   set_property(GLOBAL APPEND PROPERTY LIGHTPROOF_MODULES lightproof_${name})
 endfunction()

@@ -1,6 +1,6 @@
-// The distribution of a bilinear look-up, in double: every texel's grey spreads as a tent over its
-// neighbours in s (around the seam) and in t (all of it that would lie beyond a pole stays before
-// it), and all integrals are those of products of two tents, each by Gauss-Legendre nodes.
+// The distribution of a bilinear look-up, in double: every texel's luminance spreads as a tent over
+// its neighbours in s (around the seam) and in t (all of it that would lie beyond a pole stays
+// before it), and all integrals are those of products of two tents, each by Gauss-Legendre nodes.
 #pragma once
 
 #include <functional>
@@ -19,9 +19,9 @@ struct TentPart {
   double integral;
 };
 
-/// ∫ of tent times weight between two places of [0,1], for all tents of a line of `texels` that are
-/// not 0 there. `wraps`: the line is a circle; else the last tents are 1 beyond the last centres.
-/// The weight is smooth; no piece is wider than 1/64.
+/// ∫ of tent times weight between two positions in [0,1], for all tents of a line of `texels` that
+/// are not 0 there. `wraps`: the line is a circle; else the last tents are 1 beyond the last
+/// centres. The weight is smooth; no piece is wider than 1/64.
 std::vector<TentPart> tent_parts(double low, double high, int texels, bool wraps,
                                  const std::function<double(double)>& weight);
 
@@ -48,7 +48,7 @@ class BilinearTransform {
 
   /// ∫ from 0 to s of the interpolation around a line of texels.
   double below(const Sums& sums, std::span<const double> line, double s) const;
-  /// ∫ of the marginal over t between two places of one row of patches.
+  /// ∫ of the marginal over t between two positions of one row of patches.
   double mass_along(double low, double high) const;
 
   Extent extent_;

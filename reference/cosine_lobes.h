@@ -1,4 +1,4 @@
-// ScoredAlternatives over directions that are mixtures of powers of cosines: the hemisphere's
+// Distributions over directions that are mixtures of powers of cosines: the hemisphere's
 // warps, and what Phong's materials draw.
 #pragma once
 

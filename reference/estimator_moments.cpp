@@ -12,7 +12,7 @@
 namespace lightproof::reference {
 namespace {
 
-/// ∫ over one texel of the powers of k that the moments of all strategies are made of.
+/// ∫ over one texel of the powers of k that the moments of all estimators are made of.
 struct TexelIntegrals {
   std::array<double, 4> plain = {};     ///< k^m
   std::array<double, 4> sine = {};      ///< k^m sin^(m-1)(theta)

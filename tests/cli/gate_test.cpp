@@ -308,7 +308,7 @@ TEST(GateSamplers, OfDirectionsTakeNoMap) {
   EXPECT_THAT(values_of(gate_results(both), "map"), ElementsAre("sun-sky", "directions"));
 }
 
-TEST(GateSamplers, OfDirectionsHaveNoWeighting) {
+TEST(GateSamplers, OfDirectionsHaveNoDensityOfAMap) {
   const Finished gate = quick_gate({"--sampler", "cosine_hemisphere", "--density", "B"});
   EXPECT_EQ(gate.exit_code, 2) << gate.out;
   EXPECT_THAT(gate.err, AllOf(HasSubstr("--density"), HasSubstr("leave the option out")));

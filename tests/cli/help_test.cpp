@@ -225,9 +225,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistyped{"Preset",
                  {"gate", "constant", "--preset", "OpenExr"},
                  "there is no preset 'OpenExr'; did you mean 'openexr'?"},
-        Mistyped{"Weighting",
-                 {"gate", "--density", "b"},
-                 "there is no density of a map 'b'; did you mean 'B'?"},
+        Mistyped{
+            "Density", {"gate", "--density", "b"}, "there is no density 'b'; did you mean 'B'?"},
         Mistyped{"Level", {"gate", "--level", "ful"}, "did you mean 'full'?"},
         Mistyped{"Registry", {"list", "sampler"}, "did you mean 'samplers'?"},
         Mistyped{"Colour", {"gate", "--color", "allways"}, "did you mean 'always'?"}),

@@ -137,7 +137,7 @@ double uniformity(const std::function<SquarePoint(std::uint64_t)>& point) {
   return fit.log10_p;
 }
 
-// alpha = 1e-6 from both sides for each of the five: underdispersed is as wrong as too uneven.
+// alpha = 1e-6 from both sides for each of the five: too even is as wrong as too uneven.
 void expect_plausible(double log10_p) {
   EXPECT_GT(log10_p, -6.0);
   EXPECT_LT(log10_p, std::log10(1.0 - 1e-6));

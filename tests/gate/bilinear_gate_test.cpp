@@ -63,8 +63,8 @@ TEST(BilinearGate, TheLookUpThatASamplerDeclaresIsHeldAgainstIt) {
   }
 }
 
-/// A sampler made of the correct one of another map: its places and densities are moved by `back`,
-/// and asked for by `there`.
+/// A sampler made of the correct one of another map: its positions and densities are moved by
+/// `back`, and asked for by `there`.
 template <class Back, class There>
 SamplerUnderTest changed(DensitySpace density_space, EnvironmentMap (*other)(const EnvironmentMap&),
                          const Back& back, const There& there) {

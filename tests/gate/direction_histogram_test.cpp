@@ -94,7 +94,7 @@ TEST(DirectionHistogram, CountsAMillionDirectionsAsTheScalarDefinition) {
   }
   const DirectionHistogram histogram = histogram_of(directions);
   EXPECT_THAT(histogram.bins().values(), testing::ElementsAreArray(expected.values()));
-  EXPECT_EQ(histogram.lost(), 0U);
+  EXPECT_EQ(histogram.invalid(), 0U);
   EXPECT_EQ(histogram.samples(), directions.size());
   EXPECT_GT(directions.size(), 1'000'000U - 10U);  // 48 edges of 2e-15 each
 }
@@ -167,7 +167,7 @@ TEST(DirectionHistogram, FindsTheLostAmongOthers) {
   std::vector<Direction> directions = random_directions(5000);
   for (std::size_t i = 0; i < directions.size(); i += 7) directions[i].y = std::nan("");
   const DirectionHistogram histogram = histogram_of(directions);
-  EXPECT_EQ(histogram.lost(), 715U);
+  EXPECT_EQ(histogram.invalid(), 715U);
   EXPECT_EQ(histogram.samples(), 5000U);
   const Grid<std::uint64_t> bins = histogram.bins();
   EXPECT_EQ(std::accumulate(bins.values().begin(), bins.values().end(), std::uint64_t{0}), 4285U);
@@ -187,7 +187,7 @@ TEST(DirectionHistogram, IsTheSameHoweverTheWorkWasSplit) {
     merged.merge(histogram_of(all.subspan(first, size)));
   }
   EXPECT_THAT(merged.bins().values(), testing::ElementsAreArray(whole.bins().values()));
-  EXPECT_EQ(merged.lost(), 1U);
+  EXPECT_EQ(merged.invalid(), 1U);
   EXPECT_EQ(merged.samples(), directions.size());
 }
 

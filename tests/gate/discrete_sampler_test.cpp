@@ -12,9 +12,9 @@
 namespace lightproof {
 namespace {
 
-// Knots of 31 bits are 2^-31 off at most, and as many random numbers in 64 sums and 65536 points
-// fall in between with a probability of 3 %: up to two points may differ.
-TEST(DiscreteSampler, DrawsTheTexelsOfTheDeclaredLaw) {
+// CDF entries of 31 bits are 2^-31 off at most, and as many random numbers in 64 sums and 65536
+// points fall in between with a probability of 3 %: up to two points may differ.
+TEST(DiscreteSampler, DrawsTheTexelsOfTheDeclaredDistribution) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
   for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
     const TargetDensity target = {density_space, kRec709};
@@ -42,7 +42,7 @@ TEST(DiscreteSampler, DrawsTheTexelsOfTheDeclaredLaw) {
   }
 }
 
-TEST(AlternativeLaws, SumToOneAndDifferFromTheDeclaredLaw) {
+TEST(AlternativeDistributions, SumToOneAndDifferFromTheDeclaredLaw) {
   EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
   // Colour, a texel without light, and rows around the absolute threshold.
   for (int y = 0; y < 32; ++y) {

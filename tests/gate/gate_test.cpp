@@ -115,7 +115,7 @@ TEST(Gate, TheGreyWeightsThatASamplerDeclaresAreHeldAgainstIt) {
   EXPECT_THAT(rejections(result), testing::Contains("reference/bins 16x32"));
 }
 
-TEST(Gate, WeightingAIsNotWeightingB) {
+TEST(Gate, DensityAIsNotDensityB) {
   const EnvironmentMap map = make_synthetic_map("gradient", kExtent);
   SamplerUnderTest under_test =
       sampler_under_test(sampler_by_name("binary_search"), DensitySpace::texture);
@@ -300,7 +300,7 @@ TEST(Expectation, RoundingEffectIsThatOfRoundedSums) {
       if (p > 0.0) square += (q - p) * (q - p) / p;
     }
   }
-  // An average over the places of 8192 CDF entries.
+  // An average over the positions of 8192 CDF entries.
   const RoundingEffect expected = rounding_effect(expectation, kNoPools);
   EXPECT_NEAR(std::sqrt(square) / (expected.texels * kStep), 1.0, 0.2);
 }

@@ -63,7 +63,7 @@ class FalseAlarms : public testing::TestWithParam<Law> {};
 // 4000 have a probability of 1e-7 at that rate.
 TEST_P(FalseAlarms, AreRarerThanAlpha) { EXPECT_LE(found(1.0, GetParam(), 4000), 18); }
 
-INSTANTIATE_TEST_SUITE_P(ScoredAlternatives, FalseAlarms,
+INSTANTIATE_TEST_SUITE_P(Distributions, FalseAlarms,
                          testing::Values(Law{0.002}, Law{0.01}, Law{0.03}, Law{0.1},
                                          Law{0.01, true}, Law{0.1, true}),
                          [](const auto& test) {

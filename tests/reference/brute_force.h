@@ -63,8 +63,8 @@ inline Grid<double> lattice_masses(const Grid<double>& luminance, Value value, b
   return masses;
 }
 
-/// Of all four strategies E[X^m], X = L k / p, and the largest X.
-struct StrategyMoments {
+/// Of all four estimators E[X^m], X = L k / p, and the largest X.
+struct EstimatorSums {
   struct Of {
     std::array<double, 4> raw = {};
     double largest = 0.0;
@@ -81,16 +81,16 @@ struct Factor {
   double pdf;
 };
 
-inline StrategyMoments strategy_moments(const Grid<double>& luminance, Value value,
-                                        const std::function<Factor(double, double, double)>& at,
-                                        Extent cells) {
+inline EstimatorSums estimator_sums(const Grid<double>& luminance, Value value,
+                                    const std::function<Factor(double, double, double)>& at,
+                                    Extent cells) {
   double mean = 0.0;   // of L over the square
   double whole = 0.0;  // of L over the sphere
   visit_middles(cells, [&](double s, double t, double area) {
     mean += value(luminance, s, t) * area;
     whole += value(luminance, s, t) * 2.0 * kPi * kPi * std::sin(kPi * t) * area;
   });
-  StrategyMoments moments;
+  EstimatorSums moments;
   visit_middles(cells, [&](double s, double t, double area) {
     const double theta = kPi - kPi * t;
     const double phi = kPi - 2.0 * kPi * s;
@@ -98,7 +98,7 @@ inline StrategyMoments strategy_moments(const Grid<double>& luminance, Value val
         at(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
     const double light = value(luminance, s, t);
     const double jacobian = 2.0 * kPi * kPi * std::sin(theta);
-    const auto add = [&](StrategyMoments::Of& of, double density) {
+    const auto add = [&](EstimatorSums::Of& of, double density) {
       if (!(density > 0.0)) return;
       const double x = light * k / density;
       for (std::size_t m = 0; m < 4; ++m) {

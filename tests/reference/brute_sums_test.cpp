@@ -48,8 +48,8 @@ Kernel smooth_kernel() {
 
 /// The midpoint rule is of second order: of twice as fine a lattice a third of the change is its
 /// error, and the change itself three times that. No change is larger than 1e-3 of the value.
-void expect_moments(const EstimatorMoments& exact, const test::StrategyMoments::Of& coarse,
-                    const test::StrategyMoments::Of& fine) {
+void expect_moments(const EstimatorMoments& exact, const test::EstimatorSums::Of& coarse,
+                    const test::EstimatorSums::Of& fine) {
   for (std::size_t m = 0; m < 4; ++m) {
     const double change = std::abs(fine.raw[m] - coarse.raw[m]);
     ASSERT_LT(change, 1e-3 * fine.raw[m]);
@@ -59,11 +59,11 @@ void expect_moments(const EstimatorMoments& exact, const test::StrategyMoments::
   EXPECT_NEAR(exact.largest, fine.largest, 0.02 * fine.largest);
 }
 
-void expect_strategies(const LightMoments& exact, test::Value value) {
+void expect_estimators(const LightMoments& exact, test::Value value) {
   const Grid<double> luminance = uneven_luminance();
   // Whole numbers of cells for every half of a texel.
-  const auto coarse = test::strategy_moments(luminance, value, half_factor, {320, 256});
-  const auto fine = test::strategy_moments(luminance, value, half_factor, {640, 512});
+  const auto coarse = test::estimator_sums(luminance, value, half_factor, {320, 256});
+  const auto fine = test::estimator_sums(luminance, value, half_factor, {640, 512});
   {
     SCOPED_TRACE("uniform");
     expect_moments(exact[SampledDensity::uniform], coarse.uniform, fine.uniform);
@@ -84,23 +84,23 @@ void expect_strategies(const LightMoments& exact, test::Value value) {
 
 TEST(LightMoments, AreThoseOfABruteSum) {
   const Grid<double> grids[] = {uneven_luminance()};
-  expect_strategies(light_moments(smooth_kernel(), grids).front(), test::nearest_value);
+  expect_estimators(light_moments(smooth_kernel(), grids).front(), test::nearest_value);
 }
 
 TEST(BilinearMoments, AreThoseOfABruteSum) {
-  expect_strategies(bilinear_light_moments(smooth_kernel(), uneven_luminance()),
+  expect_estimators(bilinear_light_moments(smooth_kernel(), uneven_luminance()),
                     test::interpolated_value);
 }
 
 /// E[1/p], E[1/p^2] and the largest 1/p where the texel's own value is 1 and more.
-test::StrategyMoments::Of inverse_pdf(bool over_directions, Extent cells) {
+test::EstimatorSums::Of inverse_pdf(bool over_directions, Extent cells) {
   const Grid<double> luminance = uneven_luminance();
   double total = 0.0;
   test::visit_middles(cells, [&](double s, double t, double area) {
     const double jacobian = 2.0 * kPi * kPi * std::sin(kPi * t);
     total += test::interpolated_value(luminance, s, t) * (over_directions ? jacobian : 1.0) * area;
   });
-  test::StrategyMoments::Of moments;
+  test::EstimatorSums::Of moments;
   test::visit_middles(cells, [&](double s, double t, double area) {
     if (test::nearest_value(luminance, s, t) < 0.9) return;
     const double jacobian = 2.0 * kPi * kPi * std::sin(kPi * t);
@@ -206,14 +206,14 @@ double share_to_the_left(const Grid<double>& luminance, test::Value value, doubl
 }
 
 constexpr Extent kPlaces = {20, 24};  ///< no edges of texels alone
-constexpr Extent kLatticeOfPlaces = {320, 384};
+constexpr Extent kLatticeOfPositions = {320, 384};
 
 /// transform({s, t}) at all places but the ends.
 template <class Transform>
 void expect_transform(test::Value value, DensitySpace density_space, const Transform& transform) {
   const Grid<double> luminance = uneven_luminance();
   const Below below(test::lattice_masses(
-      luminance, value, density_space == DensitySpace::solid_angle, kLatticeOfPlaces));
+      luminance, value, density_space == DensitySpace::solid_angle, kLatticeOfPositions));
   for (int j = 1; j < kPlaces.height; ++j) {
     for (int i = 1; i < kPlaces.width; ++i) {
       // Inside of a texel: its edges belong to either side.

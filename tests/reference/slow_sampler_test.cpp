@@ -50,7 +50,7 @@ TEST(SlowSampler, ChangesTexelWhereTheCumulativeMassIsPassed) {
   EXPECT_EQ(sampler.sample({0.2501, 0.1}), (Texel{2, 1}));
 }
 
-TEST(SlowSampler, AEntryBelongsToTheNextTexel) {
+TEST(SlowSampler, AnEntryBelongsToTheNextTexel) {
   // Powers of two are exact: the first cell whose cumulative mass lies *above* u.
   const SlowSampler sampler(grey_map({4, 1}, {1, 1, 1, 1}), {DensitySpace::texture});
   EXPECT_EQ(sampler.sample({0.25, 0.5}), (Texel{1, 0}));
@@ -104,7 +104,7 @@ TEST(NearEntry, KnowsTheEntriesOfRowsAndColumns) {
     EXPECT_FALSE(sampler.near_entry({0.6, 0.5 + off}, kDistance));
     EXPECT_FALSE(sampler.near_entry({0.25 + off, 0.3}, kDistance));
   }
-  EXPECT_FALSE(sampler.near_entry({0.25, 0.7}, kDistance)) << "no knot in the second lit row";
+  EXPECT_FALSE(sampler.near_entry({0.25, 0.7}, kDistance)) << "no entry in the second lit row";
 }
 
 TEST(NearEntry, CountsBothEnds) {

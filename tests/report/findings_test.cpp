@@ -224,7 +224,7 @@ TEST(KneesFinding, NamesTheSamplersThatHaveOne) {
   GrowthFit straight;
   GrowthFit bent;
   bent.sampler = "bent";
-  bent.breakpoints = {0.0, {{{512, 256}, 0.5}, {{2048, 1024}, 0.1}}, 0.001};
+  bent.segmented = {0.0, {{{512, 256}, 0.5}, {{2048, 1024}, 0.1}}, 0.001};
   EXPECT_EQ(
       breakpoints_finding({straight, bent}),
       "The time of a step has measured breakpoints: bent at 512\u00d7256 and 2048\u00d71024.");

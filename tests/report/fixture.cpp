@@ -288,7 +288,7 @@ StudyResult synthetic_study() {
     fit.build_exponent = {1.0, 0.012};
   }
   study.growth[0].leaves_l3 = {4096, 2048};
-  study.growth[0].breakpoints = {0.02, {{{512, 256}, 0.31}, {{1024, 512}, 0.12}}, 0.0021};
+  study.growth[0].segmented = {0.02, {{{512, 256}, 0.31}, {{1024, 512}, 0.12}}, 0.0021};
   for (std::size_t estimator = 0; estimator < 4; ++estimator)
     study.renders.push_back(render(estimator));
   study.self_test = self_test();

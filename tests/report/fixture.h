@@ -1,4 +1,4 @@
-// A study synthetic for the tests: the shape and size of a real one, numbers from formulas.
+// A synthetic study for the tests: the shape and size of a real one, numbers from formulas.
 #pragma once
 
 #include "lightproof/results/study_result.h"

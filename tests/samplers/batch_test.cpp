@@ -27,7 +27,7 @@ namespace {
 
 /// Off by the rounding of vectorised sines and arc sines, some 10^-15 of a quarter circle each, in
 /// a map of up to 64 rows.
-constexpr double kPlaceError = 1e-12;
+constexpr double kPositionError = 1e-12;
 
 /// What is published may be no number.
 void expect_close(double a, double b, double tolerance) {
@@ -39,7 +39,7 @@ void expect_same(const TexelSample& batch, const TexelSample& scalar, DensitySpa
   EXPECT_EQ(batch.x, scalar.x);
   EXPECT_EQ(batch.y, scalar.y);
   expect_close(batch.at.s, scalar.at.s, 0.0);
-  const double error = density_space == DensitySpace::texture ? 0.0 : kPlaceError;
+  const double error = density_space == DensitySpace::texture ? 0.0 : kPositionError;
   expect_close(batch.at.t, scalar.at.t, error);
   // Near a pole the density follows the sine, and so the rounding of t.
   const double near = std::min(scalar.at.t, 1.0 - scalar.at.t);
@@ -218,12 +218,12 @@ TEST_P(Batch, OfDirectionsLieAtTheSamplesPlaces) {
                 EXPECT_EQ(directions.column[i], sample.x);
                 EXPECT_EQ(directions.row[i], sample.y);
                 const Direction at = direction_from_square(sample.at);
-                EXPECT_NEAR(directions.x[i], at.x, kPlaceError);
-                EXPECT_NEAR(directions.y[i], at.y, kPlaceError);
-                EXPECT_NEAR(directions.z[i], at.z, kPlaceError);
+                EXPECT_NEAR(directions.x[i], at.x, kPositionError);
+                EXPECT_NEAR(directions.y[i], at.y, kPositionError);
+                EXPECT_NEAR(directions.z[i], at.z, kPositionError);
                 const double near = std::min(sample.at.t, 1.0 - sample.at.t);
                 const double pdf = to_solid_angle(sample.pdf, sample.at).value;
-                EXPECT_NEAR(directions.pdf[i], pdf, kPlaceError * pdf * (1.0 + 1.0 / near));
+                EXPECT_NEAR(directions.pdf[i], pdf, kPositionError * pdf * (1.0 + 1.0 / near));
               }
             });
           },
@@ -266,7 +266,7 @@ TEST_P(Batch, IsDrawnByVectors) {
 INSTANTIATE_TEST_SUITE_P(Samplers, Batch, testing::ValuesIn(samplers().begin(), samplers().end()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST(LargePages, HoldTablesOfAnySize) {
+TEST(HugePages, HoldTablesOfAnySize) {
   for (const std::size_t size :
        {std::size_t{0}, std::size_t{1}, kHugePage - 1, kHugePage, kHugePage + 1, 3 * kHugePage}) {
     TableVector<unsigned char> table(size, 7);

@@ -90,7 +90,7 @@ TEST(CdfTable, BlackMapIsRefusedByName) {
   }
 }
 
-TEST(CdfTable, FourBytesAEntry) {
+TEST(CdfTable, FourBytesAnEntry) {
   const EnvironmentMap map = make_synthetic_map("constant", {64, 32});
   const CdfTable table(map, {DensitySpace::texture, kRec709});
   constexpr std::size_t kAfter = 2;  // the last one, of all rows and of all columns

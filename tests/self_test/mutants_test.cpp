@@ -393,11 +393,11 @@ TEST(Mutants, HaveNamesOfTheirOwn) {
   EXPECT_EQ(names.size(), mutants().size() + direction_mutants().size());
 }
 
-// The distribution sampler that all of them start from. What the gate tests of it is what must have
+// The discrete sampler that all of them start from. What the gate tests of it is what must have
 // a kill.
 TEST(Mutants, TheirSoundParentIsAcceptedByTestsThatEachHaveAKill) {
   const EnvironmentMap map = mutant_map();
-  const Mutant correct = {"sound", "none", "", Oracle::reference};
+  const Mutant correct = {"correct", "none", "", Oracle::reference};
   const std::vector<SamplerUnderTest> samplers_under_test = {
       sampler_under_test(correct, DensitySpace::texture),
       sampler_under_test(correct, DensitySpace::solid_angle)};

@@ -110,9 +110,9 @@ TEST(TwoSamplesPower, IsThatOfTheHarmonicSize) {
 }
 
 /// The share of the mass that must move for an effect w, and its test at the planned N.
-class PlantedDefect {
+class InjectedDefect {
  public:
-  explicit PlantedDefect(double power)
+  explicit InjectedDefect(double power)
       : noncentrality_(minimum_detectable_noncentrality(kCells - 1.0, kAlpha, power)) {}
 
   /// (q-p)/p is +-d in all cells, so w = d.
@@ -141,18 +141,18 @@ class PlantedDefect {
 };
 
 TEST(CressieReadPower, DetectsThePlannedEffect) {
-  PlantedDefect planted(0.99);
-  const int rejected = planted.rejections("CressieReadPower.DetectsThePlannedEffect", 300);
+  InjectedDefect injected(0.99);
+  const int rejected = injected.rejections("CressieReadPower.DetectsThePlannedEffect", 300);
   // Misses are Poisson with mean 3: more than 16 with a probability of 1e-8.
   EXPECT_GE(rejected, 300 - 16);
   // The effect squared times N is the noncentrality with a standard deviation of
   // sqrt(2 (255 + 2 * 204)) = 36 of 204, or 1 % of it in the mean over 300: five of them.
-  EXPECT_NEAR(planted.mean_square_effect() / (planted.w() * planted.w()), 1.0, 0.05);
+  EXPECT_NEAR(injected.mean_square_effect() / (injected.w() * injected.w()), 1.0, 0.05);
 }
 
 TEST(CressieReadPower, IsHalfWherePlannedToBeHalf) {
-  PlantedDefect planted(0.5);
-  const int rejected = planted.rejections("CressieReadPower.IsHalfWherePlannedToBeHalf", 300);
+  InjectedDefect injected(0.5);
+  const int rejected = injected.rejections("CressieReadPower.IsHalfWherePlannedToBeHalf", 300);
   // Binomial around 150 with a standard deviation of 8.7: 4.9 of them are exceeded at 1e-6.
   EXPECT_NEAR(rejected, 150, 42);
 }

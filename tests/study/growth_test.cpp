@@ -42,7 +42,7 @@ TEST(Growth, ExponentsOfALineAndALogarithm) {
   ASSERT_EQ(fits[1].steps.size(), 6U);
   for (const StepTime& step : fits[1].steps) EXPECT_NEAR(step.ns, 5.0, 1e-12);
   for (const GrowthFit& fit : fits) {
-    EXPECT_FALSE(fit.breakpoints) << fit.sampler;
+    EXPECT_FALSE(fit.segmented) << fit.sampler;
     ASSERT_TRUE(fit.build_exponent);
     EXPECT_NEAR(fit.build_exponent->value, 0.9, 1e-12);
     EXPECT_NEAR(fit.build_exponent->error, 0.0, 1e-12);
@@ -56,11 +56,11 @@ TEST(Growth, HasAKneeWhereStepsSlowDown) {
   }
   const auto fits = growth_of(records, {});
   ASSERT_EQ(fits.size(), 1U);
-  ASSERT_TRUE(fits[0].breakpoints);
-  EXPECT_NEAR(fits[0].breakpoints->exponent_before, 0.0, 1e-12);
-  ASSERT_EQ(fits[0].breakpoints->breakpoints.size(), 1U);
-  EXPECT_EQ(fits[0].breakpoints->breakpoints[0].extent, (Extent{1024, 512}));
-  EXPECT_NEAR(fits[0].breakpoints->breakpoints[0].exponent_after, 0.5, 1e-12);
+  ASSERT_TRUE(fits[0].segmented);
+  EXPECT_NEAR(fits[0].segmented->exponent_before, 0.0, 1e-12);
+  ASSERT_EQ(fits[0].segmented->breakpoints.size(), 1U);
+  EXPECT_EQ(fits[0].segmented->breakpoints[0].extent, (Extent{1024, 512}));
+  EXPECT_NEAR(fits[0].segmented->breakpoints[0].exponent_after, 0.5, 1e-12);
 }
 
 /// All samplers, whose times are a power of the width but for normal scatter.
@@ -85,7 +85,7 @@ TEST(Growth, HasBreakpointsByChanceOnOnePageInAHundred) {
     const auto fits = growth_of(power_laws(page), {});
     ASSERT_EQ(fits.size(), samplers().size());
     pages +=
-        std::ranges::any_of(fits, [](const GrowthFit& fit) { return fit.breakpoints.has_value(); });
+        std::ranges::any_of(fits, [](const GrowthFit& fit) { return fit.segmented.has_value(); });
   }
   // More than twelve of a mean of two have a probability below 1e-6.
   EXPECT_LE(pages, 12);

@@ -9,8 +9,11 @@ void sample(benchmark::State& state) {
   state.counters["table_bytes"] = 1024.0;
   state.counters["build_ms"] = 0.5;
 }
-BENCHMARK(sample)->Name("sample/own/constant/256x128/random");
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  benchmark::RegisterBenchmark("sample/own/constant/256x128/random", sample);
+  benchmark::RunSpecifiedBenchmarks();
+}

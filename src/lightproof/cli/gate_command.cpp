@@ -66,7 +66,7 @@ struct Judged {
   GateVerdict verdict;
 };
 
-/// The names of all files that --rejections may write for these problems.
+/// The names of all files that --rejections may write for these test cases.
 std::set<std::string> names_of_rejections(std::span<const TestCase> test_cases) {
   std::set<std::string> names;
   for (const TestCase& test_case : test_cases) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <condition_variable>
 #include <cstdio>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -64,7 +65,7 @@ class Lines {
 
   ~Lines() {
     const std::lock_guard lock(mutex_);
-    end_step();
+    if (std::uncaught_exceptions() == 0) end_step();
   }
   Lines(const Lines&) = delete;
   Lines& operator=(const Lines&) = delete;

@@ -115,8 +115,10 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
   add_number(*command, "--largest", options->largest_width, 512, 16384,
              "width of the largest map that throughput is measured on; 16384 takes 8 GB")
       ->excludes(file);
-  command->add_flag("--measure-again", options->measure_again,
-                    "measure the throughput, even if it is kept of this program and machine");
+  command
+      ->add_flag("--measure-again", options->measure_again,
+                 "measure the throughput, even if it is kept of this program and machine")
+      ->excludes(file);
   command->add_flag("--no-self-test", options->no_self_test,
                     "leave out the test of the gate itself (mutants, calibration, power)");
   command->footer(

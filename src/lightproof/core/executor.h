@@ -32,7 +32,7 @@ struct WorkCell {
 /// when divided by `of`.
 struct WorkShare {
   std::size_t index = 0;
-  std::size_t of = 1;
+  std::size_t of = 1;  ///< at least 1
 };
 
 /// By key, and so in the order in which they are folded.
@@ -77,7 +77,8 @@ void join(CellResults<Result>& results, CellResults<Result> more) {
   }
 }
 
-/// Results as bytes, for another process.
+/// Results as bytes, for another process. A Result has a default constructor, write(ByteWriter&)
+/// and a static read(ByteReader&).
 template <class Result>
 std::string bytes_of(const CellResults<Result>& results) {
   ByteWriter writer;
@@ -90,14 +91,15 @@ std::string bytes_of(const CellResults<Result>& results) {
 }
 
 /// What bytes_of() wrote. Throws std::out_of_range if bytes are missing, std::logic_error if some
-/// are left.
+/// are left or a key is there twice.
 template <class Result>
 CellResults<Result> results_of(std::string_view bytes) {
   ByteReader reader(bytes);
   CellResults<Result> results;
   for (std::uint64_t left = reader.number(); left > 0; --left) {
     std::string key = reader.text();
-    results.emplace(std::move(key), Result::read(reader));
+    const auto [at, is_new] = results.emplace(std::move(key), Result::read(reader));
+    if (!is_new) throw std::logic_error("the cell of work " + at->first + " is there twice");
   }
   if (!reader.is_at_end()) throw std::logic_error("bytes are left behind the last cell of work");
   return results;

@@ -22,7 +22,7 @@ namespace lightproof {
 /// whose points are its own, `samples` says how many it may use.
 struct Budget {
   std::uint64_t first = 0;
-  std::uint64_t samples = 1;
+  std::uint64_t samples = 1;  ///< at least 1
 };
 
 /// Is shown the independent estimates of one distribution whose mean an estimate is, in order, some

@@ -36,7 +36,7 @@ constexpr std::array kEstimators = {
                         return prepare_one_sample(map, MapDensity{DensitySpace::texture});
                       }},
     EstimatorInfo{.name = "environment B",
-                  .description = "the map, density over directions so",
+                  .description = "the map, density over directions proportional to luminance",
                   .source = "Pharr, Jakob and Humphreys, Physically Based Rendering, 12.5",
                   .density = SampledDensity::solid_angle,
                   .prepare =

@@ -309,7 +309,7 @@ Grid<double> half_column(const DeclaredDistribution& declared) {
   });
 }
 
-constexpr std::array<AlternativeDistribution, 30> kLaws = {{
+constexpr std::array<AlternativeDistribution, 30> kAlternatives = {{
     {"other-density", "a missing sin(theta) (or one too many): the other target density",
      other_density},
     {"other-lookup", "the other look-up: whole texels for interpolated ones, or the reverse",
@@ -354,13 +354,13 @@ constexpr std::array<AlternativeDistribution, 30> kLaws = {{
 
 }  // namespace
 
-std::span<const AlternativeDistribution> alternative_distributions() { return kLaws; }
+std::span<const AlternativeDistribution> alternative_distributions() { return kAlternatives; }
 
 const AlternativeDistribution& alternative_distribution(std::string_view name) {
   const auto* found = std::find_if(
-      kLaws.begin(), kLaws.end(),
+      kAlternatives.begin(), kAlternatives.end(),
       [&](const AlternativeDistribution& distribution) { return distribution.name == name; });
-  assert(found != kLaws.end());
+  assert(found != kAlternatives.end());
   return *found;
 }
 

@@ -20,8 +20,8 @@ struct DeclaredDistribution {
 struct AlternativeDistribution {
   std::string_view name;       ///< "no-sine"
   std::string_view diagnosis;  ///< "a missing sin(theta)"
-  /// Masses of the texels that are drawn instead; they sum to 1. Inside a texel the place follows
-  /// the declared density.
+  /// Masses of the texels that are drawn instead; they sum to 1. Inside a texel the position
+  /// follows the declared density.
   Grid<double> (*masses)(const DeclaredDistribution& declared);
   bool reads_map = true;  ///< has no meaning without one
   /// Whether its masses are only an example of the defect, whose counts may be any of many: such a

@@ -23,7 +23,8 @@ constexpr std::array<Signature, 15> kSignatures = {{
      "wrong only where the random number meets a CDF entry: lower for upper bound"},
     {"same-number", "one random number for both dimensions: the marginals are right"},
     {"repeated-numbers", "random numbers used more than once: counts are overdispersed everywhere"},
-    {"stratified", "points underdispersed, so not independent: stratified or quasi-random ones"},
+    {"stratified",
+     "counts are underdispersed, so points are not independent: stratified or quasi-random"},
     {"coarse-numbers", "random numbers or sums with too few bits: single texels are off, all over"},
     {"one-texel", "a single texel is wrong"},
     {"one-texel-missing", "one texel that has light is never drawn"},
@@ -147,7 +148,7 @@ class RemainingTexels {
 
 /// Whether the farthest texel is no chance, and counts of texels, rows and columns fit once it and
 /// the next are left out of them.
-bool is_in_one_place(const Expectation& expectation, const Draws& draws) {
+bool is_in_one_texel(const Expectation& expectation, const Draws& draws) {
   /// Level at which a texel is known to be off: that of a whole run.
   constexpr double kKnown = 1e-6;
   RemainingTexels texels(expectation, draws);
@@ -211,7 +212,7 @@ bool own_pdf_excludes(std::string_view name, const ScoredAlternatives& distribut
 Name name_of_distribution(const ScoredAlternatives& distributions, const Expectation& expectation,
                           const Evidence& evidence, const Verdicts& verdicts,
                           const DistributionFit& likeliest) {
-  // ScoredAlternatives that few samples cannot tell apart are told apart by a pdf that is what is
+  // Distributions that few samples cannot tell apart are told apart by a pdf that is what is
   // drawn.
   if (likeliest.named() &&
       !own_pdf_excludes(likeliest.distribution, distributions, expectation, evidence, verdicts)) {
@@ -318,7 +319,7 @@ Name name_of(const ScoredAlternatives& distributions, const Expectation& expecta
   const Name distribution =
       name_of_distribution(distributions, expectation, evidence, verdicts, likeliest);
   if (!distribution.defect.empty()) return distribution;
-  if (!declared && is_in_one_place(expectation, draws)) {
+  if (!declared && is_in_one_texel(expectation, draws)) {
     return {"one-texel", "all other texels fit the declared distribution"};
   }
   if (verdicts.leaves_map()) return {"off-the-map", "edges of the random numbers do it"};

@@ -28,9 +28,9 @@ inline double edges_passed(double run2, double rise2) {
   return rise2 >= run2 ? 7.0 - passed : passed;
 }
 
-/// Index of the bin, row by row, or `lost`; a whole number, as a double because a vector of doubles
-/// has no fast conversion to indices before the end. s goes from -x over +y, +x and -y.
-inline double cell_at(double x, double y, double z, double lost) {
+/// Index of the bin, row by row, or `invalid`; a whole number, as a double because a vector of
+/// doubles has no fast conversion to indices before the end. s goes from -x over +y, +x and -y.
+inline double cell_at(double x, double y, double z, double invalid) {
   const double x2 = x * x;
   const double y2 = y * y;
   const double z2 = z * z;
@@ -40,7 +40,7 @@ inline double cell_at(double x, double y, double z, double lost) {
   const double from_horizon = edges_passed(x2 + y2, z2);
   const double row = z < 0.0 ? 7.0 - from_horizon : 8.0 + from_horizon;
   const bool is_direction = std::abs(x2 + y2 + z2 - 1.0) < 0.5;  // false for NaN
-  return is_direction ? row * kGateBins.width + column : lost;
+  return is_direction ? row * kGateBins.width + column : invalid;
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ void DirectionHistogram::add(const DirectionArrays& directions) {
     const std::size_t size = std::min(kChunk, x.size() - start);
     for (std::size_t i = 0; i < size; ++i) {
       cells[i] =
-          static_cast<std::int32_t>(cell_at(x[start + i], y[start + i], z[start + i], kLost));
+          static_cast<std::int32_t>(cell_at(x[start + i], y[start + i], z[start + i], kInvalid));
     }
     for (std::size_t i = 0; i < size; ++i) ++counts_[static_cast<std::size_t>(cells[i])];
   }
@@ -65,7 +65,7 @@ void DirectionHistogram::merge(const DirectionHistogram& other) {
 
 Grid<std::uint64_t> DirectionHistogram::bins() const {
   Grid<std::uint64_t> bins(kGateBins);
-  std::copy_n(counts_.begin(), kLost, bins.values().begin());
+  std::copy_n(counts_.begin(), kInvalid, bins.values().begin());
   return bins;
 }
 

@@ -30,16 +30,16 @@ class DirectionHistogram {
 
   Grid<std::uint64_t> bins() const;
   /// What is not a direction: not finite, or a squared length beside (1/2, 3/2).
-  std::uint64_t lost() const { return counts_[kLost]; }
-  /// All that were added, the lost ones among them.
+  std::uint64_t invalid() const { return counts_[kInvalid]; }
+  /// All that were added, the invalid ones among them.
   std::uint64_t samples() const;
 
  private:
-  static constexpr std::size_t kLost =
+  static constexpr std::size_t kInvalid =
       static_cast<std::size_t>(kGateBins.width) * static_cast<std::size_t>(kGateBins.height);
 
   /// 4 KB. Four copies of 32 bits, added up now and then, would save less than 3 % of the time.
-  std::array<std::uint64_t, kLost + 1> counts_{};
+  std::array<std::uint64_t, kInvalid + 1> counts_{};
 };
 
 }  // namespace lightproof

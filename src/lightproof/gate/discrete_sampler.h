@@ -10,7 +10,7 @@ namespace lightproof {
 
 class DiscreteSampler {
  public:
-  /// Texels of these masses, which sum to 1; inside one the place follows the density.
+  /// Texels of these masses, which sum to 1; inside one the position follows the density.
   DiscreteSampler(Grid<double> masses, DensitySpace density_space);
 
   TexelSample sample(SquarePoint u) const;
@@ -24,7 +24,8 @@ class DiscreteSampler {
   const TexelSample& median() const { return median_; }
   /// Mass below every row's upper edge; the last is 1.
   const std::vector<double>& rows() const { return rows_; }
-  /// Inside each row, mass below every texel's upper edge, over the row's; 0 in a dark row.
+  /// Inside each row, mass below every texel's upper edge, over the row's; 0 in a row without
+  /// light.
   const Grid<double>& columns() const { return columns_; }
 
  private:

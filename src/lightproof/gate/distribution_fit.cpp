@@ -131,7 +131,7 @@ DistributionFit likeliest_distribution(std::span<const Alternative> alternatives
   for (std::size_t i = 0; i < alternatives.size(); ++i) {
     const Alternative& distribution = alternatives[i];
     const double gain = scores.gains[i];
-    // ScoredAlternatives that are one and the same on this map count once, by the first name.
+    // Distributions that are one and the same on this map count once, by the first name.
     if (std::abs(gain - most) <= 1e-9 * std::abs(most)) continue;
     if (gain > most) {
       second = most;

@@ -41,9 +41,9 @@ struct Part {
   std::vector<std::uint32_t> column_marginal = std::vector<std::uint32_t>(kUniformCells);
 };
 
-/// Samples of one batch, what is known of their places, and what the estimators say of them. Each
-/// step is a loop over all of them that does one thing: what it reads from memory can be waited for
-/// together, and what it computes becomes vectors.
+/// Samples of one batch, what is known of their positions, and what the estimators say of them.
+/// Each step is a loop over all of them that does one thing: what it reads from memory can be
+/// waited for together, and what it computes becomes vectors.
 struct Batch {
   std::vector<SquarePoint> points = std::vector<SquarePoint>(kBatch);
   std::vector<TexelSample> samples = std::vector<TexelSample>(kBatch);

@@ -30,7 +30,7 @@ constexpr int kFewestPieces = 64;
 /// Relative difference of two pdfs that are meant to be one.
 constexpr double kSamePdf = 1e-5;
 
-/// A place, seen from a sample's on a map of this size, whose pdf may be taken for its own.
+/// A position, seen from a sample's on a map of this size, whose pdf may be taken for its own.
 struct OtherPlace {
   std::string_view name;
   SquarePoint (*of)(SquarePoint at, Extent map);

@@ -64,7 +64,7 @@ struct Inspection {
   DensityComparison density;
   std::array<CheckResult, 2> edges;
   /// "one column to the right": where pdf() is what sample() returns, at every point where that is
-  /// not the pdf of the sample's own place; none if there is no such point or no such place.
+  /// not the pdf of the sample's own position; none if there is no such point or position.
   std::optional<std::string_view> returned_pdf_of;
   bool has_pdf = true;       ///< as the BoundSampler
   bool has_weights = true;   ///< likewise

@@ -38,8 +38,9 @@ struct Expectation {
   Grid<double> bins;                ///< of kGateBins
   std::vector<double> rows;         ///< marginal
   std::vector<double> columns;      ///< marginal
-  /// Writes the transformed coordinates of samples, cos(theta) of whose places are known; all spans
-  /// are of one size. Empty where the distribution inside a texel is not known in closed form.
+  /// Writes the transformed coordinates of samples, cos(theta) of whose positions are known; all
+  /// spans are of one size. Empty where the distribution inside a texel is not known in closed
+  /// form.
   std::function<void(std::span<const TexelSample> samples, std::span<const double> cosines,
                      std::span<reference::RosenblattPoint> points)>
       transform;
@@ -48,8 +49,8 @@ struct Expectation {
   std::vector<double> smooth_rows;
   std::vector<RowBand> bands;  ///< of these rows
   std::vector<std::uint8_t> band_of_row;
-  /// Declared density over the square where it is not `masses` spread over the texels by the
-  /// density; see declared_density().
+  /// Declared density over the square where it is not `masses` spread inside the texels as
+  /// `density_space` says; see declared_density().
   std::function<double(SquarePoint at)> density;
   std::array<reference::EstimatorMoments, kMeanCaseCount> estimators;
   std::array<reference::EstimatorMoments, kMeanCaseCount> uniform;  ///< drawn over the sphere

@@ -21,11 +21,11 @@ namespace {
 
 /// Samples of the second stage, in those of the first.
 constexpr std::uint64_t kSecondStage = 4;
-/// Probability with which an effect as large as `detectable` is seen in each stage.
+/// Probability with which an effect as large as the minimum detectable one is seen in each stage.
 constexpr double kStagePower = 0.5 * (1.0 + kDetectionPower);
 
 double immediate_level_of(const GateOptions& options, std::size_t tests) {
-  // What rejects at once is below the screening level as well.
+  // What is rejected immediately lies below the screening level as well.
   return std::min({options.immediate_level, options.screening_level,
                    0.5 * strictest_level(options.family_alpha, tests)});
 }
@@ -68,7 +68,7 @@ void append(std::vector<Measured>& tests, std::vector<Measured> more) {
   std::move(more.begin(), more.end(), std::back_inserter(tests));
 }
 
-/// Of these that are wanted, what a source has left behind its first ones.
+/// How many of the wanted samples a source still has after its first ones.
 std::uint64_t confirmation_samples(const BoundSampler& sampler, std::uint64_t first,
                                    std::uint64_t wanted) {
   return sampler.count ? std::min(wanted, *sampler.count - first) : wanted;
@@ -114,8 +114,9 @@ struct ConfirmationRange {
   }
 };
 
-/// Tests below the screening level of a run get the records of new samples in their place, and so
-/// do invalid samples, if there are any. A diagnosis counts these samples: they are more.
+/// The tests of a run that fell below the screening level get the records of new samples in
+/// their place, and so do the tests of invalid samples, if there are any. A diagnosis counts these
+/// samples: they are more.
 void confirm(const TestRun& run, const SharedDraws& shared,
              const ConfirmationRange& needs_confirmation, RunState& state) {
   const Expectation& expectation = shared.expectation;
@@ -249,7 +250,7 @@ auto with_memory_for(const TestCase& test_case, std::string_view sampler, const 
   return lightproof::with_memory_for([&] { return purpose_of(test_case, sampler); }, work);
 }
 
-/// Problems, and what is known of their instances.
+/// Test cases, and what is known of their instances.
 class Run {
  public:
   Run(std::span<const TestCase> test_cases, const GateOptions& options, const Progress& progress)

@@ -69,8 +69,8 @@ bool is_one_number(const Draws& draws) {
   return spread && 1000 * (draws.samples - together) < draws.samples;
 }
 
-/// Every number used m times in a row, m being what the share of repeated places says: counts then
-/// scatter m times as much, over the map and inside its cells alike.
+/// Every number used m times in a row, m being what the share of repeated positions says: counts
+/// then scatter m times as much, over the map and inside its cells alike.
 bool is_repeated(const Expectation& expectation, const Draws& draws) {
   if (1000 * draws.repeats < draws.samples) return false;
   const double times =

@@ -133,12 +133,12 @@ void Records::add_worst(TestId test, std::span<const std::uint64_t> observed,
   });
 }
 
-void Records::add_z(TestId test, const ZTest& z, const ExactMoments& distribution, double exact) {
+void Records::add_z(TestId test, const ZTest& z, const ExactMoments& moments, double exact) {
   Measured& added = add(test);
   TestRecord& record = added.record;
   auto& minimum_detectable = added.minimum_detectable;
-  minimum_detectable = [distribution, exact](double level, double power, double samples) {
-    return minimum_detectable_factor(level, power, samples, distribution, exact) - 1.0;
+  minimum_detectable = [moments, exact](double level, double power, double samples) {
+    return minimum_detectable_factor(level, power, samples, moments, exact) - 1.0;
   };
   record.statistic = z.z;
   record.log10_p = z.log10_p;

@@ -44,15 +44,15 @@ class Records {
   /// `share`: of the other sample, of both.
   void add_two_samples(TestId test, const GoodnessOfFit& fit, double share);
 
-  /// `detectable`: distance that is found at a level, with a power, by so many samples.
+  /// `minimum_detectable`: the distance that is found at a level, with a power, by so many samples.
   void add_uniformity(TestId test, const UniformityTest& uniformity,
                       double (*minimum_detectable)(double level, double power, double samples));
 
   void add_worst(TestId test, std::span<const std::uint64_t> observed,
                  std::span<const double> probability);
 
-  /// `distribution`: of one sample of what is estimated, `exact` in the end.
-  void add_z(TestId test, const ZTest& z, const ExactMoments& distribution, double exact);
+  /// `moments`: of one sample of what is estimated; `exact`: the value of the estimate.
+  void add_z(TestId test, const ZTest& z, const ExactMoments& moments, double exact);
 
   void add_check(const CheckResult& result);
 

@@ -15,7 +15,7 @@
 
 namespace lightproof {
 
-/// A sampler under test: one of a registry, a mutant, a third-party one.
+/// A sampler under test in one test case, before it is built.
 struct SamplerInstance {
   std::string name;
   bool known_defects = false;

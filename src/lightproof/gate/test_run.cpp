@@ -28,7 +28,7 @@ ExactMoments exact_moments(const reference::EstimatorMoments& exact) {
   return {exact.mean(), exact.variance(), std::max(largest - exact.mean(), exact.mean())};
 }
 
-/// The distribution of an estimator that would be one value everywhere but for the sampler's
+/// The moments of an estimator that would be one value everywhere but for the sampler's
 /// rounding of densities, which it declares: it is unbiased all the same. None if there is no such
 /// rounding, or more of it than is declared.
 std::optional<ExactMoments> moments_of_rounding(const reference::EstimatorMoments& exact,
@@ -76,19 +76,19 @@ void add_moments(Records& records, const MomentTests& tests, const Moments& meas
     return;
   }
   if (exact.variance() <= 1e-12 * exact.raw[1]) {
-    if (const auto distribution = moments_of_rounding(exact, density)) {
-      records.add_z(tests.mean, mean_test(measured, *distribution), *distribution, exact.mean());
+    if (const auto moments = moments_of_rounding(exact, density)) {
+      records.add_z(tests.mean, mean_test(measured, *moments), *moments, exact.mean());
       return;
     }
     const double error = std::abs(measured.mean() / exact.mean() - 1.0);
     records.add_check({tests.constant, error <= 1e-6, error, ""});
     return;
   }
-  const ExactMoments distribution = exact_moments(exact);
-  records.add_z(tests.mean, mean_test(measured, distribution), distribution, exact.mean());
+  const ExactMoments moments = exact_moments(exact);
+  records.add_z(tests.mean, mean_test(measured, moments), moments, exact.mean());
   if (!tests.variance || exact.variance() <= kTestableVariance * exact.raw[1]) return;
-  records.add_z(*tests.variance, variance_test(measured, distribution, exact.fourth_central()),
-                moments_of_squares(distribution, exact.fourth_central()), exact.variance());
+  records.add_z(*tests.variance, variance_test(measured, moments, exact.fourth_central()),
+                moments_of_squares(moments, exact.fourth_central()), exact.variance());
 }
 
 /// The sampler's estimate against that of uniform directions, which has errors of its own.
@@ -96,10 +96,10 @@ void add_against_uniform(Records& records, TestId test, const Moments& sampled,
                          const reference::EstimatorMoments& exact, const Moments& uniform,
                          const reference::EstimatorMoments& exact_uniform) {
   if (exact.mean() <= 0.0 || sampled.count() < 2 || exact_uniform.variance() <= 0.0) return;
-  const ExactMoments distribution = exact_moments(exact);
+  const ExactMoments moments = exact_moments(exact);
   const ExactMoments uniform_moments = exact_moments(exact_uniform);
-  records.add_z(test, two_mean_test(sampled, distribution, uniform, uniform_moments),
-                moments_of_difference(distribution, uniform_moments, 1.0), exact_uniform.mean());
+  records.add_z(test, two_mean_test(sampled, moments, uniform, uniform_moments),
+                moments_of_difference(moments, uniform_moments, 1.0), exact_uniform.mean());
 }
 
 /// More than half of the samples on a lattice of 2^-20 is no chance: one in 128 is expected.

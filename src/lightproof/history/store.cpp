@@ -143,7 +143,7 @@ std::int64_t checksum_of(const BenchmarkRun& run) {
 }
 
 /// One pass over all pages.
-void require_correct(const fs::path& file, sqlite::Database& database) {
+void require_intact(const fs::path& file, sqlite::Database& database) {
   sqlite::Statement check(database, "PRAGMA integrity_check(1)");
   const std::string found = check.step() ? check.text(0) : "no answer";
   if (found != "ok") refuse(file, fmt::format("is damaged: {}", found));
@@ -163,7 +163,7 @@ HistoryStore::HistoryStore(fs::path file, bool writable) : file_(std::move(file)
     // and not by how the file is opened: the last one to close it tidies the write-ahead log away.
     connection_->database.execute(writable ? "PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON"
                                            : "PRAGMA query_only = ON");
-    require_correct(file_, connection_->database);
+    require_intact(file_, connection_->database);
   } catch (const sqlite::Error& error) {
     refuse(file_, "cannot be used", error);
   }

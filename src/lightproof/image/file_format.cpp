@@ -41,7 +41,7 @@ unsigned byte_at(std::string_view bytes, std::size_t at) {
 }
 
 /// Whether the end marker follows the start of the compressed data, inside which it cannot occur.
-/// libjpeg fills the missing part of a cut-off file with luminance and calls that a warning.
+/// libjpeg fills the missing part of a cut-off file with grey and calls that a warning.
 bool has_jpeg_end(std::string_view bytes) {
   std::size_t at = 2;
   while (at + 3 < bytes.size() && byte_at(bytes, at) == 0xff && byte_at(bytes, at + 1) != 0xda) {

@@ -1,4 +1,4 @@
-// The value of a map at any place: what a renderer's texture look-up returns.
+// The value of a map at any position: what a renderer's texture look-up returns.
 #pragma once
 
 #include <algorithm>

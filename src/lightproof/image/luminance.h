@@ -20,7 +20,7 @@ inline constexpr LuminanceWeights kPublishedLuminance = {0.2989, 0.5866, 0.1145}
 /// The mean of the three channels.
 inline constexpr LuminanceWeights kAverageLuminance = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
 
-/// Luminance value of one texel, in the unit of the radiance.
+/// The luminance of one texel, in the unit of the radiance.
 inline double luminance_of(Rgb rgb, LuminanceWeights weights = kRec709) {
   return weights.red * static_cast<double>(rgb.r) + weights.green * static_cast<double>(rgb.g) +
          weights.blue * static_cast<double>(rgb.b);

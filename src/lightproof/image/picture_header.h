@@ -33,7 +33,7 @@ struct PictureHeader {
   int part = 0;                       ///< the one that is read
   std::vector<std::string> channels;  ///< of that part
   std::vector<std::string> layers;    ///< of those channels: "diffuse" for diffuse.R
-  std::vector<std::string> read;      ///< red, green and blue, or luminance alone
+  std::vector<std::string> read;      ///< red, green and blue, or the one that is read as grey
   std::string orientation;            ///< "-Y 32 +X 64" or "3" (Exif); empty: rows from the top
   bool says_lat_long = false;         ///< the envmap attribute of an OpenEXR file
   std::optional<Chromaticities> chromaticities = {};

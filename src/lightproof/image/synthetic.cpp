@@ -62,7 +62,7 @@ EnvironmentMap filled_by_direction(std::string_view name, Extent extent, const V
   return filled(name, extent, [&](int x, int y) { return value(direction(x, y)); });
 }
 
-Rgb luminance(double value) { return Rgb(static_cast<float>(value)); }
+Rgb grey(double value) { return Rgb(static_cast<float>(value)); }
 
 /// L = 1: integral over the sphere 4 pi, irradiance pi for every normal.
 EnvironmentMap make_constant(Extent extent) {
@@ -87,15 +87,14 @@ EnvironmentMap make_gradient(Extent extent) {
 /// L = max(w.d, 0): integral pi; irradiance (2/3) ((pi - a) cos a + sin a) at the angle a between
 /// the normal and d.
 EnvironmentMap make_cosine_lobe(Extent extent) {
-  return filled_by_direction("cosine-lobe", extent, [](Direction w) {
-    return luminance(std::max(0.0, glm::dot(w, kAxis)));
-  });
+  return filled_by_direction("cosine-lobe", extent,
+                             [](Direction w) { return grey(std::max(0.0, glm::dot(w, kAxis))); });
 }
 
 /// L = 1 where w.d > 0, else 0: integral 2 pi, irradiance pi (1 + cos a)/2.
 EnvironmentMap make_step(Extent extent) {
   return filled_by_direction(
-      "step", extent, [](Direction w) { return luminance(glm::dot(w, kAxis) > 0.0 ? 1.0 : 0.0); });
+      "step", extent, [](Direction w) { return grey(glm::dot(w, kAxis) > 0.0 ? 1.0 : 0.0); });
 }
 
 /// A run of at most three cells around `centre`, shifted to stay inside [0, count).

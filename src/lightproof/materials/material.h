@@ -10,7 +10,8 @@
 
 namespace lightproof {
 
-/// Visit once per batch, outside the loop. Reflectances are luminance: colour comes from the map.
+/// Visit once per batch, outside the loop. Reflectances are alike in red, green and blue: colour
+/// comes from the map.
 using Material = std::variant<Lambert, ModifiedPhong>;
 
 struct MaterialInfo {

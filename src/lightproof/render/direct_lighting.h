@@ -56,12 +56,12 @@ class LightBatch {
   void fill_from_map(std::size_t count, const GuideTable& sampler, const RandomStream& stream,
                      std::uint64_t first);
   Direction direction(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
-  /// The texels of the places on the map.
+  /// The texels of the positions on the map.
   void locate(Extent map);
 
   // Of every sample. Apart, so that loops over them run on vectors.
   std::size_t count_ = 0;
-  // If not the map is drawn from, the uniform numbers s and u, and then the place on the map.
+  // If not the map is drawn from, the uniform numbers s and u, and then the position on the map.
   std::array<double, kCapacity> s_;
   std::array<double, kCapacity> u_;
   std::array<double, kCapacity> t_;

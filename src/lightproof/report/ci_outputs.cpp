@@ -69,7 +69,7 @@ std::string junit_case(const GateResult& gate, const TestRecord& test, bool coun
     property("log10_p", fmt::format("{:.6g}", *test.log10_p));
   }
   property("effect", effect_text(test));
-  if (test.minimum_detectable_effect) property("detectable", minimum_detectable_text(test));
+  if (test.minimum_detectable_effect) property("minimum_detectable", minimum_detectable_text(test));
   property("samples", std::to_string(test.samples));
   property("seed", std::to_string(test.seed));
   property("replay", replay_command(gate, test));
@@ -121,7 +121,7 @@ std::string annotation(const GateResult& gate, const GateCell& cell) {
 }  // namespace
 
 std::string replay_command(const GateResult& gate, const TestRecord& test) {
-  // ScoredAlternatives over directions have no density and need no map.
+  // Distributions over directions have no density of a map and need no map.
   const bool of_map = !test.density_space.empty();
   std::string options = gate.sequential ? " --sequential" : "";
   if (gate.family > 0) options += fmt::format(" --family {}", gate.family);

@@ -133,18 +133,18 @@ std::string growth_csv(const std::vector<GrowthFit>& growth) {
       "sampler,steps,exponent,exponent_error,build_exponent,build_exponent_error,leaves_l2,"
       "leaves_l3,exponent_before,breakpoints,exponents_after,breakpoints_p\n";
   for (const GrowthFit& fit : growth) {
-    std::vector<std::string> places;
+    std::vector<std::string> sizes;
     std::vector<std::string> exponents;
     for (const GrowthBreakpoint& breakpoint :
-         fit.breakpoints.value_or(SegmentedGrowth{}).breakpoints) {
-      places.push_back(field(breakpoint.extent));
+         fit.segmented.value_or(SegmentedGrowth{}).breakpoints) {
+      sizes.push_back(field(breakpoint.extent));
       exponents.push_back(field(breakpoint.exponent_after));
     }
     csv += row(fit.sampler, fit.model, fit.exponent, fit.exponent_error,
                member(fit.build_exponent, &FittedExponent::value),
                member(fit.build_exponent, &FittedExponent::error), fit.leaves_l2, fit.leaves_l3,
-               member(fit.breakpoints, &SegmentedGrowth::exponent_before), joined(places),
-               joined(exponents), member(fit.breakpoints, &SegmentedGrowth::p_value));
+               member(fit.segmented, &SegmentedGrowth::exponent_before), joined(sizes),
+               joined(exponents), member(fit.segmented, &SegmentedGrowth::p_value));
   }
   return csv;
 }

@@ -22,7 +22,7 @@ std::string convergence_csv(const std::vector<ConvergenceRecord>& records);
 /// One row per record: variance, its prediction, their ratio, and the fitted slope.
 std::string variance_csv(const std::vector<ConvergenceRecord>& records);
 std::string throughput_csv(const std::vector<ThroughputRecord>& records);
-/// One row per sampler: exponents, sizes at which its table outgrows a cache, and its breakpoint.
+/// One row per sampler: exponents, sizes at which its table outgrows a cache, and its breakpoints.
 std::string growth_csv(const std::vector<GrowthFit>& growth);
 /// One row per record: the time to build.
 std::string build_csv(const std::vector<ThroughputRecord>& records);

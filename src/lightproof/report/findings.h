@@ -20,8 +20,7 @@ struct SamplerFinding {
   bool is_demonstration = false;  ///< kept as published, with its known defects: decides nothing
 };
 
-/// One sentence per sampler, with the most below the screening level test of those that are not
-/// accepted.
+/// One sentence per sampler, with the worst test of those that are not accepted.
 std::vector<SamplerFinding> sampler_findings(const GateResult& gate);
 
 /// Do the errors fall as N^(-1/2)? Judged at 3 standard errors of each fitted slope.

@@ -28,7 +28,7 @@ Cell tally_cell(const GateCell& cell) {
     text += fmt::format(" {}/{}", tally.limited, tally.tests);
   }
   const std::string worst = fmt::format(
-      "{}; least likely: {}, log10 p {}", counted(tally.tests, "test"), full_name(cell.worst->test),
+      "{}; worst: {}, log10 p {}", counted(tally.tests, "test"), full_name(cell.worst->test),
       cell.worst->log10_p ? significant(*cell.worst->log10_p) : std::string("none (exact check)"));
   return {text, to_string(tally.outcome()), worst};
 }
@@ -142,7 +142,7 @@ TestRecord worst_run_of(const Sight& sight) {
 std::string sight_table(const GateResult& gate) {
   Table table("What each kind of test saw and could have seen",
               {"Oracle", "Test", "Runs", "Rejected", "Inconclusive", "Not run",
-               "Minimum minimum detectable effect, worst run"});
+               "Minimum detectable effect, worst run"});
   for (const Sight& s : sights(gate)) {
     table.add({text_cell(std::string(to_string(describe(s.test).oracle))),
                text_cell(std::string(describe(s.test).name)),

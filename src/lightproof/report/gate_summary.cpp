@@ -28,14 +28,14 @@ int severity(Outcome outcome) {
 
 /// Deterministic checks have no probability: among equals they count as the least telling when
 /// they pass, and as the most telling when they fail.
-double suspicion(const TestRecord& test) {
+double likelihood(const TestRecord& test) {
   if (test.log10_p) return *test.log10_p;
   return test.outcome == Outcome::reject ? -1e300 : 1.0;
 }
 
 bool worse(const TestRecord& a, const TestRecord& b) {
-  return std::tuple(severity(a.outcome), suspicion(a)) <
-         std::tuple(severity(b.outcome), suspicion(b));
+  return std::tuple(severity(a.outcome), likelihood(a)) <
+         std::tuple(severity(b.outcome), likelihood(b));
 }
 
 }  // namespace

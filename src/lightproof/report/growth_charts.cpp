@@ -159,7 +159,7 @@ std::vector<FramedPoints> framed_points(const StudyResult& study) {
     const GrowthFit* fit = fit_of(r.sampler, study.growth);
     if (fit == nullptr || !drawable(r.ns_per_sample)) continue;
     const std::array<bool, 3> is_framed = {fit->leaves_l2 == r.extent, fit->leaves_l3 == r.extent,
-                                           is_breakpoint(r.extent, fit->breakpoints)};
+                                           is_breakpoint(r.extent, fit->segmented)};
     for (std::size_t i = 0; i < is_framed.size(); ++i) {
       if (!is_framed[i]) continue;
       Json row = row_of(r, kTimePerSample, names[i]);

@@ -75,12 +75,12 @@ std::string caches_finding(const std::vector<GrowthFit>& growth, const CacheSize
 std::string breakpoints_finding(const std::vector<GrowthFit>& growth) {
   std::string all;
   for (const GrowthFit& fit : growth) {
-    if (!fit.breakpoints) continue;
-    std::string places;
-    for (const GrowthBreakpoint& breakpoint : fit.breakpoints->breakpoints) {
-      places += (places.empty() ? "" : " and ") + extent_text(breakpoint.extent);
+    if (!fit.segmented) continue;
+    std::string sizes;
+    for (const GrowthBreakpoint& breakpoint : fit.segmented->breakpoints) {
+      sizes += (sizes.empty() ? "" : " and ") + extent_text(breakpoint.extent);
     }
-    all += fmt::format("{}{} at {}", all.empty() ? "" : ", ", fit.sampler, places);
+    all += fmt::format("{}{} at {}", all.empty() ? "" : ", ", fit.sampler, sizes);
   }
   return all.empty() ? "The time of a step has no measured breakpoint."
                      : "The time of a step has measured breakpoints: " + all + ".";

@@ -181,7 +181,7 @@ Json json_of(const GrowthFit& fit) {
           {"steps", list_of(fit.steps)},
           {"leaves_l2", json_of(fit.leaves_l2)},
           {"leaves_l3", json_of(fit.leaves_l3)},
-          {"segmented", json_of(fit.breakpoints)},
+          {"segmented", json_of(fit.segmented)},
           {"build_exponent", json_of(fit.build_exponent)}};
 }
 

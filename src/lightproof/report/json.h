@@ -16,9 +16,9 @@
 namespace lightproof {
 
 /// Of gate_json() and rejection_json().
-inline constexpr int kGateFormatVersion = 1;
+inline constexpr int kGateFormatVersion = 2;
 /// Of study_json().
-inline constexpr int kStudyFormatVersion = 1;
+inline constexpr int kStudyFormatVersion = 2;
 
 /// The verdict on a whole run: the caller decides whether known defects count.
 struct GateVerdict {

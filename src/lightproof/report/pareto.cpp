@@ -15,9 +15,9 @@ std::vector<TableRecord> pareto_front(std::vector<TableRecord> records, TableCos
   std::vector<TableRecord> front;
   double least = HUGE_VAL;
   for (const TableRecord& record : records) {
-    const bool reference_implementation = !front.empty() && record.*first == front.back().*first &&
-                                          record.*second == front.back().*second;
-    if (!(record.*second < least) && !reference_implementation) continue;
+    const bool equals_last = !front.empty() && record.*first == front.back().*first &&
+                             record.*second == front.back().*second;
+    if (!(record.*second < least) && !equals_last) continue;
     least = record.*second;
     front.push_back(record);
   }

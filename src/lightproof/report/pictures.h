@@ -27,7 +27,7 @@ Grid<Rgb> grey_picture(const Grid<double>& values);
 Grid<Rgb> shrunk(const Grid<Rgb>& picture, int max_width);
 
 /// sRGB colour of a signed value: blue at -range, white at 0, red at +range, clamped beyond; +v and
-/// -v are equally far from white. Luminance for a value that is not finite.
+/// -v are equally far from white. Grey for a value that is not finite.
 Rgb diverging_colour(double value, double range);
 
 /// Every pixel by diverging_colour.

@@ -1,4 +1,4 @@
-// The findings on throughput: the subject against the baseline, size by size.
+// The findings on throughput: the fastest sampler against the baseline, size by size.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace lightproof {
 namespace {
 
 struct SpeedUp {
-  const ThroughputRecord* under_test;
+  const ThroughputRecord* fastest;
   double factor;
 };
 
@@ -30,7 +30,7 @@ const ThroughputRecord* slowest(const std::vector<ThroughputRecord>& records) {
   });
 }
 
-const ThroughputRecord* fastest(const std::vector<ThroughputRecord>& records) {
+const ThroughputRecord* fastest_of(const std::vector<ThroughputRecord>& records) {
   return &*std::min_element(records.begin(), records.end(), [](const auto& a, const auto& b) {
     return a.ns_per_sample < b.ns_per_sample;
   });
@@ -75,17 +75,17 @@ std::string baseline_name(const StudyResult& study) {
 
 /// Ascending by size.
 std::vector<SpeedUp> speed_ups(const std::vector<ThroughputRecord>& records,
-                               const std::string& under_test, const std::string& baseline) {
+                               const std::string& fastest, const std::string& baseline) {
   std::vector<SpeedUp> factors;
   for (const ThroughputRecord& a : records) {
     for (const ThroughputRecord& b : records) {
-      if (a.sampler != under_test || b.sampler != baseline) continue;
+      if (a.sampler != fastest || b.sampler != baseline) continue;
       if (a.map != b.map || !(a.extent == b.extent) || !(a.ns_per_sample > 0.0)) continue;
       factors.push_back({&a, b.ns_per_sample / a.ns_per_sample});
     }
   }
   std::stable_sort(factors.begin(), factors.end(), [](const SpeedUp& a, const SpeedUp& b) {
-    return a.under_test->extent.count() < b.under_test->extent.count();
+    return a.fastest->extent.count() < b.fastest->extent.count();
   });
   return factors;
 }
@@ -94,10 +94,10 @@ std::vector<SpeedUp> speed_ups(const std::vector<ThroughputRecord>& records,
 bool grows(const std::vector<SpeedUp>& factors) {
   double last = 0.0;
   for (std::size_t i = 0; i < factors.size();) {
-    const std::size_t size = factors[i].under_test->extent.count();
+    const std::size_t size = factors[i].fastest->extent.count();
     double low = factors[i].factor;
     double high = low;
-    for (; i < factors.size() && factors[i].under_test->extent.count() == size; ++i) {
+    for (; i < factors.size() && factors[i].fastest->extent.count() == size; ++i) {
       low = std::min(low, factors[i].factor);
       high = std::max(high, factors[i].factor);
     }
@@ -118,23 +118,22 @@ std::string range_text(double low, double high) {
 
 std::string throughput_finding(const StudyResult& study) {
   if (study.throughput.empty()) return "Throughput was not measured";
-  const std::string under_test = sampler_name(study);
+  const std::string fastest = sampler_name(study);
   const std::string baseline = baseline_name(study);
-  const std::vector<SpeedUp> all = speed_ups(study.throughput, under_test, baseline);
-  if (under_test == baseline || all.empty()) {
-    const ThroughputRecord& best = *fastest(study.throughput);
+  const std::vector<SpeedUp> all = speed_ups(study.throughput, fastest, baseline);
+  if (fastest == baseline || all.empty()) {
+    const ThroughputRecord& best = *fastest_of(study.throughput);
     return fmt::format("{} takes {} ns per sample on {}", best.sampler,
                        format_number(best.ns_per_sample), extent_text(best.extent));
   }
   const auto [low, high] = std::minmax_element(
       all.begin(), all.end(), [](const auto& a, const auto& b) { return a.factor < b.factor; });
-  const std::string sizes =
-      fmt::format("from {} to {}", extent_text(all.front().under_test->extent),
-                  extent_text(all.back().under_test->extent));
-  const bool one_size = all.front().under_test->extent == all.back().under_test->extent;
-  const std::string where = one_size ? "at " + extent_text(all.front().under_test->extent) : sizes;
-  return fmt::format("{} is {} as fast as {}, {}{}", under_test,
-                     range_text(low->factor, high->factor), baseline, where,
+  const std::string sizes = fmt::format("from {} to {}", extent_text(all.front().fastest->extent),
+                                        extent_text(all.back().fastest->extent));
+  const bool one_size = all.front().fastest->extent == all.back().fastest->extent;
+  const std::string where = one_size ? "at " + extent_text(all.front().fastest->extent) : sizes;
+  return fmt::format("{} is {} as fast as {}, {}{}", fastest, range_text(low->factor, high->factor),
+                     baseline, where,
                      !one_size && grows(all) ? ", and the gap grows with the map" : "");
 }
 

@@ -50,13 +50,13 @@ constexpr std::string_view kGrowthNote =
     "fastest step and the slowest. What is left is the memory: once a table outgrows a cache, a "
     "step of the search waits for it, while a scan reads ahead. The exponent is that of the whole "
     "time against width plus height, by least squares on logarithms. A table outgrows a cache at "
-    "the smallest measured map on which it is larger. Knees are measured: a line with one or two "
-    "bends that fits the time of a step so much better than a straight one that straight ones with "
+    "the smallest measured map on which it is larger. Breakpoints are measured: a line with one or "
+    "two of "
+    "them that fits the time of a step so much better than a straight one that straight ones with "
     "random errors would hardly seem to bend as clearly: where all samplers are straight, any of "
-    "them "
-    "has a breakpoint with a probability of at most 1 % (Holm's procedure over all samplers). At "
-    "least "
-    "two sizes lie on either side of a breakpoint; few sizes, or much scatter, show none.";
+    "them has a breakpoint with a probability of at most 1 % (Holm's procedure over all samplers). "
+    "At "
+    "least two sizes lie on either side of a breakpoint; few sizes, or much scatter, show none.";
 
 std::string growth_table(const std::vector<GrowthFit>& growth, const CacheSizes& caches) {
   if (growth.empty()) return "";
@@ -72,7 +72,7 @@ std::string growth_table(const std::vector<GrowthFit>& growth, const CacheSizes&
                {with_error(fit.exponent, fit.exponent_error), "number", ""},
                leaving_cell(fit.leaves_l2, caches.l2),
                leaving_cell(fit.leaves_l3, caches.l3),
-               breakpoints_cell(fit.breakpoints)});
+               breakpoints_cell(fit.segmented)});
   }
   return "<h4>" + escaped(growth_finding(growth)) + "</h4>\n" +
          paragraph(caches_finding(growth, caches) + breakpoints_finding(growth)) +
@@ -196,9 +196,7 @@ std::string throughput_section(const StudyResult& study) {
                        "Time per sample of each sampler against the size of the map",
                        std::string(kNote), throughput_chart(study)};
   if (!study.throughput_origin.empty()) {
-    html +=
-        paragraph("Measured: " + study.throughput_origin + ". It depends on machine and build " +
-                  "alone, and is kept for later studies.");
+    html += paragraph("Measured: " + study.throughput_origin + ".");
   }
   return html +
          chart_figure(chart, collapsible("Times as a table", throughput_table(study.throughput)) +

@@ -30,7 +30,7 @@ struct GateResult {
   std::vector<TestRecord> tests;
   std::vector<Rejection> rejections = {};
   std::string input_options = {};  ///< of the command line, with which the maps were read
-  std::uint64_t family = 0;        ///< p-values, or candidates if sequential, that share the error
+  std::uint64_t family = 0;        ///< p-values, or instances if sequential, that share the error
   bool sequential = false;
   double must_detect = kMustDetect;  ///< as asked for
 };

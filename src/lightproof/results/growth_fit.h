@@ -18,7 +18,7 @@ struct StepTime {
 /// Of a power law, by least squares on logarithms.
 struct FittedExponent {
   double value = 0.0;
-  double error = 0.0;  ///< standard error, from the scatter about the distribution
+  double error = 0.0;  ///< standard error, from the scatter about the power law
 };
 
 /// Where the time of a step starts to grow in another way.
@@ -45,7 +45,7 @@ struct GrowthFit {
   /// size of the cache is not known.
   std::optional<Extent> leaves_l2 = {};
   std::optional<Extent> leaves_l3 = {};
-  std::optional<SegmentedGrowth> breakpoints = {};    ///< none if one power law will do
+  std::optional<SegmentedGrowth> segmented = {};      ///< none if one power law will do
   std::optional<FittedExponent> build_exponent = {};  ///< of the time to build, against S times T
 };
 

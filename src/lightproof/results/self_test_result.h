@@ -10,7 +10,7 @@
 
 namespace lightproof {
 
-/// p-values of one test of a sampler that is right: uniform, if the test is.
+/// p-values of one test of a correct sampler: uniform, if the test is.
 struct CalibrationRecord {
   TestId test = TestId::bins;
   bool is_bound = false;  ///< its p-values may be too large, never too small
@@ -22,7 +22,7 @@ struct CalibrationRecord {
   std::uint64_t below_one_percent = 0;     ///< p-values below 0.01
 };
 
-/// How often runs over right samplers reject anything.
+/// How often runs over correct samplers reject anything.
 struct FamilyRecord {
   std::string procedure;
   double family_alpha = 0.0;

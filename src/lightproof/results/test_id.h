@@ -23,7 +23,7 @@ enum class Oracle : std::uint8_t {
 /// "reference", "self", "mean", "variance", "check".
 std::string_view to_string(Oracle oracle);
 
-/// A test of the gate. The order is that in which a run records them.
+/// A test of the gate. The order is that of tests().
 enum class TestId : std::uint8_t {
   bins,
   texels,

@@ -24,7 +24,8 @@ inline constexpr double kMustDetect = 0.1;
 /// One test of one run.
 struct TestRecord {
   std::string sampler;
-  std::string density_space;  ///< "A" (p proportional to g) or "B" (g times solid angle)
+  std::string density_space;  ///< "A" (texture space), "B" (solid angle); empty for distributions
+                              ///< over directions
   std::string map;
   TestId test = TestId::bins;
   std::uint64_t samples = 0;
@@ -38,7 +39,8 @@ struct TestRecord {
   std::string detail;       ///< why, in words; empty if there is nothing to say
   std::uint64_t seed = 0;   ///< base seed of the samples
   std::string source = {};  ///< of the map, as it was given; empty: its name
-  int stage = 1;  ///< 2: run again, with more samples, because it looked below the screening level
+  int stage =
+      1;  ///< 2: run again, with more samples, because its p-value fell below the screening level
   bool known_defect = false;  ///< of a sampler kept as published, to show what the gate finds
   /// Below this effect the sampler's own rounding shows; for texels and rows of distributions that
   /// are added up.

@@ -15,7 +15,7 @@ class Alias {
   /// Throws InputError if the map is black.
   Alias(const EnvironmentMap& map, TargetDensity target);
 
-  /// u.s names the column and the place across, u.t chooses, and gives the place along.
+  /// u.s names the column and the position across, u.t chooses, and gives the position along.
   TexelSample sample(SquarePoint u) const {
     const AliasTable::Drawn drawn = table_.draw(u.s, u.t);
     const auto width = static_cast<std::uint32_t>(positions_.extent().width);

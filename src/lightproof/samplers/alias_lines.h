@@ -17,8 +17,8 @@ class AliasLines {
   /// Throws InputError if the map is black.
   AliasLines(const EnvironmentMap& map, TargetDensity target);
 
-  /// u.s names the column of the alias table and the place along, u.t chooses the line and what is
-  /// in it.
+  /// u.s names the column of the alias table and the position along, u.t chooses the line and what
+  /// is in it.
   TexelSample sample(SquarePoint u) const {
     const AliasTable::Drawn drawn = table_.draw(u.s, u.t);
     const RunTexel found = lines_.find(drawn.cell, drawn.choice);

@@ -102,8 +102,8 @@ std::size_t sample(const Sampler& sampler, const RandomStream& stream, std::uint
   return draw_batch(sampler, BatchPoints(stream, first), samples);
 }
 
-/// The same as directions: those of the samples' places and their densities per steradian, to some
-/// roundings.
+/// The same as directions: those of the samples' positions and their densities per steradian, to
+/// some roundings.
 template <EnvSampler Sampler>
 std::size_t sample_directions(const Sampler& sampler, const RandomStream& stream,
                               std::uint64_t first, const DirectionBatch& directions) {

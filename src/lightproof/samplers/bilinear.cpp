@@ -14,7 +14,7 @@ double between(double low, double high, double share) { return low + (high - low
 
 /// The patch that a coordinate lies in: those of index 0 and `count` are halves.
 int patch_of(double coordinate, int count) {
-  // As cell_of(), for coordinates that are no places of a map.
+  // As cell_of(), for coordinates that are no positions on a map.
   const double patch = std::max(0.0, std::floor(coordinate * count + 0.5));
   return static_cast<int>(std::min(patch, static_cast<double>(count)));
 }

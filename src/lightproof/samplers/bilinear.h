@@ -24,7 +24,7 @@ namespace lightproof {
 /// H + 1 along, with half rows at the poles that are constant in t.
 class BilinearPatches {
  public:
-  /// Greys that a float cannot tell from 0 are 0. Throws InputError if all are.
+  /// Luminances that a float cannot tell from 0 are 0. Throws InputError if all are.
   BilinearPatches(const EnvironmentMap& map, TargetDensity target);
 
   /// In patches.
@@ -58,8 +58,8 @@ class BilinearPatches {
   static double share_of_part(double way, Part covered) {
     return std::clamp((way - covered.begin) / covered.length, 0.0, 1.0);
   }
-  /// ∫ of the weight of a place over the t of a row: of what falls from 1 to 0, and of what rises
-  /// from 0 to 1.
+  /// ∫ of the weight of a position over the t of a row: of what falls from 1 to 0, and of what
+  /// rises from 0 to 1.
   struct Row {
     double falling;
     double rising;

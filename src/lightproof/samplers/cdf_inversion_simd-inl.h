@@ -1,10 +1,10 @@
 // What all inversions of a CdfTable share, for many samples at once: the points in units of CDF
 // entries, and what follows from the CDF entries that a search has found.
-#if defined(LIGHTPROOF_SAMPLERS_CDF_INVERSION_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef LIGHTPROOF_SAMPLERS_CDF_INVERSION_LANES_INL_H
-#undef LIGHTPROOF_SAMPLERS_CDF_INVERSION_LANES_INL_H
+#if defined(LIGHTPROOF_SAMPLERS_CDF_INVERSION_SIMD_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIGHTPROOF_SAMPLERS_CDF_INVERSION_SIMD_INL_H
+#undef LIGHTPROOF_SAMPLERS_CDF_INVERSION_SIMD_INL_H
 #else
-#define LIGHTPROOF_SAMPLERS_CDF_INVERSION_LANES_INL_H
+#define LIGHTPROOF_SAMPLERS_CDF_INVERSION_SIMD_INL_H
 #endif
 
 #include "lightproof/samplers/cdf_table.h"
@@ -71,4 +71,4 @@ HWY_INLINE void store_found(const PositionKernel& positions, const FoundCells& f
 }  // namespace lightproof::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // LIGHTPROOF_SAMPLERS_CDF_INVERSION_LANES_INL_H
+#endif  // LIGHTPROOF_SAMPLERS_CDF_INVERSION_SIMD_INL_H

@@ -1,9 +1,9 @@
 // CdfLines, for many samples at once: a run's 16-bit CDF entries are compared all together.
-#if defined(LIGHTPROOF_SAMPLERS_CDF_LINES_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef LIGHTPROOF_SAMPLERS_CDF_LINES_LANES_INL_H
-#undef LIGHTPROOF_SAMPLERS_CDF_LINES_LANES_INL_H
+#if defined(LIGHTPROOF_SAMPLERS_CDF_LINES_SIMD_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIGHTPROOF_SAMPLERS_CDF_LINES_SIMD_INL_H
+#undef LIGHTPROOF_SAMPLERS_CDF_LINES_SIMD_INL_H
 #else
-#define LIGHTPROOF_SAMPLERS_CDF_LINES_LANES_INL_H
+#define LIGHTPROOF_SAMPLERS_CDF_LINES_SIMD_INL_H
 #endif
 
 #include "lightproof/samplers/cdf_lines.h"
@@ -125,4 +125,4 @@ class CdfLinesKernel {
 }  // namespace lightproof::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // LIGHTPROOF_SAMPLERS_CDF_LINES_LANES_INL_H
+#endif  // LIGHTPROOF_SAMPLERS_CDF_LINES_SIMD_INL_H

@@ -13,7 +13,7 @@ namespace lightproof {
 
 namespace {
 
-/// Knots are summed in units of 2^-20 of theirs, and rounded at the end.
+/// CDF entries are summed in units of 2^-20 of theirs, and rounded at the end.
 constexpr unsigned kFractionBits = 20;
 /// Weights that are summed while they are in the nearest cache.
 constexpr std::size_t kBlock = 512;

@@ -1,8 +1,8 @@
 // The cumulative distributions of all rows and of the columns in each row, in fixed point.
 //
-// Knots are integers in units of 2^-31. Compared with 32-bit floats of the same size their step is
-// the same everywhere (a float's is 2^-25 below 1), differences are exact, so the pdf that is
-// returned is the density that is drawn, and they compare with the random number's integer bits.
+// CDF entries are integers in units of 2^-31. Compared with 32-bit floats of the same size their
+// step is the same everywhere (a float's is 2^-25 below 1), differences are exact, so the pdf that
+// is returned is the density that is drawn, and they compare with the random number's integer bits.
 // Compared with doubles they take half the memory. A texel of positive weight always keeps at
 // least one unit: f > 0 implies p > 0.
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace lightproof {
 
-/// Knots of a whole distribution: CDF entries[k] is the mass before cell k, CDF entries.back() ==
+/// The CDF entries of a whole distribution: entries[k] is the mass before cell k, entries.back() ==
 /// kCdfOne.
 using CdfEntries = std::span<const std::uint32_t>;
 inline constexpr std::uint32_t kCdfOne = 1U << 31U;

@@ -25,7 +25,7 @@ struct alignas(64) CacheLine {
 class CdfTrees {
  public:
   CdfTrees(std::size_t count, std::size_t cells);
-  /// Knots as of CdfTable.
+  /// CDF entries as of CdfTable.
   void set(std::size_t tree, CdfEntries entries);
   /// The CDF entries on the way down are the nearest ones on either side.
   CdfCell find(std::size_t tree, std::uint32_t u) const {

@@ -1,9 +1,9 @@
 // Inversion through guide tables, for many samples at once.
-#if defined(LIGHTPROOF_SAMPLERS_GUIDE_TABLE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef LIGHTPROOF_SAMPLERS_GUIDE_TABLE_LANES_INL_H
-#undef LIGHTPROOF_SAMPLERS_GUIDE_TABLE_LANES_INL_H
+#if defined(LIGHTPROOF_SAMPLERS_GUIDE_TABLE_SIMD_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIGHTPROOF_SAMPLERS_GUIDE_TABLE_SIMD_INL_H
+#undef LIGHTPROOF_SAMPLERS_GUIDE_TABLE_SIMD_INL_H
 #else
-#define LIGHTPROOF_SAMPLERS_GUIDE_TABLE_LANES_INL_H
+#define LIGHTPROOF_SAMPLERS_GUIDE_TABLE_SIMD_INL_H
 #endif
 
 #include "lightproof/samplers/cdf_inversion_simd-inl.h"
@@ -73,8 +73,8 @@ class GuidedKernel {
     return hn::PromoteTo(Int64Tag(), hn::ShiftRightSame(whole, static_cast<int>(guides.shift)));
   }
 
-  /// Knots that are read for a part of a guide: those of the cell that it begins in and of the two
-  /// after it.
+  /// CDF entries that are read for a part of a guide: those of the cell that it begins in and of
+  /// the two after it.
   static constexpr std::size_t kEntries = 4;
   static_assert(kEntries - 2 == CdfTable::kEntriesAfter);
 
@@ -94,7 +94,7 @@ class GuidedKernel {
   };
 
   /// Chooses among the first three cells of all parts, then corrects the few samples that lie in
-  /// none of them. knots_of(i): where the CDF entries of that sample's distribution begin.
+  /// none of them. entries_of(i): where the CDF entries of that sample's distribution begin.
   template <class EntriesOf>
   static HWY_INLINE void find_cells(const Guides::View& guides, std::size_t count,
                                     const Entries& first_entries, const Wanted& wanted,
@@ -168,4 +168,4 @@ class GuideTableKernel {
 }  // namespace lightproof::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // LIGHTPROOF_SAMPLERS_GUIDE_TABLE_LANES_INL_H
+#endif  // LIGHTPROOF_SAMPLERS_GUIDE_TABLE_SIMD_INL_H

@@ -9,7 +9,7 @@
 namespace lightproof {
 namespace {
 
-Grid<double> binary_steps(const Grid<double>& fine) {
+Grid<double> halved(const Grid<double>& fine) {
   const Extent extent = fine.extent();
   Grid<double> coarse =
       Grid<double>::without_values({(extent.width + 1) / 2, (extent.height + 1) / 2});
@@ -30,7 +30,7 @@ Hierarchical::Hierarchical(const EnvironmentMap& map, TargetDensity target)
     : positions_(map.radiance.extent(), target.density_space) {
   std::vector<Grid<double>> pyramid;
   pyramid.push_back(texel_weights(map, target));
-  while (pyramid.back().extent().count() > 1) pyramid.push_back(binary_steps(pyramid.back()));
+  while (pyramid.back().extent().count() > 1) pyramid.push_back(halved(pyramid.back()));
   const double scale =
       static_cast<double>(pyramid.front().extent().count()) / pyramid.back().values().front();
   std::size_t count = 0;

@@ -52,7 +52,7 @@ class Hierarchical {
     std::size_t first;  ///< of its sums
   };
 
-  /// The quarters of a square, and the first one's place. Those that do not exist have no mass.
+  /// The quarters of a square, and the first one's position. Those that do not exist have no mass.
   struct Children {
     int x;
     int y;

@@ -9,8 +9,8 @@
 
 namespace lightproof {
 
-/// The place in [0,1] below which lies the share u of a density that is linear from `low` at 0 to
-/// `high` at 1; neither is negative, one is positive. The root of the quadratic that does not
+/// The position in [0,1] below which lies the share u of a density that is linear from `low` at 0
+/// to `high` at 1; neither is negative, one is positive. The root of the quadratic that does not
 /// cancel (Heitz 2020, "Can't Invert the CDF?", closed form of a trapezoid).
 inline double invert_linear(double low, double high, double u) {
   const double root = std::sqrt((1.0 - u) * low * low + u * high * high);

@@ -36,7 +36,7 @@ LinearScanPublished::LinearScanPublished(const EnvironmentMap& map, TargetDensit
     : map_(&map),
       density_space_(target.density_space),
       solid_angle_rows_(map.radiance.extent()),
-      luminance_(target.weights.red, target.weights.green, target.weights.blue) {
+      weights_(target.weights.red, target.weights.green, target.weights.blue) {
   const Extent extent = map.radiance.extent();
   const auto columns = static_cast<float>(extent.width);
   float total = 0.0F;
@@ -54,7 +54,7 @@ LinearScanPublished::LinearScanPublished(const EnvironmentMap& map, TargetDensit
 }
 
 float LinearScanPublished::weight(int x, int y) const {
-  return glm::dot(luminance_, map_->radiance(x, y)) * row_factor_[static_cast<std::size_t>(y)];
+  return glm::dot(weights_, map_->radiance(x, y)) * row_factor_[static_cast<std::size_t>(y)];
 }
 
 float LinearScanPublished::average_of(int y) const {
@@ -81,7 +81,7 @@ TexelSample LinearScanPublished::sample(SquarePoint u) const {
                       at.s < 1.0 && at.t >= 0.0 && at.t < 1.0;
   if (!on_map) return {at, column.index, row.index, PerSquare{0.0}};
   if (density_space_ == DensitySpace::solid_angle) {
-    at.t = solid_angle_rows_.place(row.index, static_cast<double>(row.fraction));
+    at.t = solid_angle_rows_.position(row.index, static_cast<double>(row.fraction));
   }
   return {at, column.index, row.index, pdf_in(column.index, row.index, at)};
 }

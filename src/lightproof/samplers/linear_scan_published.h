@@ -29,7 +29,7 @@ class LinearScanPublished {
   const EnvironmentMap* map_;
   DensitySpace density_space_;
   SolidAngleRows solid_angle_rows_;
-  glm::vec3 luminance_;
+  glm::vec3 weights_;
   std::vector<float> row_factor_;   ///< 1 under A; the texel's solid angle under B
   std::vector<float> row_average_;  ///< of the weights
   float total_average_ = 0.0F;

@@ -40,7 +40,7 @@ class PackedAlias {
   /// Throws InputError if the map is black.
   PackedAlias(const EnvironmentMap& map, TargetDensity target);
 
-  /// u.s names the column and the place across, u.t chooses, and gives the place along.
+  /// u.s names the column and the position across, u.t chooses, and gives the position along.
   TexelSample sample(SquarePoint u) const {
     const double scaled = u.s * static_cast<double>(words_.size());
     const auto column = static_cast<std::uint64_t>(scaled);

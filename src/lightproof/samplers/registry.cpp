@@ -19,11 +19,11 @@ std::string text_of(const EnvironmentMap& map) {
                      map.radiance.extent().height);
 }
 
-template <class Sampler, const LuminanceWeights& kGrey, Lookup kLookup = Lookup::nearest>
+template <class Sampler, const LuminanceWeights& kWeights, Lookup kLookup = Lookup::nearest>
 AnySampler make(const EnvironmentMap& map, DensitySpace density_space) {
   return with_memory_for([&] { return "the table of a sampler of " + text_of(map); },
                          [&]() -> AnySampler {
-                           return Sampler(map, on_map({density_space, kGrey, kLookup}, map));
+                           return Sampler(map, on_map({density_space, kWeights, kLookup}, map));
                          });
 }
 
@@ -32,8 +32,8 @@ double binary_steps(Extent map) { return std::log2(map.width) + std::log2(map.he
 double quadtree_steps(Extent map) { return std::log2(std::max(map.width, map.height)); }
 double constant_steps(Extent /*map*/) { return 1.0; }
 
-/// Knots in steps of `step`, each rounded to the nearest, after every lit cell got one step of its
-/// own out of the whole: two steps a cell, and a share of the cells for all of them.
+/// CDF entries in steps of `step`, each rounded to the nearest, after every lit cell got one step
+/// of its own out of the whole: two steps a cell, and a share of the cells for all of them.
 MassRounding summed(Extent map, double step) {
   return {.relative = step * (map.width + map.height), .of_sums = 2.0 * step};
 }

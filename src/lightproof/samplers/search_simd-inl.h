@@ -1,11 +1,11 @@
 // Inversion by bisection and by descent of trees, for many samples at once. All samples of a block
 // take a step together: a sample waits for what its step reads, but the samples do not wait for
 // each other.
-#if defined(LIGHTPROOF_SAMPLERS_SEARCH_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef LIGHTPROOF_SAMPLERS_SEARCH_LANES_INL_H
-#undef LIGHTPROOF_SAMPLERS_SEARCH_LANES_INL_H
+#if defined(LIGHTPROOF_SAMPLERS_SEARCH_SIMD_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIGHTPROOF_SAMPLERS_SEARCH_SIMD_INL_H
+#undef LIGHTPROOF_SAMPLERS_SEARCH_SIMD_INL_H
 #else
-#define LIGHTPROOF_SAMPLERS_SEARCH_LANES_INL_H
+#define LIGHTPROOF_SAMPLERS_SEARCH_SIMD_INL_H
 #endif
 
 #include "lightproof/samplers/binary_search.h"
@@ -162,4 +162,4 @@ struct EytzingerKernel : SearchKernel<TreeKernel> {
 }  // namespace lightproof::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // LIGHTPROOF_SAMPLERS_SEARCH_LANES_INL_H
+#endif  // LIGHTPROOF_SAMPLERS_SEARCH_SIMD_INL_H

@@ -1,14 +1,14 @@
 // Parts of the vectorised samplers, compiled once for every kind of vector: the pipeline of a
-// batch, and the places of samples in their texels. A lane is a sample; numbers are doubles and
+// batch, and the positions of samples in their texels. A lane is a sample; numbers are doubles and
 // 64-bit integers, and every operation is that of the scalar code, so that the texels are the same.
 //
 // Included by sources of Highway's foreach_target only, once for each kind of vector: hence the
 // guard, which is Highway's.
-#if defined(LIGHTPROOF_SAMPLERS_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef LIGHTPROOF_SAMPLERS_LANES_INL_H
-#undef LIGHTPROOF_SAMPLERS_LANES_INL_H
+#if defined(LIGHTPROOF_SAMPLERS_SIMD_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LIGHTPROOF_SAMPLERS_SIMD_INL_H
+#undef LIGHTPROOF_SAMPLERS_SIMD_INL_H
 #else
-#define LIGHTPROOF_SAMPLERS_LANES_INL_H
+#define LIGHTPROOF_SAMPLERS_SIMD_INL_H
 #endif
 
 #include <hwy/contrib/math/math-inl.h>

@@ -1,4 +1,4 @@
-// Every sampler with a vectorised form: a class of lanes in a header of its own, which is
+// Every sampler with a vectorised form: a kernel in a header of its own, which is
 // included, drawn with and exported here.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lightproof/samplers/simd_dispatch.cpp"

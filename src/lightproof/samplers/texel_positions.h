@@ -34,7 +34,7 @@ class SolidAngleRows {
   explicit SolidAngleRows(Extent extent);
 
   /// The t in row `y` below which lies the share `fraction` of the row's solid angle.
-  double place(int y, double fraction) const {
+  double position(int y, double fraction) const {
     const bool upper = 2 * y >= height_;
     const int row = from_pole(y);
     const double f = std::clamp(upper ? 1.0 - fraction : fraction, kCellMargin, 1.0 - kCellMargin);
@@ -92,7 +92,7 @@ class TexelPositions {
   TexelSample sample(int x, int y, double across, double along, double mass) const {
     const double t = density_space_ == DensitySpace::texture
                          ? position_in_cell(y, along, texel_height_)
-                         : solid_angle_rows_.place(y, along);
+                         : solid_angle_rows_.position(y, along);
     const SquarePoint at = {position_in_cell(x, across, texel_width_), t};
     return {at, x, y, pdf(y, mass, at)};
   }

@@ -10,7 +10,7 @@
 
 namespace lightproof {
 
-/// Luminance value of every texel; under B times its solid angle. Throws InputError if the
+/// The luminance of every texel; under B times its solid angle. Throws InputError if the
 /// map is black.
 Grid<double> texel_weights(const EnvironmentMap& map, TargetDensity target);
 

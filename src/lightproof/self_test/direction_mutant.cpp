@@ -13,7 +13,7 @@ namespace {
 constexpr Direction kUp = {0.0, 0.0, 1.0};
 
 /// The sampler of the registry that a mutant claims to be.
-DirectionSampler correct(std::string_view name) {
+DirectionSampler correct_sampler(std::string_view name) {
   std::vector<DirectionSampler> all = direction_samplers();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });
@@ -35,7 +35,7 @@ struct Description {
 
 /// The sampler that it claims to be, with the parts that are not empty in its place.
 DirectionMutant mutant(Description what, Sample sample, Pdf pdf = {}) {
-  DirectionSampler sampler = correct(what.claims);
+  DirectionSampler sampler = correct_sampler(what.claims);
   sampler.name = std::move(what.name);
   sampler.description = std::string(what.claims) + ": " + std::move(what.defect);
   if (sample) sampler.sample = std::move(sample);
@@ -68,7 +68,7 @@ void add_warps(std::vector<DirectionMutant>& all) {
   all.push_back(mutant({"cosine-without-root", "height 1-u instead of its square root",
                         "cosine_hemisphere", "hemisphere", Oracle::reference},
                        drawn(uniform_hemisphere_from_square, cosine_hemisphere_pdf)));
-  const DirectionSampler cosine = correct("cosine_hemisphere");
+  const DirectionSampler cosine = correct_sampler("cosine_hemisphere");
   all.push_back(mutant({"cosine-without-pi", "the density not divided by pi", "cosine_hemisphere",
                         "pdf-scaled", Oracle::check},
                        scaled(cosine, kPi), scaled_pdf(cosine, kPi)));
@@ -112,7 +112,7 @@ void add_warps(std::vector<DirectionMutant>& all) {
 }
 
 void add_phong_lobes(std::vector<DirectionMutant>& all) {
-  const DirectionSampler lobe = correct("phong_lobe_50");
+  const DirectionSampler lobe = correct_sampler("phong_lobe_50");
   const double n = lobe.distribution.front().exponent;
   const auto with_exponent = [](double exponent) {
     return [exponent](SquarePoint u) { return phong_lobe_from_square(u, exponent); };
@@ -147,7 +147,7 @@ struct TwoLobes {
 };
 
 TwoLobes two_lobes() {
-  const DirectionSampler sampler = correct("phong_45");
+  const DirectionSampler sampler = correct_sampler("phong_45");
   const auto& lobes = sampler.distribution;
   return {lobes[0].share, lobes[1].exponent, frame_around(lobes[1].axis), sampler};
 }

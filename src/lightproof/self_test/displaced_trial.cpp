@@ -52,7 +52,6 @@ Trial trial_off_by(double effect, DistributionDistance distance) {
 
 TransformedDistance transformed_distance(std::span<const double> declared,
                                          std::span<const double> actual) {
-  TransformedDistance distance;
   double above = 0.0;
   double below = 0.0;
   double p = 0.0;

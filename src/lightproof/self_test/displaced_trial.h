@@ -29,7 +29,7 @@ Trial trial_off_by(double effect, DistributionDistance distance);
 /// Distances between the distributions of a transformed coordinate that is uniform if `declared` is
 /// drawn.
 struct TransformedDistance {
-  double kuiper = 0.0;    ///< between the two farthest places
+  double kuiper = 0.0;    ///< between the two farthest positions
   double anderson = 0.0;  ///< root of the weighted mean square
 };
 TransformedDistance transformed_distance(std::span<const double> declared,

@@ -9,7 +9,7 @@ namespace lightproof {
 namespace {
 
 /// Sums of a DiscreteSampler are doubles.
-constexpr double kLawResolution = 0x1p-53;
+constexpr double kSumResolution = 0x1p-53;
 
 BoundSampler bind(const Mutant& mutant, TargetDensity target, const EnvironmentMap& map) {
   Grid<double> masses = reference::texel_masses(map, target);
@@ -44,7 +44,7 @@ SamplerUnderTest sampler_under_test(const Mutant& mutant, DensitySpace density_s
           [&mutant, target](const EnvironmentMap& map) {
             return bind(mutant, on_map(target, map), map);
           },
-          kLawResolution,
+          kSumResolution,
           true};
 }
 

@@ -11,7 +11,7 @@
 namespace lightproof {
 namespace {
 
-/// Moves a sample to another texel, to the same place inside it.
+/// Moves a sample to another texel, to the same position inside it.
 void move_by(TexelSample& sample, Extent map, int columns, int rows) {
   sample.x += columns;
   sample.y += rows;
@@ -135,12 +135,12 @@ constexpr std::array kMutants = {
            .oracle = Oracle::self,
            .sample =
                [](TexelSample& s, const DiscreteSampler& distribution) {
-                 // Every hundredth of the places inside a texel goes to a place chosen by its
+                 // Every hundredth of the positions inside a texel goes to a position chosen by its
                  // digits.
                  const double within = s.at.s * distribution.extent().width - s.x;
-                 const double confirmed = within * 100.0;
-                 if (confirmed >= 1.0) return;
-                 const double across = confirmed * distribution.extent().width;
+                 const double stretched = within * 100.0;
+                 if (stretched >= 1.0) return;
+                 const double across = stretched * distribution.extent().width;
                  const double down = (across - std::floor(across)) * distribution.extent().height;
                  s.x = static_cast<int>(across);
                  s.y = static_cast<int>(down);
@@ -177,7 +177,8 @@ constexpr std::array kMutants = {
                  return 1.0 / static_cast<double>(distribution.extent().count());
                }},
     Mutant{.name = "lower-bound",
-           .defect = "lower for upper bound: u on equal knots gives the first of them, lit or not",
+           .defect =
+               "lower for upper bound: u on equal CDF entries gives the first of them, lit or not",
            .diagnosis = "wrong-at-cdf-entries",
            .oracle = Oracle::check,
            .needs = "texels without light",
@@ -240,7 +241,7 @@ constexpr std::array kMutants = {
                    s.pdf = {std::numeric_limits<double>::quiet_NaN()};
                }},
     Mutant{.name = "interpolated-in-u",
-           .defect = "the place in the texel is that of u, not of the rest of its mass",
+           .defect = "the position in the texel is that of u, not of the rest of its mass",
            .diagnosis = "uneven-in-texel",
            .oracle = Oracle::reference,
            .sample =

@@ -19,9 +19,9 @@ std::vector<SamplerUnderTest> all_mutants() {
 }
 
 void count(std::vector<NamingRecord>& records, const Rejection& rejection) {
-  NamingRecord& record = *std::find_if(
-      records.begin(), records.end(),
-      [&](const NamingRecord& instance) { return instance.mutant == rejection.sampler; });
+  NamingRecord& record =
+      *std::find_if(records.begin(), records.end(),
+                    [&](const NamingRecord& other) { return other.mutant == rejection.sampler; });
   ++record.rejected;
   if (rejection.looks_like == record.expected) {
     ++record.right;

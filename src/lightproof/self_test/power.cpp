@@ -71,7 +71,7 @@ std::vector<PowerRecord> measure_power(const PowerOptions& options, const Progre
         });
     for (PowerRecord record : predictions(trial, samples)) {
       count_rejections(record, replicates);
-      all.push_back(std::move(record));
+      all.push_back(record);
     }
   }
   return all;

@@ -16,12 +16,12 @@ struct PowerOptions {
   std::uint64_t replicates = 1000;  ///< for each point
 };
 
-/// Plants defects as large as the gate says that it detects, and lets it judge them with both of
+/// Injects defects as large as the gate says that it detects, and lets it judge them with both of
 /// its stages, or sequentially: how often it rejects, which should be at least kDetectionPower.
 std::vector<PowerRecord> measure_printed_effects(const PowerOptions& options,
                                                  const Progress& progress = {});
 
-/// The tests that print an effect, as "oracle/test": measure_printed_effects has a record of each.
+/// The tests that print an effect: measure_printed_effects has a record of each.
 std::vector<TestId> printed_effects();
 
 /// Lets a distribution a little off be judged with several numbers of samples, some too few: how

@@ -4,7 +4,7 @@
 // expectation of at least 25: at strict levels its size is right where Pearson's is several times
 // too large. Nothing is dropped: neighbouring cells are pooled, and a remainder joins the last
 // pool. Cells of zero expectation are not part of the sum; a single hit in one is a rejection.
-// Counts that agree too well are as below the screening level as those that do not (stratified
+// Counts that agree too well are as unlikely as those that do not (stratified
 // points passed off as independent ones), so from 30 degrees of freedom on the p-value is
 // two-sided.
 #pragma once

@@ -17,9 +17,9 @@ ZTest judge_deviation(double deviation, double standard_error, double scale) {
 
 }  // namespace
 
-double log10_tails_of_mean(double z, double samples, const ExactMoments& law) {
+double log10_tails_of_mean(double z, double samples, const ExactMoments& moments) {
   const double normal = log10_normal_tails(z);
-  const double skewness = law.largest_deviation / std::sqrt(law.variance);
+  const double skewness = moments.largest_deviation / std::sqrt(moments.variance);
   const double deviation = std::abs(z);
   // Where skewness z^3 / (6 sqrt n) is log 2.
   const double last_normal = std::cbrt(6.0 * std::numbers::ln2 * std::sqrt(samples) / skewness);
@@ -33,9 +33,9 @@ double log10_tails_of_mean(double z, double samples, const ExactMoments& law) {
 }
 
 double minimum_detectable_factor(double level, double power, double samples,
-                                 const ExactMoments& law, double exact) {
+                                 const ExactMoments& moments, double exact) {
   const auto excess = [&](double z) {
-    return log10_tails_of_mean(z, samples, law) > std::log10(level) ? 1.0 : -1.0;
+    return log10_tails_of_mean(z, samples, moments) > std::log10(level) ? 1.0 : -1.0;
   };
   double high = 0.0;  // of a level that everything passes
   if (excess(high) > 0.0) {
@@ -44,14 +44,14 @@ double minimum_detectable_factor(double level, double power, double samples,
     const boost::math::tools::eps_tolerance<double> close(40);
     high = boost::math::tools::bisect(excess, high, beyond, close).second;
   }
-  const double error = std::sqrt(law.variance / samples) / exact;
+  const double error = std::sqrt(moments.variance / samples) / exact;
   const double least = 1.0 - normal_quantile(power) * error;
   return least > 0.0 ? (1.0 + high * error) / least : HUGE_VAL;
 }
 
-ExactMoments moments_of_squares(const ExactMoments& law, double fourth_central) {
-  return {law.variance, fourth_central - law.variance * law.variance,
-          law.largest_deviation * law.largest_deviation};
+ExactMoments moments_of_squares(const ExactMoments& moments, double fourth_central) {
+  return {moments.variance, fourth_central - moments.variance * moments.variance,
+          moments.largest_deviation * moments.largest_deviation};
 }
 
 ExactMoments moments_of_difference(const ExactMoments& first, const ExactMoments& second,
@@ -76,14 +76,14 @@ ZTest variance_test(const Moments& measured, const ExactMoments& exact,
   return {z, log10_tails_of_mean(z, n, squares), deviation / exact.variance};
 }
 
-ZTest two_mean_test(const Moments& first, const ExactMoments& first_distribution,
-                    const Moments& second, const ExactMoments& second_distribution) {
+ZTest two_mean_test(const Moments& first, const ExactMoments& first_exact, const Moments& second,
+                    const ExactMoments& second_exact) {
   const auto n = static_cast<double>(first.count());
   const double ratio = n / static_cast<double>(second.count());
   const double deviation = first.mean() - second.mean();
-  const ExactMoments both = moments_of_difference(first_distribution, second_distribution, ratio);
+  const ExactMoments both = moments_of_difference(first_exact, second_exact, ratio);
   const double z = deviation == 0.0 ? 0.0 : deviation / std::sqrt(both.variance / n);
-  return {z, log10_tails_of_mean(z, n, both), deviation / second_distribution.mean};
+  return {z, log10_tails_of_mean(z, n, both), deviation / second_exact.mean};
 }
 
 ZTest welch_test(const Moments& first, const Moments& second) {

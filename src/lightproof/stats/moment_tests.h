@@ -24,24 +24,24 @@ struct ExactMoments {
 /// exp(skewness z^3 / (6 sqrt N))); farther out Bennett's bound (1962), which holds for any
 /// distribution so bounded, or the normal tail from where it last held. So a rare, bright sample
 /// that turns up a little early proves nothing.
-double log10_tails_of_mean(double z, double samples, const ExactMoments& law);
+double log10_tails_of_mean(double z, double samples, const ExactMoments& moments);
 
 /// The factor 1 + effect on samples, all of them, at which such a test of size `level` rejects with
 /// this power; `exact` is what is estimated. Their scatter grows by the factor too. The threshold
 /// is that of the test's own bound; below its mean a skewed distribution scatters less than a
 /// normal one. Infinite if the samples are too few for any factor.
 double minimum_detectable_factor(double level, double power, double samples,
-                                 const ExactMoments& law, double exact);
+                                 const ExactMoments& moments, double exact);
 
 /// Of the squared deviations from the mean, whose mean is the variance.
-ExactMoments moments_of_squares(const ExactMoments& law, double fourth_central);
+ExactMoments moments_of_squares(const ExactMoments& moments, double fourth_central);
 
 /// Of a sample of the first less `ratio` samples of the second.
 ExactMoments moments_of_difference(const ExactMoments& first, const ExactMoments& second,
                                    double ratio);
 
 /// The mean of `measured` against the exact one. An exact variance of zero is no case for a
-/// z-test; see suite/checks.
+/// z-test; see gate/exact_checks.
 ZTest mean_test(const Moments& measured, const ExactMoments& exact);
 
 /// The sample variance against the exact one; its standard error is sqrt((mu4 - sigma^4) / N)
@@ -54,7 +54,7 @@ ZTest variance_test(const Moments& measured, const ExactMoments& exact,
 ZTest welch_test(const Moments& first, const Moments& second);
 
 /// Two independent samples of one mean, whose distributions are known: no variance is estimated.
-ZTest two_mean_test(const Moments& first, const ExactMoments& first_distribution,
-                    const Moments& second, const ExactMoments& second_distribution);
+ZTest two_mean_test(const Moments& first, const ExactMoments& first_exact, const Moments& second,
+                    const ExactMoments& second_exact);
 
 }  // namespace lightproof

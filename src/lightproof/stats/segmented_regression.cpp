@@ -74,11 +74,11 @@ bool is_rounding(const Vector& residuals, const Vector& values) {
   return squared(residuals) <= count * error * error;
 }
 
-/// A broken line, by how it deviates from a straight one.
-struct SamplerInstance {
-  std::vector<std::size_t> points;   ///< in the bends
-  std::vector<Straightened> breaks;  ///< of each breakpoint alone
-  std::vector<Vector> directions;    ///< the residuals of the bends made orthonormal
+/// A segmented line, by how it deviates from a straight one.
+struct Candidate {
+  std::vector<std::size_t> points;  ///< in the bends
+  std::vector<Straightened> bends;  ///< of each breakpoint alone
+  std::vector<Vector> directions;   ///< the residuals of the bends made orthonormal
 };
 
 /// The points at which a line may bend, one for each x.
@@ -91,26 +91,25 @@ std::vector<std::size_t> places_of(const Vector& x) {
   return places;
 }
 
-SamplerInstance with_one_breakpoint(const Vector& x, std::size_t point) {
+Candidate with_one_breakpoint(const Vector& x, std::size_t point) {
   Vector beyond;
   for (const double place : x) beyond.push_back(std::max(place - x[point], 0.0));
-  const Straightened segment_change = straightened(from_mean(x), beyond);
-  return {{point}, {segment_change}, {of_length_one(segment_change.residuals)}};
+  const Straightened bend = straightened(from_mean(x), beyond);
+  return {{point}, {bend}, {of_length_one(bend.residuals)}};
 }
 
-SamplerInstance with_two_breakpoints(const SamplerInstance& first, const SamplerInstance& second) {
+Candidate with_two_breakpoints(const Candidate& first, const Candidate& second) {
   const Vector& along = first.directions.front();
-  const Straightened& segment_change = second.breaks.front();
-  const Vector across =
-      difference(segment_change.residuals, product(along, segment_change.residuals), along);
+  const Straightened& bend = second.bends.front();
+  const Vector across = difference(bend.residuals, product(along, bend.residuals), along);
   return {{first.points.front(), second.points.front()},
-          {first.breaks.front(), segment_change},
+          {first.bends.front(), bend},
           {along, of_length_one(across)}};
 }
 
 /// Those with one breakpoint, then those with two.
-std::vector<SamplerInstance> candidates_of(const Vector& x) {
-  std::vector<SamplerInstance> candidates;
+std::vector<Candidate> candidates_of(const Vector& x) {
+  std::vector<Candidate> candidates;
   for (const std::size_t place : places_of(x)) candidates.push_back(with_one_breakpoint(x, place));
   const std::size_t ones = candidates.size();
   for (std::size_t i = 0; i < ones; ++i) {
@@ -130,17 +129,17 @@ double p_value_of(std::size_t breakpoints, double left, std::size_t count) {
 }
 
 struct Clearest {
-  const SamplerInstance* candidate = nullptr;
+  const Candidate* candidate = nullptr;
   double p_value = 1.0;  ///< of this candidate alone
 };
 
-Clearest clearest_of(const std::vector<SamplerInstance>& candidates, const Vector& residuals) {
+Clearest clearest_of(const std::vector<Candidate>& candidates, const Vector& residuals) {
   const double all = squared(residuals);
   const double rounding =
       static_cast<double>(residuals.size()) * std::numeric_limits<double>::epsilon();
   std::array<double, 2> least = {1.0, 1.0};  // share that one breakpoint leaves, and two
-  std::array<const SamplerInstance*, 2> best = {};
-  for (const SamplerInstance& candidate : candidates) {
+  std::array<const Candidate*, 2> best = {};
+  for (const Candidate& candidate : candidates) {
     double left = 1.0;
     for (const Vector& direction : candidate.directions) {
       const double along = product(direction, residuals);
@@ -173,19 +172,19 @@ Vector random_residuals(const Vector& centred_x, const RandomStream& stream) {
 }
 
 /// The slopes of the least-squares fit.
-SegmentedLine fitted(const SamplerInstance& candidate, const Straightened& line) {
+SegmentedLine fitted(const Candidate& candidate, const Straightened& line) {
   Vector changes(candidate.points.size());
   for (std::size_t i = changes.size(); i-- > 0;) {
     const Vector& direction = candidate.directions[i];
     double along = product(direction, line.residuals);
     for (std::size_t k = i + 1; k < changes.size(); ++k) {
-      along -= changes[k] * product(direction, candidate.breaks[k].residuals);
+      along -= changes[k] * product(direction, candidate.bends[k].residuals);
     }
-    changes[i] = along / product(direction, candidate.breaks[i].residuals);
+    changes[i] = along / product(direction, candidate.bends[i].residuals);
   }
   SegmentedLine segmented = {line.slope, {}};
   for (std::size_t i = 0; i < changes.size(); ++i) {
-    segmented.slope -= changes[i] * candidate.breaks[i].slope;
+    segmented.slope -= changes[i] * candidate.bends[i].slope;
   }
   double slope = segmented.slope;
   for (std::size_t i = 0; i < changes.size(); ++i) {
@@ -233,7 +232,7 @@ class Bends {
   }
 
   Vector x_;
-  std::vector<SamplerInstance> candidates_;
+  std::vector<Candidate> candidates_;
   Vector straight_;  ///< smallest p-values of straight lines, ascending
 };
 

@@ -28,9 +28,9 @@ UniformityTest kuiper_test(std::span<const std::uint64_t> counts);
 UniformityTest anderson_darling_test(std::span<const std::uint64_t> counts);
 
 /// The `distance` between the true distribution and the uniform one that a test of size `level`
-/// finds with at least `power`. Kuiper: F_N between the two farthest places is a binomial share, of
-/// standard deviation 1/(2 sqrt N) at most. Anderson-Darling: the weighted deviation, projected on
-/// the true one, is a normal of variance 1/2 at most, the largest eigenvalue of its kernel.
+/// finds with at least `power`. Kuiper: F_N between the two farthest positions is a binomial share,
+/// of standard deviation 1/(2 sqrt N) at most. Anderson-Darling: the weighted deviation, projected
+/// on the true one, is a normal of variance 1/2 at most, the largest eigenvalue of its kernel.
 double minimum_detectable_kuiper_distance(double level, double power, double samples);
 double kuiper_power(double distance, double level, double samples);  ///< at least
 double minimum_detectable_anderson_darling_distance(double level, double power, double samples);

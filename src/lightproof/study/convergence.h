@@ -21,8 +21,9 @@ struct ConvergenceOptions {
   Extent picture = {8, 6};
 };
 
-/// Every map, receiver, material and estimator: errors of independent estimates against quadrature,
-/// beside the exact variance. The same bits for any number of threads.
+/// Every map, receiver and material, and every estimator whose exact moments are known: errors of
+/// independent estimates against quadrature, beside the exact variance. The same bits for any
+/// number of threads. Throws std::logic_error if two maps have one name.
 std::vector<ConvergenceRecord> study_convergence(std::span<const EnvironmentMap> maps,
                                                  const ConvergenceOptions& options,
                                                  const Progress& progress = {});

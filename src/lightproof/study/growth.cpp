@@ -31,7 +31,7 @@ std::vector<ThroughputRecord> records_of(std::string_view sampler,
   return own;
 }
 
-/// The scatter about the distribution, not the repetitions, is what the exponent is uncertain by.
+/// The scatter about the power law, not the repetitions, is what the exponent is uncertain by.
 std::optional<FittedExponent> exponent_of(const std::vector<PowerLawPoint>& points) {
   if (points.size() < kLeastPoints) return std::nullopt;
   const PowerLaw fit = fit_power_law(points);
@@ -77,9 +77,9 @@ void add_breakpoints(std::vector<GrowthFit>& fits) {
   const std::vector<std::optional<SegmentedLine>> segmented = segmented_lines(lines, kFamilyAlpha);
   for (std::size_t i = 0; i < fits.size(); ++i) {
     if (!segmented[i]) continue;
-    fits[i].breakpoints = SegmentedGrowth{segmented[i]->slope, {}, segmented[i]->p_value};
+    fits[i].segmented = SegmentedGrowth{segmented[i]->slope, {}, segmented[i]->p_value};
     for (const Breakpoint& breakpoint : segmented[i]->breakpoints) {
-      fits[i].breakpoints->breakpoints.push_back(
+      fits[i].segmented->breakpoints.push_back(
           {fits[i].steps[breakpoint.point].extent, breakpoint.slope_after});
     }
   }

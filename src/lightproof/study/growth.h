@@ -11,7 +11,7 @@ namespace lightproof {
 
 /// Of each sampler that was measured on three maps or more, in the order of the registry. If the
 /// time of a step follows one power law with normal scatter for all of them, any sampler gets
-/// breakpoints with a probability of at most 1 % (see stats/segmented_line.h).
+/// breakpoints with a probability of at most 1 % (see stats/segmented_regression.h).
 std::vector<GrowthFit> growth_of(std::span<const ThroughputRecord> records,
                                  const CacheSizes& caches);
 

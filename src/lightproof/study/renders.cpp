@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kReceiver = "sphere-on-plane";
 constexpr std::string_view kMaterial = "phong";
-/// With which references are rendered.
+/// The estimator with which references are rendered.
 constexpr std::string_view kReferenceEstimator = "environment B";
 
 /// Signed errors of the luminances at the receiver's pixels over the mean of the reference there;
@@ -47,9 +47,11 @@ std::vector<RenderRecord> study_renders(std::span<const EnvironmentMap> maps,
   std::vector<RenderRecord> records;
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const EnvironmentMap& map = maps[i];
-    const auto render = [&](const EstimatorInfo& info, std::uint64_t samples,
-                            std::string_view purpose) {
-      const BoundEstimator estimator = info.prepare(map).bind(scene, material.material);
+    const auto bound_to_scene = [&](const EstimatorInfo& info) {
+      return info.prepare(map).bind(scene, material.material);
+    };
+    const auto render = [&](const EstimatorInfo& info, const BoundEstimator& estimator,
+                            std::uint64_t samples, std::string_view purpose) {
       const RandomStream stream(fmt::format("{}/{}/{}", purpose, map.name, info.name),
                                 options.seed);
       return render_picture(map, scene, receiver, options.picture, stream,
@@ -57,12 +59,14 @@ std::vector<RenderRecord> study_renders(std::span<const EnvironmentMap> maps,
                               return estimator.integrate(at, of_pixel, {0, samples}, {});
                             });
     };
-    const Grid<Rgb> reference = render(estimator_by_name(kReferenceEstimator),
-                                       options.reference_samples, "render-reference");
+    const EstimatorInfo& best = estimator_by_name(kReferenceEstimator);
+    const Grid<Rgb> reference =
+        render(best, bound_to_scene(best), options.reference_samples, "render-reference");
     for (const EstimatorInfo& info : estimators()) {
+      const BoundEstimator estimator = bound_to_scene(info);  // set-up is not rendering
       const auto start = std::chrono::steady_clock::now();
       RenderRecord record;
-      record.picture = render(info, options.samples, "render");
+      record.picture = render(info, estimator, options.samples, "render");
       record.seconds =
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       record.map = map.name;

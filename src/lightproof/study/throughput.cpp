@@ -170,20 +170,35 @@ std::string content_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// Empty where nothing can be kept: without a folder, or of a program that cannot be read.
 fs::path kept_file(const ThroughputSource& source, const std::string& filter) {
-  const std::uint64_t key =
-      hash_of(filter, hash_of(machine_name(), hash_of(content_of(source.program))));
+  const std::string program = content_of(source.program);
+  if (source.cache.empty() || program.empty()) return {};
+  const std::uint64_t key = hash_of(filter, hash_of(machine_name(), hash_of(program)));
   return source.cache / fmt::format("throughput-{:016x}.json", key);
 }
 
-/// A cache that cannot be written to is no reason to lose what was measured.
-void keep(const fs::path& file, const fs::path& kept) {
+/// None if it is damaged, or not there.
+std::optional<Throughput> read_kept(const fs::path& kept) {
+  std::error_code unreadable;
+  if (kept.empty() || !fs::exists(kept, unreadable)) return std::nullopt;
+  try {
+    return read_throughput(kept);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+/// Whether it is kept: a cache that cannot be written to is no reason to lose what was measured.
+bool keep(const fs::path& file, const fs::path& kept) {
   try {
     fs::create_directories(kept.parent_path());
     AtomicFile whole(kept);
     fs::copy_file(file, whole.temporary(), fs::copy_options::overwrite_existing);
     whole.commit();
+    return true;
   } catch (const std::exception&) {
+    return false;
   }
 }
 
@@ -201,12 +216,9 @@ std::string throughput_filter(std::uint64_t largest_width) {
 
 Throughput measure_throughput(const ThroughputSource& source) {
   const std::string filter = throughput_filter(source.largest_width);
-  const fs::path kept = source.cache.empty() ? fs::path() : kept_file(source, filter);
-  if (!kept.empty() && !source.measure_again && fs::exists(kept)) {
-    try {
-      return read_throughput(kept);
-    } catch (const InputError&) {  // damaged: measured again, and replaced
-    }
+  const fs::path kept = kept_file(source, filter);
+  if (!source.measure_again) {
+    if (std::optional<Throughput> before = read_kept(kept)) return *std::move(before);
   }
   const TemporaryFolder folder;
   const fs::path file = folder / "throughput.json";

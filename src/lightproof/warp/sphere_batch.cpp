@@ -26,7 +26,7 @@ std::size_t convert(std::span<const double> /*s*/, std::span<const double> /*u*/
 }
 
 std::size_t direct(std::span<const double> /*s*/, std::span<const double> /*t*/,
-                   const PlacedDirectionSpans& /*directions*/) {
+                   const PositionedDirectionSpans& /*directions*/) {
   return 0;
 }
 
@@ -58,7 +58,7 @@ std::size_t convert(std::span<const double> s, std::span<const double> u,
 
 /// Whole vectors from the front; returns how many places that were.
 std::size_t direct(std::span<const double> s, std::span<const double> t,
-                   const PlacedDirectionSpans& directions) {
+                   const PositionedDirectionSpans& directions) {
   const hn::ScalableTag<double> d;
   const auto one = hn::Set(d, 1.0);
   const auto half = hn::Set(d, 0.5);
@@ -81,7 +81,7 @@ std::size_t direct(std::span<const double> s, std::span<const double> t,
 
 /// A plain loop, which the compiler makes vectors of.
 void find_positions(const double* x, const double* y, const double* z,
-                    const PlaceSpans& positions) {
+                    const PositionSpans& positions) {
   double* s = positions.s.data();
   double* t = positions.t.data();
   for (std::size_t i = 0; i < positions.s.size(); ++i) {
@@ -120,7 +120,7 @@ std::size_t uniform_directions(std::span<const double> s, std::span<const double
 }
 
 std::size_t directions_of_positions(std::span<const double> s, std::span<const double> t,
-                                    const PlacedDirectionSpans& directions) {
+                                    const PositionedDirectionSpans& directions) {
   const std::size_t by_vectors = HWY_DYNAMIC_DISPATCH(direct)(s, t, directions);
   for (std::size_t i = by_vectors; i < s.size(); ++i) {
     const Direction direction = direction_from_square({s[i], t[i]});
@@ -133,7 +133,7 @@ std::size_t directions_of_positions(std::span<const double> s, std::span<const d
 }
 
 void approximate_positions(std::span<const double> x, std::span<const double> y,
-                           std::span<const double> z, const PlaceSpans& positions) {
+                           std::span<const double> z, const PositionSpans& positions) {
   HWY_DYNAMIC_DISPATCH(find_positions)(x.data(), y.data(), z.data(), positions);
 }
 
