@@ -65,7 +65,7 @@ class Lines {
 
   ~Lines() {
     const std::lock_guard lock(mutex_);
-    if (std::uncaught_exceptions() == 0) end_step();
+    if (steps_ > 1 && std::uncaught_exceptions() == 0) end_step();
   }
   Lines(const Lines&) = delete;
   Lines& operator=(const Lines&) = delete;
@@ -74,6 +74,7 @@ class Lines {
     const std::lock_guard lock(mutex_);
     if (step_ != step) {
       end_step();
+      ++steps_;
       step_ = step;
       step_start_ = Clock::now();
     }
@@ -105,6 +106,7 @@ class Lines {
   Clock::time_point start_ = Clock::now();
   Clock::time_point step_start_ = start_;
   std::string step_;
+  int steps_ = 0;
   double fraction_ = 0.0;
   std::jthread printer_;  ///< last: it uses the others
 };

@@ -66,10 +66,11 @@ fs::path cache_folder() {
 
 /// All that goes into the report. Progress is shown until it returns.
 StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
-  StudyResult result = run_study(std::move(maps), options.study, progress_of(options));
+  const Progress progress = progress_of(options);
+  StudyResult result = run_study(std::move(maps), options.study, progress);
   result.gate.input_options = input_options(options);
   if (!options.no_self_test) {
-    result.self_test = run_self_test(result.maps, options.seed, progress_of(options));
+    result.self_test = run_self_test(result.maps, options.seed, progress);
   }
   return result;
 }
