@@ -12,7 +12,18 @@
 #include <string_view>
 #include <vector>
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+/// A sanitizer reserves terabytes of addresses, and keeps what was freed for a while: neither
+/// limits nor peaks of memory say anything of the program.
+inline constexpr bool kHasOwnMemory = false;
+#else
+inline constexpr bool kHasOwnMemory = true;
+#endif
+
 namespace lightproof::test {
+
+/// How long a program may take: under a sanitizer everything takes ten times as long.
+inline constexpr std::chrono::seconds kPatience{kHasOwnMemory ? 120 : 900};
 
 /// Which stream of the program is a terminal; the other one is a pipe.
 enum class Terminal { none, on_stdout, on_stderr };
@@ -49,7 +60,7 @@ class Process {
   /// Reads until stderr holds the text. False if the program ended or the time was over first.
   bool wait_for_err(std::string_view text, std::chrono::seconds limit);
   /// Reads until both streams end and the program exits. Throws std::runtime_error after `limit`.
-  Finished wait(std::chrono::seconds limit = std::chrono::seconds(120));
+  Finished wait(std::chrono::seconds limit = kPatience);
 
  private:
   using Clock = std::chrono::steady_clock;

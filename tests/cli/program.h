@@ -12,14 +12,6 @@
 #include "tests/cli/process.h"
 #include "tests/image/picture_files.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-/// A sanitizer reserves terabytes of addresses, and keeps what was freed for a while: neither
-/// limits nor peaks of memory say anything of the program.
-inline constexpr bool kHasOwnMemory = false;
-#else
-inline constexpr bool kHasOwnMemory = true;
-#endif
-
 namespace lightproof::test {
 
 using Words = std::vector<std::string>;
