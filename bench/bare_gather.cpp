@@ -69,9 +69,9 @@ class BareGatherKernel {
 
 std::uint64_t read(std::span<const std::uint16_t> numbers, std::size_t texels,
                    const BatchPoints& points, std::size_t count) {
-  BareGatherKernel lanes(numbers, texels);
-  draw_vectors(lanes, points, count, std::size_t{0});
-  return lanes.sum();
+  BareGatherKernel kernel(numbers, texels);
+  draw_vectors(kernel, points, count, std::size_t{0});
+  return kernel.sum();
 }
 
 #endif

@@ -14,7 +14,7 @@ namespace lightproof::bench {
 
 class UpperBoundBaseline {
  public:
-  /// Of the luminances, as a density over (s,t).
+  /// A table of the luminances, as a density over (s,t).
   explicit UpperBoundBaseline(const EnvironmentMap& map) : extent_(map.radiance.extent()) {
     std::vector<double> row_weights;
     for (int y = 0; y < extent_.height; ++y) {

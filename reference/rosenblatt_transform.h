@@ -25,8 +25,8 @@ struct RosenblattPoint {
 
 class RosenblattTransform {
  public:
-  /// Of texel masses that sum to 1; uniform inside a texel in s, and in t or cos(theta) by the
-  /// density space.
+  /// The transform of a density given by texel masses that sum to 1; uniform inside a texel in s,
+  /// and in t or cos(theta) by the density space.
   RosenblattTransform(const Grid<double>& masses, DensitySpace density_space);
 
   /// `at` lies in texel (x, y).

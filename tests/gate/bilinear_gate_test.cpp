@@ -8,19 +8,14 @@
 
 #include "lightproof/gate/gate.h"
 #include "lightproof/image/synthetic.h"
+#include "tests/gate/rejections.h"
 
 namespace lightproof {
 namespace {
 
 constexpr Extent kExtent = {128, 64};
 
-std::vector<std::string> rejections(const GateResult& result) {
-  std::vector<std::string> names;
-  for (const TestRecord& test : result.tests) {
-    if (test.outcome == Outcome::reject) names.push_back(full_name(test.test));
-  }
-  return names;
-}
+using test::rejections;
 
 GateResult gate(const EnvironmentMap& map, const SamplerUnderTest& under_test,
                 std::uint64_t samples = std::uint64_t{1} << 18U) {

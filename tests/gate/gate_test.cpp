@@ -18,19 +18,14 @@
 #include "lightproof/gate/sequential_gate.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/report/json.h"
+#include "tests/gate/rejections.h"
 
 namespace lightproof {
 namespace {
 
 constexpr Extent kExtent = {128, 64};
 
-std::vector<std::string> rejections(const GateResult& result) {
-  std::vector<std::string> names;
-  for (const TestRecord& test : result.tests) {
-    if (test.outcome == Outcome::reject) names.push_back(full_name(test.test));
-  }
-  return names;
-}
+using test::rejections;
 
 GateResult run_gate_on(std::span<const TestCase> test_cases) {
   return run_gate(test_cases, {.samples = 1024});

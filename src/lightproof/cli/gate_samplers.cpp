@@ -56,7 +56,8 @@ void add_named(ChosenSamplers& chosen, const std::string& name) {
   }
 }
 
-/// Of directions that were named together with maps or a density, which they have no use for.
+/// Throws InputError if samplers of directions were named together with maps or a density, which
+/// they have no use for.
 void settle_named_directions(const SamplerChoice& choice, ChosenSamplers& chosen) {
   if (chosen.of_directions.empty()) return;
   const std::string names = listed(names_of(chosen.of_directions));

@@ -53,6 +53,16 @@ std::vector<Entry> sampler_entries() {
   return entries;
 }
 
+std::vector<Entry> estimator_entries() {
+  std::vector<Entry> entries;
+  for (const EstimatorInfo& info : estimators()) {
+    entries.push_back({std::string(info.name),
+                       fmt::format("{}; {}, {} ({})", info.description, to_string(info.kind),
+                                   info.is_biased ? "biased" : "unbiased", info.source)});
+  }
+  return entries;
+}
+
 std::vector<Entry> mutant_entries() {
   std::vector<Entry> entries;
   for (const Mutant& mutant : mutants()) {
@@ -75,7 +85,7 @@ std::vector<Entry> entries_of(const std::string& registry) {
   if (registry == "presets") return described(presets());
   if (registry == "materials") return described(materials());
   if (registry == "receivers") return described(receivers());
-  return described(estimators());
+  return estimator_entries();
 }
 
 const std::vector<std::string> kRegistries = {"samplers",  "mutants",   "maps",      "presets",

@@ -10,8 +10,8 @@ namespace lightproof {
 /// from any thread.
 using Progress = std::function<void(std::string_view step, double fraction)>;
 
-/// The same progress under one name, whatever the steps inside are called. The text of `step` must
-/// outlive it.
+/// A progress that reports every step of `whole` as `step`, whatever the steps inside are called.
+/// The text of `step` must outlive it.
 inline Progress named(const Progress& whole, std::string_view step) {
   if (!whole) return {};
   return [whole, step](std::string_view /*inner*/, double fraction) { whole(step, fraction); };

@@ -246,7 +246,8 @@ bool samples_depend(const Verdicts& verdicts) {
   return uniform && verdicts.any_rejected(kRunSums);
 }
 
-/// Of a pdf that is not the density that is drawn, which is the declared one.
+/// The name of a defect of the pdf alone: samples follow the declared density, and the pdf is
+/// another.
 Name name_of_wrong_pdf(const ScoredAlternatives& distributions, const Expectation& expectation,
                        const Evidence& evidence, const Verdicts& verdicts) {
   const Inspection& inspection = *evidence.inspection;

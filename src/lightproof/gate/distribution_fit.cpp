@@ -98,7 +98,7 @@ double distance(const Grid<double>& a, const Grid<double>& b) {
 
 void for_each_holding_grids(std::size_t count, const Expectation& expectation,
                             const std::function<void(std::size_t)>& body) {
-  /// Of 2048 x 1024, beyond which one grid takes 16 MiB.
+  /// The texels of a map of 2048 x 1024, beyond which one grid takes more than 16 MiB.
   constexpr std::size_t kMostTexels = std::size_t{1} << 21U;
   if (expectation.masses.values().size() <= kMostTexels) return parallel_for(count, body);
   for (std::size_t i = 0; i < count; ++i) body(i);

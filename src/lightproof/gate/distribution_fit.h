@@ -70,7 +70,7 @@ DistributionFit likeliest_distribution(std::span<const Alternative> alternatives
 /// times their number.
 double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectation& expectation);
 
-/// The same of the declared distribution.
+/// log10_fit() of the declared distribution.
 double log10_fit_of_declared(const Draws& draws, const Expectation& expectation);
 
 /// The smallest p-value (log10) of goodness of fit of texels, rows, columns and the worst texel,

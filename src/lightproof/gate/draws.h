@@ -49,7 +49,8 @@ struct Draws {
   Grid<std::uint64_t> pairs;  ///< of (conditional, marginal) over kPairBins
   SuccessiveCounts successive;
   std::uint64_t repeats = 0;  ///< samples at exactly the position of the one before
-  /// Of the shares of row and cell that reference::RosenblattPoint names, a row of counts for every
+  /// Counts of positions within the texel, by the shares of row and cell that
+  /// reference::RosenblattPoint names, a row of counts for every
   /// band of the expectation.
   Grid<std::uint64_t> positions;
   /// Samples whose marginal, or conditional, coordinate is all but a multiple of 2^-20.

@@ -67,8 +67,8 @@ struct Inspection {
   /// not the pdf of the sample's own position; none if there is no such point or position.
   std::optional<std::string_view> returned_pdf_of;
   bool has_pdf = true;       ///< as the BoundSampler
-  bool has_weights = true;   ///< likewise
-  bool takes_points = true;  ///< likewise
+  bool has_weights = true;   ///< as the BoundSampler
+  bool takes_points = true;  ///< as the BoundSampler
 };
 Inspection inspect(const BoundSampler& sampler, const Expectation& expectation,
                    const MassRounding& rounding);

@@ -11,29 +11,18 @@
 #include "lightproof/core/out_of_memory.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/gate/diagnosis.h"
+#include "lightproof/gate/judge.h"
 #include "lightproof/gate/records.h"
 #include "lightproof/gate/test_run.h"
-#include "lightproof/stats/family.h"
-#include "lightproof/stats/tails.h"
 
 namespace lightproof {
 namespace {
 
 /// Samples of the second stage, in those of the first.
 constexpr std::uint64_t kSecondStage = 4;
-/// Probability with which an effect as large as the minimum detectable one is seen in each stage.
-constexpr double kStagePower = 0.5 * (1.0 + kDetectionPower);
-
-double immediate_level_of(const GateOptions& options, std::size_t tests) {
-  // What is rejected immediately lies below the screening level as well.
-  return std::min({options.immediate_level, options.screening_level,
-                   0.5 * strictest_level(options.family_alpha, tests)});
-}
-
 bool is_rejected(const TestRecord& record) { return record.outcome == Outcome::reject; }
 
-/// The records of one run, and the draws behind them if they may be needed for a
-/// diagnosis.
+/// The records of one run, and the draws behind them if they may be needed for a diagnosis.
 struct RunState {
   std::vector<Measured> tests;
   std::optional<Draws> draws;
@@ -90,10 +79,7 @@ RunState run_first(const TestRun& run, const SharedDraws& shared, double screeni
                                                       : nullptr));
   const std::uint64_t confirmation =
       confirmation_samples(sampler, samples, kSecondStage * shared.samples);
-  for (Measured& test : state.tests) {
-    test.first_samples = static_cast<double>(samples);
-    test.confirmation_samples = confirmation;
-  }
+  for (Measured& test : state.tests) test.stages = {samples, confirmation};
   const bool clean = std::all_of(state.tests.begin(), state.tests.end(), [&](const Measured& test) {
     const TestRecord& r = test.record;
     return r.log10_p ? *r.log10_p >= std::log10(screening_level)
@@ -102,17 +88,6 @@ RunState run_first(const TestRun& run, const SharedDraws& shared, double screeni
   if (!clean) state.draws = std::move(draws);
   return state;
 }
-
-/// The p-values of the first stage that are looked at again: in [from, to).
-struct ConfirmationRange {
-  double from;
-  double to;
-
-  bool operator()(const Measured& test) const {
-    const std::optional<double>& log10_p = test.record.log10_p;
-    return log10_p && *log10_p < std::log10(to) && *log10_p >= std::log10(from);
-  }
-};
 
 /// The tests of a run that fell below the screening level get the records of new samples in
 /// their place, and so do the tests of invalid samples, if there are any. A diagnosis counts these
@@ -134,79 +109,13 @@ void confirm(const TestRun& run, const SharedDraws& shared,
     });
     if (same == again.end() || same->record.outcome == Outcome::not_run) continue;
     if (!needs_confirmation(test) && same->record.outcome != Outcome::reject) continue;
-    const double first_samples = test.first_samples;
-    const std::uint64_t confirmation = test.confirmation_samples;
+    const StageSamples stages = test.stages;
     test = *same;
     test.record.stage = 2;
-    test.first_samples = first_samples;
-    test.confirmation_samples = confirmation;
+    test.stages = stages;
   }
   state.draws = std::move(draws);
 }
-
-/// Turns p-values into outcomes, and says what would have been found.
-class Judge {
- public:
-  Judge(const GateOptions& options, std::size_t tests)
-      : screening_level_(options.screening_level),
-        immediate_level_(immediate_level_of(options, tests)),
-        second_alpha_(0.5 * options.family_alpha),
-        second_level_(strictest_level(second_alpha_, tests)),
-        family_(tests),
-        must_detect_(options.must_detect) {}
-
-  ConfirmationRange confirmation() const { return {immediate_level_, screening_level_}; }
-
-  void operator()(std::span<Measured* const> tests) const {
-    std::vector<double> second;
-    for (const Measured* test : tests) {
-      const TestRecord& record = test->record;
-      if (record.stage == 2 && record.log10_p) second.push_back(*record.log10_p);
-    }
-    const std::vector<bool> rejected = holm_rejections(second, second_alpha_, family_);
-    std::size_t next = 0;
-    for (Measured* test : tests) {
-      TestRecord& record = test->record;
-      record.minimum_detectable_effect = minimum_detectable_effect(*test);
-      if (!record.log10_p) continue;
-      const bool reject =
-          record.stage == 2 ? rejected[next++] : !(*record.log10_p >= std::log10(immediate_level_));
-      record.outcome = reject ? Outcome::reject : Outcome::accept;
-      if (!reject && record.minimum_detectable_effect &&
-          record.resolution_floor.value_or(0.0) > *record.minimum_detectable_effect) {
-        record.outcome = Outcome::resolution_limited;
-        record.detail = fmt::format("the sampler's own rounding makes an effect of {:.3g}",
-                                    *record.resolution_floor);
-      }
-      require_power(record, must_detect_);
-    }
-  }
-
- private:
-  /// The effect that both stages see with kStagePower each, and so together with
-  /// kDetectionPower; none where it is infinite or cannot be computed.
-  std::optional<double> minimum_detectable_effect(const Measured& test) const {
-    if (!test.minimum_detectable) return std::nullopt;
-    const double second_stage = static_cast<double>(test.confirmation_samples);
-    double effect = INFINITY;
-    const auto failure = failure_of([&] {
-      if (test.confirmation_samples == 0) {
-        effect = test.minimum_detectable(immediate_level_, kDetectionPower, test.first_samples);
-        return;
-      }
-      effect = std::max(test.minimum_detectable(screening_level_, kStagePower, test.first_samples),
-                        test.minimum_detectable(second_level_, kStagePower, second_stage));
-    });
-    return !failure && std::isfinite(effect) ? std::optional(effect) : std::nullopt;
-  }
-
-  double screening_level_;
-  double immediate_level_;
-  double second_alpha_;
-  double second_level_;  ///< of Holm's strictest test
-  std::size_t family_;
-  double must_detect_;
-};
 
 /// Exact sides of test cases, each computed when it is first asked for. They are kept while all of
 /// them together have few enough texels; beyond that they last as long as whoever asked.
@@ -251,9 +160,10 @@ auto with_memory_for(const TestCase& test_case, std::string_view sampler, const 
 }
 
 /// Test cases, and what is known of their instances.
-class Run {
+class TwoStages {
  public:
-  Run(std::span<const TestCase> test_cases, const GateOptions& options, const Progress& progress)
+  TwoStages(std::span<const TestCase> test_cases, const GateOptions& options,
+            const Progress& progress)
       : test_cases_(test_cases), options_(options), progress_(progress), expectations_(test_cases) {
     for (const TestCase& test_case : test_cases) states_.emplace_back(test_case.instances.size());
   }
@@ -393,7 +303,7 @@ class Run {
 
 GateResult run_gate(std::span<const TestCase> test_cases, const GateOptions& options,
                     const Progress& progress) {
-  return Run(test_cases, options, progress)();
+  return TwoStages(test_cases, options, progress)();
 }
 
 GateResult run_gate(std::span<const EnvironmentMap> maps,

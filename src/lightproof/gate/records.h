@@ -61,7 +61,7 @@ class Records {
   /// The step of the sampler's sums makes an effect of this size by itself.
   void set_resolution_floor(double effect);
 
-  /// Of the record that was added last.
+  /// Says why, in words, of the record that was added last.
   void set_detail(std::string detail);
 
   std::vector<Measured> take() { return std::move(records_); }

@@ -21,8 +21,9 @@ struct SamplerUnderTest {
   /// The map outlives what is bound to it. Throws InputError if the map is black.
   std::function<BoundSampler(const EnvironmentMap&)> bind;
   double resolution = 0x1p-24;  ///< as a SamplerInstance's
-  bool inverts_rows = false;    ///< likewise
-  /// Of its probabilities, on a map of this size; null: it claims the declared density exactly.
+  bool inverts_rows = false;    ///< as a SamplerInstance's
+  /// The rounding of its probabilities on a map of this size; null: it claims the declared density
+  /// exactly.
   MassRounding (*rounding)(Extent map) = nullptr;
 };
 

@@ -32,14 +32,18 @@ TestRecord record_of(const TestRun& run, TestId test, std::uint64_t samples);
 /// not have seen a deviation of this size.
 void require_power(TestRecord& record, double must_detect);
 
+/// How many samples a test gets in each stage of the gate.
+struct StageSamples {
+  std::uint64_t screening = 0;
+  std::uint64_t confirmation = 0;  ///< should it come to that; 0: the source has none left
+};
+
 /// What a test found, and what it would find.
 struct Measured {
   TestRecord record;
   /// The effect that is found with `power` by a test of size `level`; empty for exact checks.
   std::function<double(double level, double power, double samples)> minimum_detectable = {};
-  double first_samples = 0.0;  ///< that were drawn in the screening stage
-  /// Of the confirmation stage, should it come to that; 0: the source has none left.
-  std::uint64_t confirmation_samples = 0;
+  StageSamples stages = {};
 };
 
 /// Draws so many samples for a purpose that names their stream, or, of a source that has an order
@@ -71,7 +75,7 @@ std::vector<Measured> test_against_reference(
     const TestRun& run, const Draws& draws,
     const std::optional<ReferenceDraws>& reference_implementation);
 
-/// Of all samples drawn: does each lie where it may?
+/// Two tests of all samples drawn: is any out of the domain, or of zero density?
 std::vector<Measured> test_validity(const TestRun& run, const Draws& draws);
 
 /// The checks that need no statistics; `reference_implementation` is null if the test case has

@@ -148,35 +148,35 @@ class PhongKernel {
   Frame mirrored_;  ///< around the mirrored view
 };
 
-HWY_INLINE LambertKernel lanes_of(const Lambert& material, const ShadingPoint& at) {
+HWY_INLINE LambertKernel kernel_of(const Lambert& material, const ShadingPoint& at) {
   return {material, at};
 }
-HWY_INLINE PhongKernel lanes_of(const ModifiedPhong& material, const ShadingPoint& at) {
+HWY_INLINE PhongKernel kernel_of(const ModifiedPhong& material, const ShadingPoint& at) {
   return {material, at};
 }
 
 /// Whole vectors from the front; returns how many directions that were.
 template <class Kernel>
-HWY_INLINE std::size_t evaluate_vectors(const Kernel& lanes, const DirectionArrays& light,
+HWY_INLINE std::size_t evaluate_vectors(const Kernel& kernel, const DirectionArrays& light,
                                         std::span<double> out) {
   const Numbers d;
   std::size_t i = 0;
   for (; i + hn::Lanes(d) <= out.size(); i += hn::Lanes(d)) {
     const Directions at = {hn::LoadU(d, light.x.data() + i), hn::LoadU(d, light.y.data() + i),
                            hn::LoadU(d, light.z.data() + i)};
-    hn::StoreU(lanes.evaluate(at).reflected_cosine, d, out.data() + i);
+    hn::StoreU(kernel.evaluate(at).reflected_cosine, d, out.data() + i);
   }
   return i;
 }
 
 template <class Kernel>
-HWY_INLINE std::size_t sample_vectors(const Kernel& lanes, std::span<const double> s,
+HWY_INLINE std::size_t sample_vectors(const Kernel& kernel, std::span<const double> s,
                                       std::span<const double> t, const MaterialSamples& samples) {
   const Numbers d;
   std::size_t i = 0;
   for (; i + hn::Lanes(d) <= s.size(); i += hn::Lanes(d)) {
-    const Directions light = lanes.draw(hn::LoadU(d, s.data() + i), hn::LoadU(d, t.data() + i));
-    const Scatterings scattering = lanes.evaluate(light);
+    const Directions light = kernel.draw(hn::LoadU(d, s.data() + i), hn::LoadU(d, t.data() + i));
+    const Scatterings scattering = kernel.evaluate(light);
     hn::StoreU(light.x, d, samples.x.data() + i);
     hn::StoreU(light.y, d, samples.y.data() + i);
     hn::StoreU(light.z, d, samples.z.data() + i);
@@ -189,7 +189,7 @@ HWY_INLINE std::size_t sample_vectors(const Kernel& lanes, std::span<const doubl
 std::size_t evaluate_front(const Material& material, const ShadingPoint& at,
                            const DirectionArrays& light, std::span<double> out) {
   return std::visit([&](const auto& surface)
-                        HWY_ATTR { return evaluate_vectors(lanes_of(surface, at), light, out); },
+                        HWY_ATTR { return evaluate_vectors(kernel_of(surface, at), light, out); },
                     material);
 }
 
@@ -197,7 +197,7 @@ std::size_t sample_front(const Material& material, const ShadingPoint& at,
                          std::span<const double> s, std::span<const double> t,
                          const MaterialSamples& samples) {
   return std::visit([&](const auto& surface)
-                        HWY_ATTR { return sample_vectors(lanes_of(surface, at), s, t, samples); },
+                        HWY_ATTR { return sample_vectors(kernel_of(surface, at), s, t, samples); },
                     material);
 }
 

@@ -139,18 +139,24 @@ TestRecord worst_run_of(const Sight& sight) {
   return record;
 }
 
+Cell with_tooltip(Cell cell, std::string_view tooltip) {
+  cell.tooltip = tooltip;
+  return cell;
+}
+
 std::string sight_table(const GateResult& gate) {
   Table table("What each kind of test saw and could have seen",
               {"Oracle", "Test", "Runs", "Rejected", "Inconclusive", "Not run",
                "Minimum detectable effect, worst run"});
   for (const Sight& s : sights(gate)) {
-    table.add({text_cell(std::string(to_string(describe(s.test).oracle))),
-               text_cell(std::string(describe(s.test).name)),
+    const TestDescription& test = describe(s.test);
+    table.add({text_cell(std::string(to_string(test.oracle))),
+               {std::string(test.name), "", std::string(test.counts)},
                {with_thousands(s.tally.tests), "number", ""},
                {with_thousands(s.tally.rejected), "number", ""},
                {with_thousands(s.tally.inconclusive), "number", ""},
                {with_thousands(s.tally.not_run), "number", ""},
-               minimum_detectable_cell(worst_run_of(s))});
+               with_tooltip(minimum_detectable_cell(worst_run_of(s)), meaning_of(test.effect))});
   }
   return table.html();
 }

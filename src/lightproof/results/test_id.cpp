@@ -1,6 +1,5 @@
 #include "lightproof/results/test_id.h"
 
-#include <algorithm>
 #include <array>
 
 namespace lightproof {
@@ -157,13 +156,6 @@ const TestDescription& describe(TestId test) { return kTests[static_cast<std::si
 std::string full_name(TestId test) {
   const TestDescription& row = describe(test);
   return std::string(to_string(row.oracle)).append("/").append(row.name);
-}
-
-std::optional<TestId> test_by_full_name(std::string_view name) {
-  const auto row = std::find_if(kTests.begin(), kTests.end(), [&](const TestDescription& test) {
-    return full_name(test.id) == name;
-  });
-  return row == kTests.end() ? std::nullopt : std::optional(row->id);
 }
 
 }  // namespace lightproof

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -111,8 +110,5 @@ std::string full_name(TestId test);
 constexpr bool decides_power(TestId test) {
   return test == TestId::bins || test == TestId::sequential;
 }
-
-/// The test whose full_name() this is.
-std::optional<TestId> test_by_full_name(std::string_view name);
 
 }  // namespace lightproof
