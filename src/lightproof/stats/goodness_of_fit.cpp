@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lightproof/core/memo.h"
 #include "lightproof/stats/tails.h"
 
 namespace lightproof {
@@ -157,8 +158,14 @@ double minimum_detectable_excess(const WorstCell& worst, double level, double po
                                  double samples) {
   const double mean = worst.likeliest * samples;
   if (!(mean > 0.0)) return HUGE_VAL;
-  const double count = critical_count(mean, 0.5 * level / static_cast<double>(worst.cells));
-  const double excess = poisson_mean_reaching(count, power) / mean - 1.0;
+  // The samplers of a density share it.
+  static Memo<3> memo;
+  const double excess =
+      memo({mean, 0.5 * level / static_cast<double>(worst.cells), power}, [](const auto& argument) {
+        const auto& [expected, cell_level, cell_power] = argument;
+        return poisson_mean_reaching(critical_count(expected, cell_level), cell_power) / expected -
+               1.0;
+      });
   return (1.0 + excess) * worst.likeliest <= 1.0 ? excess : HUGE_VAL;
 }
 

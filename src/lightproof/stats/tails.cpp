@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lightproof/core/memo.h"
 #include "lightproof/stats/saddle_point.h"
 
 namespace lightproof {
@@ -103,9 +104,13 @@ double log10_normal_tails(double z) {
 }
 
 double minimum_detectable_noncentrality(double dof, double alpha, double power) {
-  const boost::math::chi_squared central(dof);
-  return noncentrality_beyond(dof, boost::math::quantile(boost::math::complement(central, alpha)),
-                              power);
+  // The tests of many runs share few of these, and each takes some hundred microseconds.
+  static Memo<3> memo;
+  return memo({dof, alpha, power}, [&](const auto& /*argument*/) {
+    const boost::math::chi_squared central(dof);
+    return noncentrality_beyond(dof, boost::math::quantile(boost::math::complement(central, alpha)),
+                                power);
+  });
 }
 
 double noncentrality_beyond(double dof, double critical, double probability) {

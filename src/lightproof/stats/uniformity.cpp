@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "lightproof/core/memo.h"
 #include "lightproof/stats/tails.h"
 
 namespace lightproof {
@@ -57,8 +58,7 @@ double anderson_darling_cdf(double a) {
 }
 
 /// Where a decreasing tail reaches `log10_p`.
-template <class Tail>
-double critical_value(const Tail& tail, double log10_p) {
+double find_critical_value(double (*tail)(double), double log10_p) {
   double low = 0.0;
   double high = 1.0;
   while (tail(high) > log10_p) high *= 2.0;
@@ -69,28 +69,42 @@ double critical_value(const Tail& tail, double log10_p) {
   return high;
 }
 
+double critical_kuiper(double level) {
+  static Memo<1> memo;
+  return memo({level}, [](const auto& arguments) {
+    return find_critical_value(log10_kuiper_tail, std::log10(arguments[0]));
+  });
+}
+
+double critical_anderson_darling(double level) {
+  static Memo<1> memo;
+  return memo({level}, [](const auto& arguments) {
+    return find_critical_value(log10_anderson_darling_tail, std::log10(arguments[0]));
+  });
+}
+
 /// The standard normal quantile of `power`.
 double quantile(double power) { return minimum_detectable_z(1.0, power); }
 
 }  // namespace
 
 double minimum_detectable_kuiper_distance(double level, double power, double samples) {
-  const double critical = critical_value(log10_kuiper_tail, std::log10(level));
+  const double critical = critical_kuiper(level);
   return (critical + 0.5 * quantile(power)) / std::sqrt(samples);
 }
 
 double kuiper_power(double distance, double level, double samples) {
-  const double critical = critical_value(log10_kuiper_tail, std::log10(level));
+  const double critical = critical_kuiper(level);
   return normal_cdf(2.0 * (distance * std::sqrt(samples) - critical));
 }
 
 double anderson_darling_power(double distance, double level, double samples) {
-  const double critical = critical_value(log10_anderson_darling_tail, std::log10(level));
+  const double critical = critical_anderson_darling(level);
   return normal_cdf(std::numbers::sqrt2 * (distance * std::sqrt(samples) - std::sqrt(critical)));
 }
 
 double minimum_detectable_anderson_darling_distance(double level, double power, double samples) {
-  const double critical = critical_value(log10_anderson_darling_tail, std::log10(level));
+  const double critical = critical_anderson_darling(level);
   return (std::sqrt(critical) + std::sqrt(0.5) * quantile(power)) / std::sqrt(samples);
 }
 
