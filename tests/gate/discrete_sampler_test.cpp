@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "lightproof/core/random.h"
 #include "lightproof/gate/alternative_distribution.h"
 #include "lightproof/gate/expectation.h"
@@ -39,6 +43,34 @@ TEST(DiscreteSampler, DrawsTheTexelsOfTheDeclaredDistribution) {
       EXPECT_EQ(distribution.pdf(a.at).value, a.pdf.value);
     }
     EXPECT_LE(different, 2);
+  }
+}
+
+// Sizes around powers of two; cells without mass at the ends and between; all mass in one cell.
+TEST(ShareGuide, FindsTheFirstCellWhoseSumLiesAbove) {
+  const RandomStream stream("share guide", 1);
+  for (const std::size_t cells : {1U, 2U, 3U, 7U, 8U, 9U, 100U}) {
+    for (const double lit : {0.02, 0.5, 1.0}) {
+      std::vector<double> sums(cells);
+      double total = 0.0;
+      for (std::size_t i = 0; i < cells; ++i) {
+        const SquarePoint u = stream.point(i);
+        total += u.s < lit || i == cells / 2 ? std::pow(u.t, 8.0) : 0.0;
+        sums[i] = total;
+      }
+      for (double& sum : sums) sum /= total;
+      const ShareGuide guide(sums);
+      std::vector<double> points = {0.0, 0.5, 0x1.fffffffffffffp-1};
+      for (std::uint64_t i = 0; i < 200; ++i) points.push_back(stream.point(1000 + i).s);
+      for (const double sum : sums) {
+        if (sum < 1.0) points.insert(points.end(), {sum, std::nextafter(sum, 0.0)});
+      }
+      for (const double u : points) {
+        const auto above = std::upper_bound(sums.begin(), sums.end(), u);
+        EXPECT_EQ(guide.find(sums, u), static_cast<std::size_t>(above - sums.begin()))
+            << cells << " cells, u = " << u;
+      }
+    }
   }
 }
 

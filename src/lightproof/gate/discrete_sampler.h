@@ -1,12 +1,32 @@
 // A sampler of any masses, in double: what the mutants start from.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lightproof/core/grid.h"
 #include "lightproof/samplers/texel_positions.h"
 
 namespace lightproof {
+
+/// Where bisection of cumulative shares begins and ends, by the first bits of the random number
+/// (Chen and Asau 1974). Finds the cell that bisection of all of them would.
+class ShareGuide {
+ public:
+  explicit ShareGuide(std::span<const double> sums);
+
+  /// The first cell whose sum lies above u in [0,1), or the last cell; `sums` are those of the
+  /// constructor.
+  std::size_t find(std::span<const double> sums, double u) const;
+  std::size_t bytes() const { return first_.size() * sizeof(std::uint32_t); }
+
+ private:
+  /// For every multiple of 1/parts, the cell that it lies in. Parts are a power of two, so that u
+  /// times their number is exact.
+  std::vector<std::uint32_t> first_;
+};
 
 class DiscreteSampler {
  public:
@@ -34,6 +54,7 @@ class DiscreteSampler {
   std::vector<double> rows_;
   TexelSample median_;
   Grid<double> columns_;
+  std::vector<ShareGuide> guides_;  ///< of every row's columns, and of the rows
 };
 
 }  // namespace lightproof
