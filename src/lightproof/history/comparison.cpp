@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -24,9 +23,9 @@ constexpr double kLargestLead = 0.5;
 /// Distinct commits, the latest first.
 std::vector<std::string> commits_of(std::span<const BenchmarkRun> runs) {
   std::vector<std::string> commits;
-  for (const BenchmarkRun& run : std::views::reverse(runs)) {
-    if (std::find(commits.begin(), commits.end(), run.commit) == commits.end()) {
-      commits.push_back(run.commit);
+  for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
+    if (std::find(commits.begin(), commits.end(), run->commit) == commits.end()) {
+      commits.push_back(run->commit);
     }
   }
   return commits;

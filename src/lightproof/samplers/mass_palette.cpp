@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <functional>
 #include <numeric>
-#include <ranges>
 #include <span>
 #include <utility>
 
@@ -102,11 +101,13 @@ std::vector<std::size_t> brightest(std::span<const std::uint64_t> cells,
                   });
   std::size_t more = kOwnMasses - above;
   std::vector<std::size_t> own;
-  for (const std::size_t cell : std::views::join(found)) {
-    const bool one_of_some = cells[cell] < all_from;
-    if (one_of_some && more == 0) continue;
-    if (one_of_some) --more;
-    own.push_back(cell);
+  for (const std::vector<std::size_t>& of_chunk : found) {
+    for (const std::size_t cell : of_chunk) {
+      const bool one_of_some = cells[cell] < all_from;
+      if (one_of_some && more == 0) continue;
+      if (one_of_some) --more;
+      own.push_back(cell);
+    }
   }
   return own;
 }
