@@ -54,11 +54,13 @@ LevelTexel lat_long_texel_at(Extent extent, Direction direction) {
 
 std::string size_text(Extent extent) { return fmt::format("{} x {}", extent.width, extent.height); }
 
+std::string roughness_text(double roughness) { return fmt::format("{:.6g}", roughness); }
+
 /// "0, 0.125, 0.25"; empty if no level has a roughness.
 std::string roughness_list(const std::vector<MapLevel>& levels) {
   std::string text;
   for (const MapLevel& level : levels) {
-    if (level.roughness) text += fmt::format("{}{}", text.empty() ? "" : ", ", *level.roughness);
+    if (level.roughness) text += (text.empty() ? "" : ", ") + roughness_text(*level.roughness);
   }
   return text;
 }
@@ -172,7 +174,7 @@ Attributes attributes_of(const MapLevels& map, int level, int face) {
   }
   add(attributes, "level", fmt::format("{} of 0 to {}", level, map.levels.size() - 1));
   const std::optional<double> roughness = map.levels[static_cast<std::size_t>(level)].roughness;
-  add(attributes, "roughness", roughness ? fmt::format("{}", *roughness) : "");
+  add(attributes, "roughness", roughness ? roughness_text(*roughness) : "");
   return merged(std::move(attributes), map.attributes);
 }
 
