@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "lightproof/page/document.h"
@@ -88,7 +87,8 @@ Grid<Rgb> picture_of(const MapLevel& level, Projection projection) {
   if (!is_cube(projection)) return shrunk(level.faces.front(), kWidth);
   std::vector<Grid<Rgb>> faces;
   for (const Grid<Rgb>& face : level.faces) faces.push_back(shrunk(face, kWidth / 4));
-  return unfolded_cube(faces, Rgb(0.0F));
+  return unfolded_cube(faces,
+                       Rgb(std::numeric_limits<float>::infinity()));  // white at any exposure
 }
 
 /// By the level that is nearest to the environment map itself.
