@@ -155,15 +155,21 @@ Lit lit_by(const Spot& spot, Projection projection, Extent extent) {
   return lit;
 }
 
-// A spot of the size of a few texels keeps its light on whichever edge it lies. A disc of radius r
-// texels holds pi r^2 lattice points but for an error that Gauss bounded by 2 sqrt(2) pi r: on a
-// face of 64 texels r is 6 or more, so by 48 % at most, and what is missing if one of two or three
-// faces lacks its part is 1/2 or 1/3. The bound of Huxley's kind that holds for small r is far
-// tighter: a tenth.
+/// How far the lit texels may be from the spot's light, relative to it. A lit texel reaches half
+/// its diagonal beyond the spot at the most, an unlit one as far into it: what is too much or too
+/// little lies in a ring of this width, on one side.
+double light_tolerance(double radius, double half_diagonal) {
+  return (std::cos(radius) - std::cos(radius + half_diagonal)) / (1.0 - std::cos(radius));
+}
+
+constexpr double kSpotRadius = 0.5;
+const double kSpotLight = 2.0 * kPi * (1.0 - std::cos(kSpotRadius));
+
+// If a face lacked its part, a half or a third of the light would be missing.
 TEST(MapLevels, KeepTheLightOfASpotAcrossEdgesAndCorners) {
-  constexpr Extent kExtent = {64, 64};
-  constexpr double kRadius = 0.2;
-  const double light = 2.0 * kPi * (1.0 - std::cos(kRadius));
+  constexpr int kSize = 64;
+  const double tolerance = light_tolerance(kSpotRadius, std::sqrt(2.0) / kSize);
+  ASSERT_LT(tolerance, 0.1);
   int edges = 0;
   int corners = 0;
   for (int x = -1; x <= 1; ++x) {
@@ -173,10 +179,10 @@ TEST(MapLevels, KeepTheLightOfASpotAcrossEdgesAndCorners) {
         if (axes < 2) continue;
         (axes == 2 ? edges : corners) += 1;
         for (const Projection projection : {Projection::cube, Projection::mirrored_cube}) {
-          const Lit lit =
-              lit_by({glm::normalize(Direction(x, y, z)), kRadius}, projection, kExtent);
+          const Spot spot = {glm::normalize(Direction(x, y, z)), kSpotRadius};
+          const Lit lit = lit_by(spot, projection, {kSize, kSize});
           EXPECT_EQ(lit.faces.size(), static_cast<std::size_t>(axes));
-          EXPECT_NEAR(lit.light / light, 1.0, 0.1);
+          EXPECT_NEAR(lit.light / kSpotLight, 1.0, tolerance);
         }
       }
     }
@@ -187,11 +193,11 @@ TEST(MapLevels, KeepTheLightOfASpotAcrossEdgesAndCorners) {
 
 TEST(MapLevels, KeepTheLightOfASpotAcrossTheSeamAndThePoles) {
   constexpr Extent kExtent = {128, 64};
-  constexpr double kRadius = 0.3;
-  const double light = 2.0 * kPi * (1.0 - std::cos(kRadius));
+  const double tolerance = light_tolerance(kSpotRadius, std::sqrt(0.5) * kPi / 64);
+  ASSERT_LT(tolerance, 0.2);
   for (const Direction d : {Direction(-1, 0, 0), {0, 0, 1}, {0, 0, -1}}) {
-    const Lit lit = lit_by({d, kRadius}, Projection::lat_long, kExtent);
-    EXPECT_NEAR(lit.light / light, 1.0, 0.1);
+    const Lit lit = lit_by({d, kSpotRadius}, Projection::lat_long, kExtent);
+    EXPECT_NEAR(lit.light / kSpotLight, 1.0, tolerance);
   }
   // The seam is the half-plane of -x: both sides of it are lit.
   EXPECT_EQ(texel_at(Projection::lat_long, kExtent, {-1.0, 1e-3, 0.0}).column, 0);

@@ -37,9 +37,6 @@ bool is_level(const MapLevel& level, Extent extent, int faces) {
                              [&](const Grid<Rgb>& face) { return face.extent() == extent; });
 }
 
-/// The mirror image of world directions that changes (-x, z, -y) into (x, z, -y).
-Direction mirrored(Direction d) { return {-d.x, d.y, d.z}; }
-
 SquarePoint centre_of(Extent extent, LevelTexel texel) {
   return {(texel.column + 0.5) / extent.width, (extent.height - texel.row - 0.5) / extent.height};
 }

@@ -84,6 +84,10 @@ struct LevelTexel {
   friend bool operator==(LevelTexel, LevelTexel) = default;
 };
 
+/// The world direction at which Projection::cube holds what Projection::mirrored_cube holds at `d`:
+/// x with the other sign, which changes (-x, z, -y) into (x, z, -y).
+inline Direction mirrored(Direction d) { return {-d.x, d.y, d.z}; }
+
 /// World direction of the texel's centre, z up, in a level of this size.
 Direction direction_of(Projection projection, Extent extent, LevelTexel texel);
 
