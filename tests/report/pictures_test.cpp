@@ -4,6 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
+
+#include "lightproof/warp/cube.h"
 
 namespace lightproof {
 namespace {
@@ -76,6 +79,36 @@ TEST(Shrunk, AveragesWholeBlocksAndKeepsTheEdge) {
   EXPECT_EQ(small(0, 0), Rgb(2.0F));
   EXPECT_EQ(small(2, 0), Rgb(2.0F));  // a block of one column
   EXPECT_EQ(shrunk(picture, 5).extent(), picture.extent());
+}
+
+// The places where an edge of the cross is an edge of the cube, by the directions of warp/cube.h.
+TEST(UnfoldedCube, JoinsFacesWhereTheCubeDoes) {
+  constexpr int kSize = 3;
+  std::vector<Grid<Rgb>> faces;
+  for (const CubeFace face : kCubeFaces) {
+    faces.emplace_back(Extent{kSize, kSize});
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        faces.back()(x, y) = Rgb(direction_of(CubeTexel{face, x, y}, kSize));
+      }
+    }
+  }
+  const Grid<Rgb> cross = unfolded_cube(faces, Rgb(9.0F));
+  ASSERT_EQ(cross.extent(), (Extent{4 * kSize, 3 * kSize}));
+  // Centres on either side of an edge are as near as two texels beside each other in a face can be:
+  // at an angle of 2 atan(1 / (2 (size - 1/2))) at the most, here 41 degrees, its chord 0.74.
+  const auto distance = [&](int x0, int y0, int x1, int y1) {
+    return static_cast<double>(glm::length(cross(x0, y0) - cross(x1, y1)));
+  };
+  for (int i = 0; i < kSize; ++i) {
+    for (const int edge : {kSize, 2 * kSize, 3 * kSize}) {
+      EXPECT_LT(distance(edge - 1, kSize + i, edge, kSize + i), 0.74);
+    }
+    EXPECT_LT(distance(kSize + i, kSize - 1, kSize + i, kSize), 0.74);
+    EXPECT_LT(distance(kSize + i, 2 * kSize - 1, kSize + i, 2 * kSize), 0.74);
+  }
+  EXPECT_EQ(cross(0, 0), Rgb(9.0F));
+  EXPECT_EQ(cross(4 * kSize - 1, 3 * kSize - 1), Rgb(9.0F));
 }
 
 }  // namespace

@@ -10,9 +10,6 @@
 namespace lightproof {
 namespace {
 
-/// Shorter and longer scanlines are never stored as planes.
-constexpr std::size_t kLeastPlane = 8;
-constexpr std::size_t kLongestPlane = 32767;
 /// A byte above it says that the next one is repeated, so often as it is larger.
 constexpr unsigned kRun = 128;
 constexpr unsigned kLastShift = 24;

@@ -15,6 +15,10 @@
 
 namespace lightproof {
 
+/// Shorter and longer scanlines are never stored as planes.
+inline constexpr std::size_t kLeastPlane = 8;
+inline constexpr std::size_t kLongestPlane = 32767;
+
 /// Mantissas and the common exponent.
 struct RgbePixel {
   std::array<std::uint8_t, 3> mantissas;

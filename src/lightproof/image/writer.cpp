@@ -8,30 +8,12 @@
 #include "lightproof/core/atomic_file.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
-#include "lightproof/image/open_image_io.h"
+#include "lightproof/image/exr_writer.h"
+#include "lightproof/image/open_image_io_encode.h"
+#include "lightproof/image/png_text.h"
 
 namespace lightproof {
 namespace {
-
-using Bytes = std::vector<unsigned char>;
-
-/// A picture in the format of that name, encoded in memory: the file itself is then written by
-/// write_file(), which notices a full disk, and OpenEXR's destructors, which do not, are kept away
-/// from it.
-Bytes encode(const std::string& format, const OIIO::ImageSpec& spec, const void* pixels) {
-  Bytes bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const auto out = OIIO::ImageOutput::create(format);
-  if (!out) throw InputError(fmt::format("cannot write {}: {}", format, OIIO::geterror()));
-  const bool done = out->set_ioproxy(&memory) && out->open("." + format, spec) &&
-                    out->write_image(spec.format, pixels) && out->close();
-  if (!done) throw InputError(fmt::format("cannot write {}: {}", format, out->geterror()));
-  return bytes;
-}
-
-std::string_view as_text(const Bytes& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
 
 void require_finite(const std::filesystem::path& file, const Grid<Rgb>& picture) {
   for (int y = 0; y < picture.extent().height; ++y) {
@@ -52,7 +34,18 @@ std::uint8_t quantised(float v) {
                   : std::uint8_t{0};
 }
 
-Bytes encode_png(const Grid<Rgb>& picture) {
+}  // namespace
+
+void write_exr(const std::filesystem::path& file, const Grid<Rgb>& picture) {
+  require_finite(file, picture);
+  write_file(file, exr_bytes(picture));
+}
+
+void write_png(const std::filesystem::path& file, const Grid<Rgb>& picture) {
+  write_file(file, png_bytes(picture));
+}
+
+std::string png_bytes(const Grid<Rgb>& picture, const Attributes& attributes) {
   std::vector<std::uint8_t> pixels;
   pixels.reserve(3 * picture.values().size());
   for (const Rgb rgb : picture.values()) {
@@ -60,25 +53,7 @@ Bytes encode_png(const Grid<Rgb>& picture) {
   }
   OIIO::ImageSpec spec(picture.extent().width, picture.extent().height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  return encode("png", spec, pixels.data());
-}
-
-}  // namespace
-
-void write_exr(const std::filesystem::path& file, const Grid<Rgb>& picture) {
-  require_finite(file, picture);
-  OIIO::ImageSpec spec(picture.extent().width, picture.extent().height, 3, OIIO::TypeDesc::FLOAT);
-  spec.attribute("compression", "zip");
-  spec.attribute("DateTime", "");  // the same picture gives the same bytes
-  write_file(file, as_text(encode("openexr", spec, picture.values().data())));
-}
-
-void write_png(const std::filesystem::path& file, const Grid<Rgb>& picture) {
-  write_file(file, as_text(encode_png(picture)));
-}
-
-std::string png_bytes(const Grid<Rgb>& picture) {
-  return std::string(as_text(encode_png(picture)));
+  return with_text(encode("png", spec, pixels.data()), attributes);
 }
 
 Grid<Rgb> flip_rows(const Grid<Rgb>& grid) {

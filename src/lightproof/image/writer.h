@@ -6,6 +6,7 @@
 
 #include "lightproof/core/direction.h"
 #include "lightproof/core/grid.h"
+#include "lightproof/image/attribute.h"
 
 namespace lightproof {
 
@@ -16,8 +17,8 @@ void write_exr(const std::filesystem::path& file, const Grid<Rgb>& picture);
 /// 8-bit PNG of values in [0,1] that are sRGB-encoded already; out-of-range values are clamped.
 void write_png(const std::filesystem::path& file, const Grid<Rgb>& picture);
 
-/// The same PNG as bytes in memory.
-std::string png_bytes(const Grid<Rgb>& picture);
+/// The same PNG as bytes in memory, with attributes as texts of its header.
+std::string png_bytes(const Grid<Rgb>& picture, const Attributes& attributes = {});
 
 /// The rows of a map or picture in reverse order: map to picture and back.
 Grid<Rgb> flip_rows(const Grid<Rgb>& grid);

@@ -21,29 +21,37 @@ std::string script(std::string_view code) {
   return "<script>" + script_safe_code(code) + "</script>\n";
 }
 
-std::string footer(std::string_view version) {
-  return fmt::format(
-             "<footer>\n<p>Made by Lightproof {}. Charts are drawn by Vega, Vega-Lite and "
-             "Vega-Embed (BSD 3-clause licence).</p>\n",
-             escaped(version)) +
+std::string footer(std::string_view version, Charts charts) {
+  const std::string made_by = fmt::format("Made by Lightproof {}.", escaped(version));
+  if (charts == Charts::none) return "<footer>\n<p>" + made_by + "</p>\n</footer>\n";
+  return "<footer>\n<p>" + made_by +
+         " Charts are drawn by Vega, Vega-Lite and Vega-Embed (BSD 3-clause licence).</p>\n" +
          collapsible("Licences of the chart libraries in this file",
                      "<pre>" + escaped(embedded::licences()) + "</pre>\n") +
          "</footer>\n";
 }
 
-std::string scripts() {
-  return script(embedded::vega()) + script(embedded::vega_lite()) + script(embedded::vega_embed()) +
-         script(embedded::page_js());
+std::string scripts(Charts charts) {
+  const std::string libraries = charts == Charts::none
+                                    ? ""
+                                    : script(embedded::vega()) + script(embedded::vega_lite()) +
+                                          script(embedded::vega_embed());
+  return libraries + script(embedded::page_js());
+}
+
+std::string_view without_scripts(Charts charts) {
+  if (charts == Charts::none) return "";
+  return "<noscript><p class=\"empty\">The charts need JavaScript; every number is also in the "
+         "tables and CSV files.</p></noscript>\n";
 }
 
 }  // namespace
 
 std::string html_document(std::string_view title, std::string_view navigation_html,
-                          std::string_view body_html, std::string_view version) {
+                          std::string_view body_html, std::string_view version, Charts charts) {
   return head(title) + std::string(navigation_html) + "<main>\n" + std::string(body_html) +
-         "<noscript><p class=\"empty\">The charts need JavaScript; every number is also in the "
-         "tables and CSV files.</p></noscript>\n</main>\n" +
-         footer(version) + scripts() + "</body>\n</html>\n";
+         std::string(without_scripts(charts)) + "</main>\n" + footer(version, charts) +
+         scripts(charts) + "</body>\n</html>\n";
 }
 
 }  // namespace lightproof

@@ -1,7 +1,6 @@
 // The maps as pictures, with samples drawn over them.
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 
 #include "lightproof/image/writer.h"
@@ -9,6 +8,7 @@
 #include "lightproof/page/numbers.h"
 #include "lightproof/report/csv.h"
 #include "lightproof/report/findings.h"
+#include "lightproof/report/picture_html.h"
 #include "lightproof/report/pictures.h"
 #include "lightproof/report/sections.h"
 
@@ -17,15 +17,7 @@ namespace {
 
 constexpr int kWidth = 640;  // pixels of the large picture, at most
 constexpr int kThumbnailWidth = 256;
-constexpr std::array<int, 3> kStops = {-3, 0, 3};
 constexpr double kUnits = 1000.0;  // width of the overlay's coordinate system
-
-std::string image(const Grid<Rgb>& linear, double scale, std::string_view alternative) {
-  const Extent size = linear.extent();
-  return fmt::format("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">",
-                     data_uri("image/png", png_bytes(tone_mapped(linear, scale))), size.width,
-                     size.height, escaped(alternative));
-}
 
 /// Zero-length strokes with round caps are dots whose size does not depend on the picture's.
 std::string dots(const std::vector<SquarePoint>& drawn, double height) {
@@ -45,23 +37,6 @@ std::string overlay(const MapRecord& record) {
       "<svg class=\"samples\" viewBox=\"0 0 {} {:.1f}\" preserveAspectRatio=\"none\" "
       "aria-hidden=\"true\"><path class=\"edge\" d=\"{}\"/><path class=\"core\" d=\"{}\"/></svg>",
       kUnits, height, path, path);
-}
-
-std::string stop_text(int stops) {
-  return stops == 0 ? "0 EV" : fmt::format("{}{} EV", stops < 0 ? "\u2212" : "+", std::abs(stops));
-}
-
-std::string thumbnails(const MapRecord& record, const Grid<Rgb>& picture, double scale) {
-  const Grid<Rgb> small = shrunk(picture, kThumbnailWidth);
-  std::string html = "<div class=\"exposures\">\n";
-  for (const int stops : kStops) {
-    const std::string text = stop_text(stops);
-    html += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
-                        image(small, scale * std::exp2(stops),
-                              fmt::format("{} exposed at {}", record.map.name, text)),
-                        text);
-  }
-  return html + "</div>\n";
 }
 
 std::string quantities(const MapRecord& record) {
@@ -85,9 +60,10 @@ std::string map_figure(const MapRecord& record) {
       fmt::format("Environment map {}, with {} drawn over it", record.map.name,
                   counted(record.drawn.size(), "sample"));
   return fmt::format("<figure class=\"map\">\n<h3>{}</h3>\n<div class=\"picture\">{}{}</div>\n",
-                     escaped(record.map.name), image(shrunk(picture, kWidth), scale, alternative),
+                     escaped(record.map.name),
+                     image_html(tone_mapped(shrunk(picture, kWidth), scale), alternative),
                      overlay(record)) +
-         thumbnails(record, picture, scale) +
+         exposures_html(shrunk(picture, kThumbnailWidth), scale, record.map.name) +
          fmt::format("<figcaption>{}</figcaption>\n",
                      escaped(quantities(record) + map_finding(record))) +
          notes(record.map.notes) + "</figure>\n";

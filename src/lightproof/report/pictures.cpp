@@ -1,10 +1,13 @@
 #include "lightproof/report/pictures.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <vector>
 
 #include "lightproof/image/environment_map.h"
+#include "lightproof/image/srgb.h"
 
 namespace lightproof {
 namespace {
@@ -18,15 +21,6 @@ constexpr Rgb kNegative = {0.129F, 0.400F, 0.675F};
 constexpr Rgb kNeutral = {1.0F, 1.0F, 1.0F};
 constexpr Rgb kPositive = {0.698F, 0.094F, 0.169F};
 constexpr Rgb kUndefined = {0.5F, 0.5F, 0.5F};
-
-/// IEC 61966-2-1.
-float srgb_encoded(double linear) {
-  if (!(linear > 0.0)) return 0.0F;
-  if (linear >= 1.0) return 1.0F;
-  const double encoded =
-      linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-  return static_cast<float>(encoded);
-}
 
 bool counts(double luminance) { return luminance > 0.0 && std::isfinite(luminance); }
 
@@ -81,8 +75,8 @@ Grid<Rgb> tone_mapped(const Grid<Rgb>& picture, double scale) {
   std::transform(picture.values().begin(), picture.values().end(), mapped.values().begin(),
                  [scale](const Rgb& rgb) {
                    const glm::dvec3 linear = glm::dvec3(rgb) * scale;
-                   return Rgb(srgb_encoded(linear.r), srgb_encoded(linear.g),
-                              srgb_encoded(linear.b));
+                   return Rgb(glm::dvec3(srgb_encoded(linear.r), srgb_encoded(linear.g),
+                                         srgb_encoded(linear.b)));
                  });
   return mapped;
 }
@@ -105,6 +99,20 @@ Grid<Rgb> shrunk(const Grid<Rgb>& picture, int max_width) {
     }
   }
   return small;
+}
+
+Grid<Rgb> unfolded_cube(std::span<const Grid<Rgb>> faces, Rgb background) {
+  assert(faces.size() == 6);
+  constexpr std::array<Extent, 6> kPlaces = {{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}}};
+  const int size = faces[0].extent().width;
+  Grid<Rgb> cross(Extent{4 * size, 3 * size}, background);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (int y = 0; y < size; ++y) {
+      const auto row = cross.row(kPlaces[i].height * size + y).subspan(kPlaces[i].width * size);
+      std::ranges::copy(faces[i].row(y), row.begin());
+    }
+  }
+  return cross;
 }
 
 Rgb diverging_colour(double value, double range) {

@@ -26,6 +26,10 @@ Grid<Rgb> grey_picture(const Grid<double>& values);
 /// Averages whole blocks of pixels until the width is at most `max_width`; never enlarges.
 Grid<Rgb> shrunk(const Grid<Rgb>& picture, int max_width);
 
+/// The six faces of a cube, +X, -X, +Y, -Y, +Z, -Z as in warp/cube.h, unfolded into a cross of 4 x
+/// 3 faces: +Y over, -Y under +Z in the row -X, +Z, +X, -Z. What is left is `background`.
+Grid<Rgb> unfolded_cube(std::span<const Grid<Rgb>> faces, Rgb background);
+
 /// sRGB colour of a signed value: blue at -range, white at 0, red at +range, clamped beyond; +v and
 /// -v are equally far from white. Grey for a value that is not finite.
 Rgb diverging_colour(double value, double range);

@@ -5,12 +5,12 @@
 
 #include <vector>
 
-#include "lightproof/image/writer.h"
 #include "lightproof/page/html.h"
 #include "lightproof/page/numbers.h"
 #include "lightproof/report/csv.h"
 #include "lightproof/report/findings.h"
 #include "lightproof/report/names.h"
+#include "lightproof/report/picture_html.h"
 #include "lightproof/report/pictures.h"
 #include "lightproof/report/sections.h"
 
@@ -18,12 +18,6 @@ namespace lightproof {
 namespace {
 
 using Scene = std::vector<const RenderRecord*>;
-
-std::string image(const Grid<Rgb>& encoded, std::string_view alternative) {
-  return fmt::format("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">",
-                     data_uri("image/png", png_bytes(encoded)), encoded.extent().width,
-                     encoded.extent().height, escaped(alternative));
-}
 
 std::string seconds_text(double seconds) {
   return seconds > 0.0 ? format_number(seconds) + " s" : "time not measured";
@@ -33,8 +27,8 @@ std::string estimator_figure(const RenderRecord& r, double scale, double range) 
   return fmt::format(
       "<figure>{}\n{}\n<figcaption><strong>{}</strong><br>RMSE / mean {}<br>{}, {} per "
       "pixel</figcaption></figure>\n",
-      image(tone_mapped(r.picture, scale), "Picture by " + r.estimator),
-      image(
+      image_html(tone_mapped(r.picture, scale), "Picture by " + r.estimator),
+      image_html(
           diverging_picture(r.error, range),
           fmt::format("Signed error of {}, from blue (too dark) to red (too bright)", r.estimator)),
       escaped(r.estimator), format_number(r.rmse), seconds_text(r.seconds),
@@ -77,7 +71,7 @@ std::string scene_html(const Scene& scene) {
   html += "<div class=\"renders\">\n";
   html +=
       fmt::format("<figure>{}\n{}<figcaption><strong>Reference</strong>{}</figcaption></figure>\n",
-                  image(tone_mapped(first.reference, scale), "Reference picture"),
+                  image_html(tone_mapped(first.reference, scale), "Reference picture"),
                   colour_bar(range), reference_text(first));
   for (const RenderRecord* r : scene) html += estimator_figure(*r, scale, range);
   return html + "</div>\n";
