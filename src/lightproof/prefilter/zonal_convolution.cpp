@@ -80,9 +80,10 @@ class RowAnalysis {
     const auto width = static_cast<std::size_t>(map_.extent().width);
     const std::size_t count = std::min(kSlots, bands_.slots() - first);
     std::vector<Complex> spectra(count * width);
+    const Transform transform = transform_;  // its scratch memory is for one thread
     for (int channel = 0; channel < kChannels; ++channel) {
       for (std::size_t i = 0; i < count; ++i) {
-        transform_pair(bands_.row_of(first + i), channel, spectra.data() + i * width);
+        transform_pair(transform, bands_.row_of(first + i), channel, spectra.data() + i * width);
       }
       const std::size_t at = 2 * static_cast<std::size_t>(channel) * bands_.slots() + first;
       for (std::size_t m = 0; m < columns_.size(); ++m) {
@@ -96,7 +97,7 @@ class RowAnalysis {
  private:
   /// The transform of row `row` plus i times that of the row opposite the equator; 0 of an empty
   /// slot.
-  void transform_pair(int row, int channel, Complex* spectrum) const {
+  void transform_pair(const Transform& transform, int row, int channel, Complex* spectrum) const {
     const auto width = static_cast<std::size_t>(map_.extent().width);
     if (row >= bands_.rows()) {
       std::fill_n(spectrum, width, Complex());
@@ -108,7 +109,7 @@ class RowAnalysis {
     for (std::size_t x = 0; x < width; ++x) {
       rows[x] = {value_of(lower[x], channel), value_of(upper[x], channel)};
     }
-    transform_.transform(rows.data(), spectrum);
+    transform.transform(rows.data(), spectrum);
   }
 
   void fold(std::span<const Complex> spectra, std::size_t m, std::span<double> even,
@@ -154,6 +155,7 @@ class RowSynthesis {
     const auto width = static_cast<std::size_t>(output_.extent().width);
     const std::size_t count = std::min(kSlots, static_cast<std::size_t>(latitudes_.rows()) - first);
     std::vector<Complex> spectra(count * width);
+    const Transform transform = transform_;  // its scratch memory is for one thread
     for (int channel = 0; channel < kChannels; ++channel) {
       std::fill(spectra.begin(), spectra.end(), Complex());
       const std::size_t at = 2 * static_cast<std::size_t>(channel) * latitudes_.slots() + first;
@@ -162,7 +164,7 @@ class RowSynthesis {
                orders.odd(static_cast<int>(m)).subspan(at), m, spectra);
       }
       for (std::size_t i = 0; i < count; ++i) {
-        write_pair(static_cast<int>(first + i), channel, spectra.data() + i * width);
+        write_pair(transform, static_cast<int>(first + i), channel, spectra.data() + i * width);
       }
     }
   }
@@ -186,11 +188,11 @@ class RowSynthesis {
     }
   }
 
-  void write_pair(int row, int channel, const Complex* spectrum) const {
+  void write_pair(const Transform& transform, int row, int channel, const Complex* spectrum) const {
     const auto lower = output_.row(row);
     const auto upper = output_.row(output_.extent().height - 1 - row);
     std::vector<Complex> rows(lower.size());
-    transform_.transform(spectrum, rows.data());
+    transform.transform(spectrum, rows.data());
     for (std::size_t x = 0; x < rows.size(); ++x) {
       lower[x][channel] = static_cast<float>(rows[x].real());
       upper[x][channel] = static_cast<float>(rows[x].imag());
