@@ -1,0 +1,95 @@
+#include "lightproof/prefilter/specular_chain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "lightproof/core/error.h"
+#include "lightproof/prefilter/level_look_up.h"
+#include "lightproof/warp/lat_long.h"
+
+namespace lightproof {
+
+int most_levels(Extent extent) {
+  int levels = 1;
+  for (int side = std::max(extent.width, extent.height); side > 1; side /= 2) ++levels;
+  return levels;
+}
+
+std::vector<Extent> level_extents(Extent extent, int levels) {
+  if (extent.width < 1 || extent.height < 1) {
+    throw InputError(
+        fmt::format("a map of {} x {} texels: at least 1 x 1 needed", extent.width, extent.height));
+  }
+  if (levels < 1 || levels > most_levels(extent)) {
+    throw InputError(fmt::format("{} levels of a map of {} x {} texels: 1 to {} possible", levels,
+                                 extent.width, extent.height, most_levels(extent)));
+  }
+  std::vector<Extent> extents;
+  for (int level = 0; level < levels; ++level) {
+    extents.push_back({std::max(1, extent.width >> level), std::max(1, extent.height >> level)});
+  }
+  return extents;
+}
+
+std::vector<double> level_roughness(int levels) {
+  std::vector<double> roughness;
+  for (int level = 0; level < levels; ++level) {
+    roughness.push_back(static_cast<double>(level) / std::max(1, levels - 1));
+  }
+  return roughness;
+}
+
+void check_roughness(double roughness) {
+  if (roughness >= 0.0 && roughness <= 1.0) return;
+  throw InputError(fmt::format("a roughness of {}: 0 (a mirror) to 1 needed", roughness));
+}
+
+std::optional<Lobe> ggx_lobe(double roughness, GgxWeight weight, double f0) {
+  check_roughness(roughness);
+  // Below, the lobe is narrower than the rounding of a direction.
+  constexpr double kLeastAlpha = 1e-7;
+  if (ggx_alpha(roughness) < kLeastAlpha) return std::nullopt;
+  return GgxLobe{ggx_alpha(roughness), weight, f0};
+}
+
+SpecularChain ggx_chain(const Grid<Rgb>& map, Extent extent, int levels, GgxWeight weight,
+                        const PrefilterSettings& settings) {
+  const std::vector<Extent> extents = level_extents(extent, levels);
+  const std::vector<double> roughness = level_roughness(levels);
+  std::vector<PrefilteredLevel> wanted;
+  for (std::size_t i = 0; i < extents.size(); ++i) {
+    wanted.push_back({ggx_lobe(roughness[i], weight), extents[i]});
+  }
+  return prefilter(map, wanted, settings);
+}
+
+SpecularChain phong_chain(const Grid<Rgb>& map, Extent extent, std::span<const double> exponents,
+                          PhongAxis axis, const PrefilterSettings& settings) {
+  const std::vector<Extent> extents = level_extents(extent, static_cast<int>(exponents.size()));
+  std::vector<PrefilteredLevel> wanted;
+  for (std::size_t i = 0; i < extents.size(); ++i) {
+    if (!(exponents[i] >= 0.0) || std::isinf(exponents[i])) {
+      throw InputError(
+          fmt::format("a Phong exponent of {}: a number from 0 on needed", exponents[i]));
+    }
+    const double cosines = axis == PhongAxis::all_one ? 1.0 : 0.0;
+    wanted.push_back({PhongLobe{exponents[i] + cosines}, extents[i]});
+  }
+  return prefilter(map, wanted, settings);
+}
+
+Rgb look_up(const SpecularChain& chain, Direction direction, double level) {
+  assert(!chain.empty());
+  const double place = std::clamp(level, 0.0, static_cast<double>(chain.size() - 1));
+  const auto finer = static_cast<std::size_t>(place);
+  const double between = place - static_cast<double>(finer);
+  const SquarePoint at = square_from_direction(direction);
+  const glm::dvec3 value = bilinear(chain[finer], at);
+  if (between == 0.0) return Rgb(value);
+  return Rgb((1.0 - between) * value + between * bilinear(chain[finer + 1], at));
+}
+
+}  // namespace lightproof

@@ -1,0 +1,199 @@
+#include "lightproof/prefilter/texel_stencil.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+#include "lightproof/core/parallel.h"
+#include "lightproof/warp/lat_long.h"
+
+namespace lightproof {
+namespace {
+
+/// Gauss-Legendre nodes in [0,1] (Abramowitz & Stegun 25.4.29, n = 3).
+struct GaussNode {
+  double place;
+  double weight;
+};
+constexpr std::array<GaussNode, 3> kNodes = {
+    {{0.11270166537925831, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.88729833462074169, 5.0 / 18.0}}};
+
+/// A texel or a part of one.
+struct Cell {
+  double s_low;
+  double s_high;
+  double t_low;
+  double t_high;
+};
+
+double squared_sine_of_half(double angle) {
+  const double sine = std::sin(0.5 * angle);
+  return sine * sine;
+}
+
+/// Integrates a kernel around one axis.
+class CellIntegral {
+ public:
+  CellIntegral(const ZonalKernel& kernel, SquarePoint axis, double least_size)
+      : kernel_(kernel), axis_(axis), sine_(sin_theta(axis.t)), least_size_(least_size) {}
+
+  /// The largest distance of a point of the cell from its centre, in radians, from above.
+  static double radius(const Cell& cell) {
+    const double sine = std::max({sin_theta(cell.t_low), sin_theta(cell.t_high),
+                                  sin_theta(0.5 * (cell.t_low + cell.t_high))});
+    return 0.5 * std::hypot(kPi * (cell.t_high - cell.t_low),
+                            2.0 * kPi * (cell.s_high - cell.s_low) * sine);
+  }
+
+  double operator()(const Cell& cell) const {
+    const double s = 0.5 * (cell.s_low + cell.s_high);
+    const double t = 0.5 * (cell.t_low + cell.t_high);
+    const double reach = radius(cell);
+    const double distance =
+        2.0 * std::asin(std::sqrt(std::min(1.0, haversine(s, t, sin_theta(t)))));
+    if (distance - reach > kernel_.support.value) return 0.0;
+    const double smooth =
+        std::max(kernel_.width.value, std::min(distance - reach, kernel_.support.value));
+    const bool on_edge = kernel_.has_edge && distance + reach > kernel_.support.value;
+    if (!(on_edge && 2.0 * reach > least_size_)) {
+      if (2.0 * reach <= kTiny * smooth) return by_centre(cell);
+      if (2.0 * reach <= kSmall * smooth) return by_nodes(cell);
+    }
+    return (*this)({cell.s_low, s, cell.t_low, t}) + (*this)({s, cell.s_high, cell.t_low, t}) +
+           (*this)({cell.s_low, s, t, cell.t_high}) + (*this)({s, cell.s_high, t, cell.t_high});
+  }
+
+ private:
+  static constexpr double kSmall = 0.25;
+  static constexpr double kTiny = 0.02;
+
+  double haversine(double s, double t, double sine) const {
+    return squared_sine_of_half(kPi * (t - axis_.t)) +
+           sine * sine_ * squared_sine_of_half(2.0 * kPi * (s - axis_.s));
+  }
+
+  double by_centre(const Cell& cell) const {
+    const double s = 0.5 * (cell.s_low + cell.s_high);
+    const double t = 0.5 * (cell.t_low + cell.t_high);
+    return (cell.s_high - cell.s_low) * (cell.t_high - cell.t_low) * solid_angle_per_square(t) *
+           kernel_.value(haversine(s, t, sin_theta(t)));
+  }
+
+  double by_nodes(const Cell& cell) const {
+    const double width = cell.s_high - cell.s_low;
+    const double height = cell.t_high - cell.t_low;
+    double sum = 0.0;
+    for (const GaussNode& along : kNodes) {
+      const double t = cell.t_low + along.place * height;
+      const double sine = sin_theta(t);
+      for (const GaussNode& across : kNodes) {
+        const double s = cell.s_low + across.place * width;
+        sum += along.weight * across.weight * solid_angle_per_square(t) *
+               kernel_.value(haversine(s, t, sine));
+      }
+    }
+    return sum * width * height;
+  }
+
+  const ZonalKernel& kernel_;
+  SquarePoint axis_;
+  double sine_;
+  double least_size_;
+};
+
+/// Columns on either side of the axis that a row's part of the support reaches.
+double reach_in_turns(double support, SquarePoint axis, double t_low, double t_high) {
+  const double polar = kPi * std::min(axis.t, 1.0 - axis.t);
+  if (support >= polar) return 0.5;
+  // The meridians that touch the cap; any row between them.
+  const double half = std::asin(std::min(1.0, std::sin(support) / std::sin(polar)));
+  const bool hemisphere = support >= 0.5 * kPi;
+  return hemisphere || t_low > t_high ? 0.5 : std::min(0.5, half / (2.0 * kPi));
+}
+
+/// The part of a texel that column and row of the centre of output texel x fall into.
+struct Phase {
+  int column;
+  std::int64_t numerator;  ///< of the place inside the column, over 2 width_out
+};
+
+Phase phase_of(int x, int width_in, int width_out) {
+  const std::int64_t place = (2 * std::int64_t{x} + 1) * width_in;
+  const std::int64_t per_column = 2 * std::int64_t{width_out};
+  return {static_cast<int>(place / per_column), place % per_column};
+}
+
+}  // namespace
+
+TexelStencil::TexelStencil(const ZonalKernel& kernel, Extent extent, SquarePoint axis,
+                           double whole) {
+  constexpr double kEdgeCells = 8.0;
+  const CellIntegral integral(kernel, axis, kPi / extent.height / kEdgeCells);
+  const double reach_t = kernel.support.value / kPi;
+  const int first_row = std::max(0, static_cast<int>((axis.t - reach_t) * extent.height));
+  const int last_row =
+      std::min(extent.height - 1, static_cast<int>((axis.t + reach_t) * extent.height));
+  double sum = 0.0;
+  for (int y = first_row; y <= last_row; ++y) {
+    const double t_low = static_cast<double>(y) / extent.height;
+    const double t_high = (y + 1.0) / extent.height;
+    const double reach_s = reach_in_turns(kernel.support.value, axis, t_low, t_high);
+    Run run = {y, static_cast<int>(std::floor((axis.s - reach_s) * extent.width)), {}};
+    const int columns =
+        std::min(extent.width,
+                 static_cast<int>(std::floor((axis.s + reach_s) * extent.width)) - run.first + 1);
+    for (int i = 0; i < columns; ++i) {
+      const double s_low = static_cast<double>(run.first + i) / extent.width;
+      run.weights.push_back(integral({s_low, s_low + 1.0 / extent.width, t_low, t_high}));
+    }
+    sum = std::accumulate(run.weights.begin(), run.weights.end(), sum);
+    runs_.push_back(std::move(run));
+  }
+  for (Run& run : runs_) {
+    for (double& weight : run.weights) weight *= whole / sum;
+  }
+}
+
+glm::dvec3 TexelStencil::sum(const Grid<Rgb>& map, int column) const {
+  const int width = map.extent().width;
+  glm::dvec3 sum(0.0);
+  for (const Run& run : runs_) {
+    const auto row = map.row(run.row);
+    int x = ((run.first + column) % width + width) % width;
+    for (const double weight : run.weights) {
+      sum += weight * glm::dvec3(row[static_cast<std::size_t>(x)]);
+      if (++x == width) x = 0;
+    }
+  }
+  return sum;
+}
+
+Grid<glm::dvec3> local_sums(const Grid<Rgb>& map, const ZonalKernel& kernel, double whole,
+                            Extent extent) {
+  const int width = map.extent().width;
+  // Columns whose centres lie at the same place of a texel share a stencil.
+  const int phases = extent.width / std::gcd(width, extent.width);
+  Grid<glm::dvec3> sums(extent);
+  parallel_for(
+      static_cast<std::size_t>(extent.height) * static_cast<std::size_t>(phases),
+      [&](std::size_t task) {
+        const int y = static_cast<int>(task / static_cast<std::size_t>(phases));
+        const int first = static_cast<int>(task % static_cast<std::size_t>(phases));
+        const Phase phase = phase_of(first, width, extent.width);
+        const double place = static_cast<double>(phase.numerator) / (2.0 * extent.width * width);
+        const TexelStencil stencil(kernel, map.extent(), {place, (y + 0.5) / extent.height}, whole);
+        for (int x = first; x < extent.width; x += phases) {
+          sums(x, y) = stencil.sum(map, phase_of(x, width, extent.width).column);
+        }
+      });
+  return sums;
+}
+
+glm::dvec3 local_sum(const Grid<Rgb>& map, const ZonalKernel& kernel, double whole,
+                     Direction axis) {
+  return TexelStencil(kernel, map.extent(), square_from_direction(axis), whole).sum(map, 0);
+}
+
+}  // namespace lightproof
