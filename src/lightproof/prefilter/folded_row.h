@@ -9,6 +9,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
@@ -16,12 +17,15 @@
 
 namespace lightproof {
 
+/// Red, green and blue; the fourth is 0, for the sake of vector instructions.
+using PaddedRgb = glm::dvec4;
+
 /// ∫ L w d(omega) of red, green and blue, by components: along the longitude s = 0 of the map,
 /// along s = 1/4, and along z.
 struct LightVector {
-  glm::dvec3 cosine = glm::dvec3(0.0);
-  glm::dvec3 sine = glm::dvec3(0.0);
-  glm::dvec3 height = glm::dvec3(0.0);
+  PaddedRgb cosine = PaddedRgb(0.0);
+  PaddedRgb sine = PaddedRgb(0.0);
+  PaddedRgb height = PaddedRgb(0.0);
 
   LightVector& operator+=(const LightVector& other) {
     cosine += other.cosine;
@@ -47,51 +51,40 @@ struct FoldedLattice {
   std::vector<double> sine;
 };
 
-/// One row, as combs of columns c, c + columns/teeth, c + 2 columns/teeth, … all around, for c from
-/// 0 to below `columns`. A comb is 3 `teeth` numbers, red, green and blue of each tooth.
+/// One row of the folded map.
 class FoldedRow {
  public:
-  /// The number of teeth divides that of columns.
-  FoldedRow(const FoldedLattice& lattice, int teeth);
+  explicit FoldedRow(const FoldedLattice& lattice);
 
   /// Takes row `k`, counted from the zenith.
   void fold(const EnvironmentMap& map, int k);
 
-  /// L(w) + L(-w) in each column of the comb.
-  std::span<const double> light(int column) const { return comb(light_, column); }
-  /// The components of ∫ (L(w) + L(-w)) w d(omega) over the columns from 0 to before each column of
-  /// the comb; those past the seam have the whole row's added.
-  std::span<const double> cosine_before(int column) const { return comb(cosine_, column); }
-  std::span<const double> sine_before(int column) const { return comb(sine_, column); }
-  std::span<const double> height_before(int column) const { return comb(height_, column); }
+  int columns() const { return lattice_.columns; }
+  /// L(w) + L(-w), of each column, and once more from the seam on: runs may go beyond it.
+  std::span<const PaddedRgb> light() const { return light_; }
+  /// Sums over the columns before each edge, from none to all of them: of L(w) + L(-w) times
+  /// ∫ cos(2 pi s), times ∫ sin(2 pi s), and alone. With the row's factors they are the components
+  /// of ∫ (L(w) + L(-w)) w d(omega).
+  std::span<const LightVector> before() const { return before_; }
+  double level_factor() const { return level_; }
+  double height_factor() const { return height_; }
 
-  /// The whole row's.
-  const LightVector& folded_sum() const { return folded_sum_; }
+  /// ∫ (L(w) + L(-w)) w d(omega).
+  LightVector folded() const { return scaled(before_.back()); }
   /// What of the map's own vector comes from the lower hemisphere, through this row.
-  const LightVector& lower_sum() const { return lower_sum_; }
+  LightVector lower() const { return lower_; }
 
  private:
-  std::size_t place(int column) const {
-    return static_cast<std::size_t>(column % stride_) * 2 * comb_ +
-           static_cast<std::size_t>(column / stride_) * 3;
+  LightVector scaled(const LightVector& sums) const {
+    return {level_ * sums.cosine, level_ * sums.sine, height_ * sums.height};
   }
-  std::span<const double> comb(const std::vector<double>& values, int column) const {
-    return std::span(values).subspan(place(column), comb_);
-  }
-  void put(std::vector<double>& values, int column, glm::dvec3 rgb) const;
-  void append_second_turn();
 
   const FoldedLattice& lattice_;
-  int stride_;
-  std::size_t comb_;  ///< numbers of a comb
-  // Two turns, so that every comb is a run of memory: by the column's remainder by the stride, then
-  // by its quotient, then by channel.
-  std::vector<double> light_;
-  std::vector<double> cosine_;
-  std::vector<double> sine_;
-  std::vector<double> height_;
-  LightVector folded_sum_;
-  LightVector lower_sum_;
+  double level_ = 0.0;
+  double height_ = 0.0;
+  std::vector<PaddedRgb> light_;
+  std::vector<LightVector> before_;
+  LightVector lower_;
 };
 
 }  // namespace lightproof

@@ -15,12 +15,6 @@
 namespace lightproof {
 namespace {
 
-void check_extent(Extent normals) {
-  if (normals.width >= 1 && normals.height >= 1) return;
-  throw InputError(fmt::format("an irradiance map of {} x {} normals: at least 1 x 1 needed",
-                               normals.width, normals.height));
-}
-
 /// The normals of the upper hemisphere, row after row from the zenith, in combs that fit the
 /// source's columns.
 class UpperNormals {
@@ -64,8 +58,16 @@ NormalComb comb_of(Direction normal) {
 
 }  // namespace
 
+IrradianceMap dark_irradiance_map(Extent normals) {
+  if (normals.width < 1 || normals.height < 1) {
+    throw InputError(fmt::format("an irradiance map of {} x {} normals: at least 1 x 1 needed",
+                                 normals.width, normals.height));
+  }
+  return {Grid<glm::dvec3>(normals, glm::dvec3(0.0))};
+}
+
 IrradianceMap irradiance_map(const EnvironmentMap& source, Extent normals) {
-  check_extent(normals);
+  IrradianceMap map = dark_irradiance_map(normals);
   const auto [width, height] = normals;
   const FoldedLattice lattice(source.radiance.extent());
   const UpperNormals upper(normals, lattice);
@@ -73,7 +75,6 @@ IrradianceMap irradiance_map(const EnvironmentMap& source, Extent normals) {
   // Opposite longitudes are columns only if the columns are even.
   const bool paired = width % 2 == 0;
   const auto opposite = paired ? above : two_sided_irradiance(source, lattice, upper.combs(kPi));
-  IrradianceMap map{Grid<glm::dvec3>(normals)};
   for (int row = 0; row < (height + 1) / 2; ++row) {
     for (int x = 0; x < width; ++x) {
       const int turned = paired ? (x + width / 2) % width : x;

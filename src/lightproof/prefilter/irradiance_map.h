@@ -32,6 +32,9 @@ struct DiffuseMap {
   Grid<glm::dvec3> radiance;
 };
 
+/// A map of zeros, for whoever fills it. Throws InputError if it has no texels.
+IrradianceMap dark_irradiance_map(Extent normals);
+
 DiffuseMap diffuse_map(const IrradianceMap& map);
 
 /// Rounded to float, as maps are stored.

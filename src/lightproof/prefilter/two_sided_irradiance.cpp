@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/common.hpp>
 #include <optional>
 #include <utility>
@@ -16,14 +17,10 @@ constexpr int kChunks = 16;
 
 /// What the rows of one chunk add to all combs.
 struct ChunkSums {
-  std::vector<double> horizon;    ///< rows that the horizon crosses: combs x teeth x rgb
-  std::vector<LightVector> rows;  ///< of each row, of the folded map
-  LightVector lower;              ///< of the map itself, from below
+  std::vector<PaddedRgb> crossed;  ///< from rows that the horizon crosses, comb by comb
+  std::vector<LightVector> rows;   ///< of each row, of the folded map
+  LightVector lower;               ///< of the map itself, from below
 };
-
-void add_scaled(double weight, std::span<const double> values, std::span<double> sums) {
-  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += weight * values[i];
-}
 
 /// A column as one in [0, columns), and how often the seam was passed on the way.
 struct Wrapped {
@@ -35,80 +32,87 @@ Wrapped wrap(int column, int columns) {
   return {column - turns * columns, turns};
 }
 
-/// The components of the comb's normals, for red, green and blue of each tooth.
-struct NormalComponents {
-  std::vector<double> cosine;
-  std::vector<double> sine;
-  double height;
-
-  explicit NormalComponents(const NormalComb& comb) : height(comb.tilt.cosine) {
-    for (int tooth = 0; tooth < comb.teeth; ++tooth) {
-      const double longitude = comb.first + 2.0 * kPi * tooth / comb.teeth;
-      cosine.insert(cosine.end(), 3, comb.tilt.sine * std::cos(longitude));
-      sine.insert(sine.end(), 3, comb.tilt.sine * std::sin(longitude));
-    }
-  }
-};
-
+/// Adds up one comb's light.
 class CombIntegrator {
  public:
   CombIntegrator(const NormalComb& comb, const FoldedLattice& lattice)
-      : view_(comb, lattice), components_(comb), columns_(lattice.columns) {}
+      : view_(comb, lattice), columns_(lattice.columns), stride_(lattice.columns / comb.teeth) {
+    for (int tooth = 0; tooth < comb.teeth; ++tooth) {
+      const double longitude = comb.first + 2.0 * kPi * tooth / comb.teeth;
+      cosine_.push_back(comb.tilt.sine * std::cos(longitude));
+      sine_.push_back(comb.tilt.sine * std::sin(longitude));
+    }
+  }
 
   const NormalCombView& view() const { return view_; }
 
-  /// What row `k` adds to (n·w)+ of the folded map, if the horizon crosses it.
-  void add_row(const FoldedRow& row, int k, std::span<double> sums) const {
+  /// n·vector, of one of the comb's normals.
+  PaddedRgb along(const LightVector& vector, std::size_t tooth) const {
+    return cosine_[tooth] * vector.cosine + sine_[tooth] * vector.sine +
+           view_.comb().tilt.cosine * vector.height;
+  }
+
+  /// Adds ∫ L (n·w)+ d(omega) over row `k`, if the horizon crosses it. `weights` is for the work.
+  void add_row(const FoldedRow& row, int k, std::vector<double>& weights,
+               std::span<PaddedRgb> sums) const {
     if (k < view_.rows_seen()) return;
     const CosineBand band = view_.band(k);
     const RowView seen = view_.view(band);
-    add_crossed(row, band, seen.leaving, sums);
-    add_crossed(row, band, seen.returning, sums);
+    for (const ColumnRun run : {seen.leaving, seen.returning}) {
+      weights.clear();
+      for (int column = run.begin; column < run.end; ++column) {
+        weights.push_back(view_.weight(band, column));
+      }
+      add_crossed(row, run.begin, weights, sums);
+    }
     add_seen(row, seen.seen, sums);
   }
 
-  /// The normal's product with a light vector.
-  glm::dvec3 along(const LightVector& vector, int tooth) const {
-    const auto at = 3 * static_cast<std::size_t>(tooth);
-    return components_.cosine[at] * vector.cosine + components_.sine[at] * vector.sine +
-           components_.height * vector.height;
-  }
-
  private:
-  void add_crossed(const FoldedRow& row, const CosineBand& band, ColumnRun run,
-                   std::span<double> sums) const {
-    for (int column = run.begin; column < run.end; ++column) {
-      add_scaled(view_.weight(band, column), row.light(wrap(column, columns_).column), sums);
-    }
-  }
-
-  void add_seen(const FoldedRow& row, ColumnRun run, std::span<double> sums) const {
-    const auto [begin, begin_turns] = wrap(run.begin, columns_);
-    const auto [end, end_turns] = wrap(run.end, columns_);
-    const double* const cosine[] = {row.cosine_before(begin).data(), row.cosine_before(end).data()};
-    const double* const sine[] = {row.sine_before(begin).data(), row.sine_before(end).data()};
-    const double* const height[] = {row.height_before(begin).data(), row.height_before(end).data()};
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      sums[i] += components_.cosine[i] * (cosine[1][i] - cosine[0][i]) +
-                 components_.sine[i] * (sine[1][i] - sine[0][i]) +
-                 components_.height * (height[1][i] - height[0][i]);
-    }
-    if (end_turns != begin_turns) add_whole_row(row, end_turns - begin_turns, sums);
-  }
-
-  void add_whole_row(const FoldedRow& row, int times, std::span<double> sums) const {
-    for (int tooth = 0; tooth < view_.comb().teeth; ++tooth) {
-      const glm::dvec3 whole = static_cast<double>(times) * along(row.folded_sum(), tooth);
-      for (int channel = 0; channel < 3; ++channel) {
-        sums[3 * static_cast<std::size_t>(tooth) + static_cast<std::size_t>(channel)] +=
-            whole[channel];
+  void add_crossed(const FoldedRow& row, int begin, std::span<const double> weights,
+                   std::span<PaddedRgb> sums) const {
+    const PaddedRgb* const light = row.light().data();
+    int column = wrap(begin, columns_).column;
+    for (PaddedRgb& sum : sums) {
+      PaddedRgb crossed(0.0);
+      for (std::size_t i = 0; i < weights.size(); ++i) {
+        crossed += weights[i] * light[static_cast<std::size_t>(column) + i];
       }
+      sum += crossed;
+      column += stride_;
+      if (column >= columns_) column -= columns_;
+    }
+  }
+
+  void add_seen(const FoldedRow& row, ColumnRun run, std::span<PaddedRgb> sums) const {
+    const LightVector* const before = row.before().data();
+    const double height = row.height_factor() * view_.comb().tilt.cosine;
+    auto [begin, begin_turns] = wrap(run.begin, columns_);
+    auto [end, end_turns] = wrap(run.end, columns_);
+    int turns = end_turns - begin_turns;
+    for (std::size_t tooth = 0; tooth < sums.size(); ++tooth) {
+      const double cosine = row.level_factor() * cosine_[tooth];
+      const double sine = row.level_factor() * sine_[tooth];
+      const LightVector& to = before[end];
+      const LightVector& from = before[begin];
+      sums[tooth] += cosine * (to.cosine - from.cosine) + sine * (to.sine - from.sine) +
+                     height * (to.height - from.height);
+      if (turns > 0) {
+        const LightVector& whole = row.before().back();
+        sums[tooth] += cosine * whole.cosine + sine * whole.sine + height * whole.height;
+      }
+      begin += stride_;
+      end += stride_;
+      if (begin >= columns_) begin -= columns_, --turns;
+      if (end >= columns_) end -= columns_, ++turns;
     }
   }
 
   NormalCombView view_;
-  NormalComponents components_;
   int columns_;
+  int stride_;
+  std::vector<double> cosine_;
+  std::vector<double> sine_;
 };
 
 std::vector<CombIntegrator> integrators_of(std::span<const NormalComb> combs,
@@ -123,16 +127,17 @@ std::vector<CombIntegrator> integrators_of(std::span<const NormalComb> combs,
 ChunkSums sums_of_rows(const EnvironmentMap& source, const FoldedLattice& lattice,
                        std::span<const CombIntegrator> integrators, std::size_t first,
                        std::size_t last) {
-  const std::size_t comb = 3 * static_cast<std::size_t>(integrators[0].view().comb().teeth);
-  ChunkSums sums{std::vector<double>(integrators.size() * comb), {}, {}};
-  FoldedRow row(lattice, integrators[0].view().comb().teeth);
+  const auto teeth = static_cast<std::size_t>(integrators[0].view().comb().teeth);
+  ChunkSums sums{std::vector<PaddedRgb>(integrators.size() * teeth, PaddedRgb(0.0)), {}, {}};
+  FoldedRow row(lattice);
+  std::vector<double> weights;
   for (std::size_t k = first; k < last; ++k) {
     row.fold(source, static_cast<int>(k));
-    sums.rows.push_back(row.folded_sum());
-    sums.lower += row.lower_sum();
+    sums.rows.push_back(row.folded());
+    sums.lower += row.lower();
     for (std::size_t i = 0; i < integrators.size(); ++i) {
-      integrators[i].add_row(row, static_cast<int>(k),
-                             std::span(sums.horizon).subspan(i * comb, comb));
+      const auto comb = std::span(sums.crossed).subspan(i * teeth, teeth);
+      integrators[i].add_row(row, static_cast<int>(k), weights, comb);
     }
   }
   return sums;
@@ -149,7 +154,7 @@ ChunkSums sums_of_all(const EnvironmentMap& source, const FoldedLattice& lattice
   });
   ChunkSums all = std::move(chunks[0]);
   for (std::size_t i = 1; i < chunks.size(); ++i) {
-    add_scaled(1.0, chunks[i].horizon, all.horizon);
+    std::ranges::transform(all.crossed, chunks[i].crossed, all.crossed.begin(), std::plus());
     all.rows.insert(all.rows.end(), chunks[i].rows.begin(), chunks[i].rows.end());
     all.lower += chunks[i].lower;
   }
@@ -183,12 +188,10 @@ std::vector<TwoSidedIrradiance> irradiance_of_batch(const EnvironmentMap& source
   for (const CombIntegrator& integrator : integrators) {
     LightVector seen = vectors.above[static_cast<std::size_t>(integrator.view().rows_seen())];
     seen += sums.lower;
-    for (int tooth = 0; tooth < combs[0].teeth; ++tooth) {
-      const double* horizon = sums.horizon.data() + 3 * result.size();
-      const glm::dvec3 upper =
-          glm::dvec3(horizon[0], horizon[1], horizon[2]) + integrator.along(seen, tooth);
-      const glm::dvec3 lower = upper - integrator.along(vectors.whole, tooth);
-      result.push_back({glm::max(upper, 0.0), glm::max(lower, 0.0)});
+    for (std::size_t tooth = 0; tooth < static_cast<std::size_t>(combs[0].teeth); ++tooth) {
+      const PaddedRgb upper = sums.crossed[result.size()] + integrator.along(seen, tooth);
+      const PaddedRgb lower = upper - integrator.along(vectors.whole, tooth);
+      result.push_back({glm::max(glm::dvec3(upper), 0.0), glm::max(glm::dvec3(lower), 0.0)});
     }
   }
   return result;
@@ -200,7 +203,7 @@ constexpr std::size_t kBytesOfBatch = std::size_t{1} << 26U;
 std::size_t batch_size(const FoldedLattice& lattice, int teeth) {
   const std::size_t tables = static_cast<std::size_t>(lattice.columns) / 2 * sizeof(Meridian) +
                              lattice.parallels.size() * sizeof(Parallel);
-  const std::size_t sums = (kChunks + 1) * 3 * static_cast<std::size_t>(teeth) * sizeof(double);
+  const std::size_t sums = (kChunks + 1) * static_cast<std::size_t>(teeth) * sizeof(PaddedRgb);
   return std::max<std::size_t>(1, kBytesOfBatch / (tables + sums));
 }
 
