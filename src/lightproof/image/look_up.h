@@ -27,10 +27,11 @@ inline double look_up_bilinear(const Grid<double>& luminance, SquarePoint at) {
 }
 
 /// The value of the texel that `at` lies in; a coordinate of exactly 1 belongs to the last.
-inline double look_up_nearest(const Grid<double>& luminance, SquarePoint at) {
-  const auto [width, height] = luminance.extent();
-  return luminance(std::clamp(static_cast<int>(at.s * width), 0, width - 1),
-                   std::clamp(static_cast<int>(at.t * height), 0, height - 1));
+template <class Value>
+Value look_up_nearest(const Grid<Value>& values, SquarePoint at) {
+  const auto [width, height] = values.extent();
+  return values(std::clamp(static_cast<int>(at.s * width), 0, width - 1),
+                std::clamp(static_cast<int>(at.t * height), 0, height - 1));
 }
 
 inline double look_up(const Grid<double>& luminance, Lookup lookup, SquarePoint at) {

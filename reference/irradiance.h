@@ -1,0 +1,18 @@
+// Irradiance of a map that is constant inside each texel, texel by texel, by quadrature alone.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "lightproof/core/direction.h"
+#include "lightproof/image/environment_map.h"
+
+namespace lightproof::reference {
+
+/// ∫ (n·w)+ d(omega) over texel (x, y) in steradian, to 1e-13 of the texel's solid angle: Gauss's
+/// rule over theta, from and to the horizon, inside of an adaptive one over the longitude.
+double clamped_cosine_of_texel(Extent map, int x, int y, Direction normal);
+
+/// The sum over all texels; for small maps.
+glm::dvec3 irradiance(const EnvironmentMap& map, Direction normal);
+
+}  // namespace lightproof::reference
