@@ -31,7 +31,7 @@ class R2 {
   AdditiveRecurrence t_;
 };
 
-/// fract(offset + alpha n) in float, as published for shaders: the larger n, the fewer bits are
+/// fract(offset + alpha n) in float, as shaders have it: the larger n, the fewer bits are
 /// left behind the point.
 class R2Float {
  public:

@@ -37,7 +37,7 @@ AnyPointSet metallic_float(std::uint64_t count, PointSeed seed) {
 }
 
 constexpr std::string_view kMetallicSource =
-    "\"metallic numbers\", named by the lecture on pre-computed maps after Roberts 2018";
+    "the metallic numbers, which the lecture on pre-computed maps names after Roberts 2018";
 constexpr std::string_view kFewerBits = "the larger the index, the fewer values are distinct";
 
 constexpr std::array kPointSets = {
@@ -53,15 +53,15 @@ constexpr std::array kPointSets = {
                  .make = endless<Pcg3dPoints<FrameIndex::whole>>},
     PointSetInfo{
         .name = "pcg3d converted",
-        .description = "the same of a frame index that was a float on its way",
-        .source = "Jarzynski and Olano 2020, called as the lecture on pre-computed maps does",
+        .description = "pcg3d of a frame index that was a float on its way",
+        .source = "Jarzynski and Olano 2020; the lecture on pre-computed maps calls its hash so",
         .kind = PointKind::hash,
         .is_float = true,
         .defect = "from index 2^24 on neighbours are the same point",
         .make = endless<Pcg3dPoints<FrameIndex::converted>>},
     PointSetInfo{.name = "pcg3d counted",
-                 .description = "the same of a frame index that is counted as a float",
-                 .source = "Jarzynski and Olano 2020, with a usual counter",
+                 .description = "pcg3d of a frame index that is counted as a float",
+                 .source = "Jarzynski and Olano 2020; shaders whose frame counter is a float",
                  .kind = PointKind::hash,
                  .is_float = true,
                  .defect = "from index 2^24 on all are the same point",
@@ -93,7 +93,8 @@ constexpr std::array kPointSets = {
                  .make = hammersley_from<1>},
     PointSetInfo{.name = "hammersley float",
                  .description = "(n/N, radical inverse of n), n = 1 ... N, in float",
-                 .source = "the lecture's BRDF integration map, radical inverse after Warren 2001",
+                 .source = "the lecture's BRDF integration map; in float as shaders have it "
+                           "(Dammertz 2012)",
                  .kind = PointKind::net,
                  .is_finite = true,
                  .is_float = true,

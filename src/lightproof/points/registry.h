@@ -46,7 +46,7 @@ struct PointSetInfo {
   /// Whether the set depends on its count, and has no points beyond; else the first n points are
   /// the set of n points.
   bool is_finite = false;
-  bool is_float = false;         ///< computed in float, as it is published for shaders
+  bool is_float = false;         ///< computed in float, as shaders have it
   std::string_view defect = {};  ///< what is known to be wrong with it; empty if nothing
   AnyPointSet (*make)(std::uint64_t count, PointSeed seed) = nullptr;
 
