@@ -117,13 +117,14 @@ TEST(R2, IsRobertsSequence) {
 }
 
 TEST(MetallicLattices, AreRankAndMultiple) {
-  const struct {
+  struct Row {
     std::string_view set;
     double alpha;
-  } kRows[] = {{"golden", (std::sqrt(5.0) - 1.0) / 2.0},
-               {"silver", std::sqrt(2.0) - 1.0},
-               {"bronze", (std::sqrt(13.0) - 3.0) / 2.0}};
-  for (const auto& row : kRows) {
+  };
+  const Row rows[] = {{"golden", (std::sqrt(5.0) - 1.0) / 2.0},
+                      {"silver", std::sqrt(2.0) - 1.0},
+                      {"bronze", (std::sqrt(13.0) - 3.0) / 2.0}};
+  for (const Row& row : rows) {
     for (const char* form : {"", " float"}) {
       const auto points = all_of(std::string(row.set) + form, 100);
       for (std::size_t n = 0; n < points.size(); ++n) {

@@ -26,8 +26,7 @@ constexpr int kSeeds = 4096;
 
 const Integrand& exponential() { return integrand_by_name("exponential"); }
 
-// exp(s + t) is the product of two functions g = exp, whose moments follow.
-const double kMeanOfG = std::expm1(1.0);
+// exp(s + t) is the product of two functions g = exp, whose mean square is this.
 const double kMeanOfSquare = std::expm1(2.0) / 2.0;
 
 /// The mean square of g's averages over intervals of length h, which divide [0,1).

@@ -117,7 +117,7 @@ TEST(Hammersley, HasTheDiscrepanciesOfItsClosedForms) {
 TEST(Nets, StayBelowNiederreitersBound) {
   for (unsigned m = 0; m <= 10; ++m) {
     const std::uint64_t count = std::uint64_t{1} << m;
-    const double bound = (m + 3U) / 2U;
+    const double bound = std::floor((m + 3.0) / 2.0);
     const auto scaled = [&](std::string_view set, PointSeed seed) {
       return static_cast<double>(count) * star_discrepancy(all_of(set, count, seed));
     };

@@ -75,13 +75,14 @@ TEST(FloatDecay, LeavesFewPointsOfR2) {
 // The factor's rounding grows with n; n, the product and the sum are rounded by half a unit of
 // their last places each.
 TEST(FloatDecay, HasTheErrorOfItsRoundings) {
-  const struct {
+  struct Row {
     std::string_view set;
     double alpha;
-  } kRows[] = {{"golden float", (std::sqrt(5.0) - 1.0) / 2.0},
-               {"silver float", std::sqrt(2.0) - 1.0},
-               {"bronze float", (std::sqrt(13.0) - 3.0) / 2.0}};
-  for (const auto& row : kRows) {
+  };
+  const Row rows[] = {{"golden float", (std::sqrt(5.0) - 1.0) / 2.0},
+                      {"silver float", std::sqrt(2.0) - 1.0},
+                      {"bronze float", (std::sqrt(13.0) - 3.0) / 2.0}};
+  for (const Row& row : rows) {
     const double of_factor =
         std::abs(static_cast<double>(static_cast<float>(row.alpha)) - row.alpha);
     for (const FloatDecay& decay : float_decay(point_set_by_name(row.set), kWindow)) {

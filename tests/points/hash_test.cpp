@@ -50,8 +50,8 @@ TEST(Pcg3dPoints, AreTheTop24BitsOfTwoWords) {
     const WordPair pixel = random_words(5);
     const auto words = pcg3d({pixel.s, pixel.t, index});
     const SquarePoint point = Pcg3dPoints<FrameIndex::whole>(5U).point(index);
-    EXPECT_EQ(point.s, std::ldexp(static_cast<double>(words[0] / 256U), -24));
-    EXPECT_EQ(point.t, std::ldexp(static_cast<double>(words[1] / 256U), -24));
+    EXPECT_EQ(point.s, std::floor(words[0] * 0x1p-8) * 0x1p-24);
+    EXPECT_EQ(point.t, std::floor(words[1] * 0x1p-8) * 0x1p-24);
   }
 }
 
