@@ -44,6 +44,40 @@ TEST(FloatDecay, FindsNoneInFixedPoint) {
   }
 }
 
+template <class Set>
+void expect_near_exact(const Set& set) {
+  if constexpr (requires { set.exact_point(0U); }) {
+    for (std::uint32_t index = 0; index < 63; ++index) {
+      const SquarePoint point = set.point(index);
+      const SquarePoint exact = set.exact_point(index);
+      const SquarePoint apart = {std::abs(point.s - exact.s), std::abs(point.t - exact.t)};
+      // Three roundings of numbers below 64, and a shift of 24 bits; on the circle.
+      const double bound = 4.0 * 64.0 * 0x1p-24;
+      EXPECT_LT(std::min(apart.s, 1.0 - apart.s), bound) << index;
+      EXPECT_LT(std::min(apart.t, 1.0 - apart.t), bound) << index;
+    }
+  }
+}
+
+// At the beginning nothing has decayed, shifted or not: the forms in float are what they stand for.
+// The sine hash is not: its factor makes 4e-3 of a float's rounding.
+TEST(FloatDecay, BeginsWithNone) {
+  for (const PointSetInfo& info : point_sets()) {
+    if (!info.is_float || info.name == "sine hash") continue;
+    SCOPED_TRACE(info.name);
+    for (const PointSeed seed : {PointSeed(), PointSeed(1), PointSeed(2)}) {
+      std::visit([](const auto& set) { expect_near_exact(set); }, info.prepare(64, seed));
+    }
+  }
+  // And those are the ones in fixed point.
+  const AnyPointSet fixed = point_set_by_name("R2").prepare(64);
+  for (std::uint32_t n = 0; n < 64; ++n) {
+    const SquarePoint exact = R2Float({}).exact_point(n);
+    EXPECT_NEAR(point_of(fixed, n).s, exact.s, n * 0x1p-33);
+    EXPECT_NEAR(point_of(fixed, n).t, exact.t, n * 0x1p-33);
+  }
+}
+
 // As the floats of alpha n have 2^(23-e) steps behind the point where alpha n is in [2^e, 2^(e+1)):
 // where a window has more points than that, it has all of them, and no other.
 TEST(FloatDecay, LeavesAsManyValuesAsThereAreBitsBehindThePoint) {
