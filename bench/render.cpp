@@ -60,7 +60,7 @@ double seconds_since(Clock::time_point& last) {
 glm::dvec3 run_batch(LightBatch& batch, std::vector<ShadowRay>& copy, const Lighting& lighting,
                      const Pixel& pixel, const RandomStream& stream, Phases& phases) {
   Clock::time_point last = Clock::now();
-  batch.draw(lighting, pixel.point, stream, 0, LightBatch::kCapacity);
+  batch.draw(lighting, pixel.point, {stream, 0}, LightBatch::kCapacity);
   phases.draw += seconds_since(last);
   batch.shade(lighting, pixel.point);
   phases.shade += seconds_since(last);

@@ -57,9 +57,9 @@ INSTANTIATE_TEST_SUITE_P(
                  {"MAP", "--preset", "--repair", "--any-aspect", "--channels", "--layer", "--part",
                   "--luminance", "--json", "Exit codes"}},
         HelpCase{"history", {"add", "compare", "trend"}},
-        HelpCase{
-            "list",
-            {"samplers", "maps", "presets", "materials", "receivers", "estimators", "--json"}}),
+        HelpCase{"list",
+                 {"samplers", "maps", "presets", "materials", "receivers", "estimators", "points",
+                  "--json"}}),
     [](const auto& test) {
       return test.param.subcommand.empty() ? "lightproof" : test.param.subcommand;
     });

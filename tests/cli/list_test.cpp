@@ -54,17 +54,35 @@ TEST_P(List, SaysTheSameAsJson) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registries, List,
-                         testing::Values(Registry{"samplers", "binary_search"},
-                                         Registry{"maps", "sun-sky"},
-                                         Registry{"presets", "openexr"},
-                                         Registry{"materials", "phong"},
-                                         Registry{"receivers", "sphere-on-plane"},
-                                         Registry{"estimators", "environment B"}),
-                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Registries, List,
+    testing::Values(Registry{"samplers", "binary_search"}, Registry{"maps", "sun-sky"},
+                    Registry{"presets", "openexr"}, Registry{"materials", "phong"},
+                    Registry{"receivers", "sphere-on-plane"},
+                    Registry{"estimators", "environment B"}, Registry{"points", "sobol"}),
+    [](const auto& test) { return test.param.name; });
 
 TEST(ListSamplers, MarksKnownDefects) {
   EXPECT_THAT(lightproof({"list", "samplers"}).out, HasSubstr("known defects"));
+}
+
+TEST(ListPoints, SaysWhatTheyAre) {
+  const Finished list = lightproof({"list", "points"});
+  EXPECT_THAT(list.out, HasSubstr("in float as shaders have it; defect: "));
+  const auto json = nlohmann::json::parse(lightproof({"list", "points", "--json"}).out);
+  const auto entry = [&](const std::string& name) {
+    for (const auto& one : json.at("entries")) {
+      if (one.at("name") == name) return one;
+    }
+    return nlohmann::json();
+  };
+  EXPECT_EQ(entry("sobol").at("kind"), "net");
+  EXPECT_EQ(entry("sobol").at("finite"), false);
+  EXPECT_EQ(entry("sobol").at("float"), false);
+  EXPECT_TRUE(entry("sobol").at("defect").is_null());
+  EXPECT_EQ(entry("hammersley float").at("finite"), true);
+  EXPECT_EQ(entry("hammersley float").at("float"), true);
+  EXPECT_FALSE(entry("hammersley float").at("defect").is_null());
 }
 
 TEST(ListMaps, NamesMapsThatTheGateTakes) {

@@ -89,7 +89,7 @@ TEST(InfoSchema, DescribesOneFileAndSeveral) {
 
 TEST(ListSchema, DescribesRegistries) {
   const TemporaryFolder folder;
-  for (const char* registry : {"samplers", "mutants"}) {
+  for (const char* registry : {"samplers", "mutants", "points"}) {
     write_bytes(folder / "l.json", lightproof({"list", registry, "--json"}).out);
     expect_valid("list.schema.json", folder / "l.json");
   }

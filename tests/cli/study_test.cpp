@@ -114,7 +114,7 @@ TEST_F(Study, WritesPicturesThatCanBeRead) {
     EXPECT_EQ(picture.radiance.extent(), (Extent{160, 120})) << name;
     ++pictures;
   }
-  EXPECT_EQ(pictures, 5);  // four estimators and their reference
+  EXPECT_EQ(pictures, 11);  // ten estimators and their reference
 }
 
 TEST_F(Study, NamesFilesWithoutSpaces) {

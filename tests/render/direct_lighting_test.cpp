@@ -19,7 +19,7 @@ double mean_luminance(const Lighting& lighting, const ShadingPoint& point,
   double sum = 0.0;
   for (std::uint64_t first = 0; first < samples; first += LightBatch::kCapacity) {
     const auto count = std::min<std::uint64_t>(LightBatch::kCapacity, samples - first);
-    for (const Rgb rgb : batch.estimate(lighting, point, stream, first, count)) {
+    for (const Rgb rgb : batch.estimate(lighting, point, {stream, first}, count)) {
       sum += luminance_of(rgb);
     }
   }

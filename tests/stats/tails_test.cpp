@@ -75,6 +75,25 @@ TEST(ChiSquareTail, AgreesWithTheFiniteSumDownToTenToTheMinus3000) {
   }
 }
 
+// Counts that agree exactly, or all but: P(a, x) = x^a e^-x / Gamma(a + 1) (1 + x/(a + 1) (1 + x/(a
+// + 2) (1 + ...))), and the upper tail is 1.
+TEST(ChiSquareLower, ReachesStatisticsNearZeroOfManyDegrees) {
+  for (const double dof : {3400.0, 3600.0, 4095.0, 65535.0, 1e6}) {
+    EXPECT_EQ(log10_chi_square_tail(0.0, dof), 0.0);
+    for (const double statistic : {1e-12, 1e-9, 1e-6, 0.5, 2.0}) {
+      const long double a = 0.5L * static_cast<long double>(dof);
+      const long double x = 0.5L * static_cast<long double>(statistic);
+      long double sum = 1.0L;
+      for (int k = 8; k >= 1; --k) sum = 1.0L + x / (a + static_cast<long double>(k)) * sum;
+      const long double exact =
+          (a * std::log(x) - x - std::lgamma(a + 1.0L) + std::log(sum)) / kLn10;
+      EXPECT_NEAR(log10_chi_square_lower(statistic, dof), static_cast<double>(exact),
+                  rounding_of_tail(statistic, dof));
+      EXPECT_EQ(log10_chi_square_tail(statistic, dof), 0.0);
+    }
+  }
+}
+
 TEST(ChiSquareTail, AgreesWithBoostNearTheCentreOfAMillionDegrees) {
   const boost::math::chi_squared million(1e6);
   for (const double deviations : {-6.0, -3.0, 0.0, 1.0, 5.0, 9.0}) {

@@ -14,6 +14,7 @@
 #include "lightproof/gate/direction_sampler.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/materials/material.h"
+#include "lightproof/points/registry.h"
 #include "lightproof/render/receiver.h"
 #include "lightproof/samplers/registry.h"
 #include "lightproof/self_test/direction_mutant.h"
@@ -23,11 +24,12 @@
 namespace lightproof::cli {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct Entry {
   std::string name;
   std::string description;
-  std::string_view over = {};       ///< of a mutant: what it draws from
-  std::string_view diagnosis = {};  ///< of a mutant: the name that a diagnosis should give
+  Json more = {};  ///< what JSON says beside: an object, or null
 };
 
 template <class Range>
@@ -68,12 +70,31 @@ std::vector<Entry> mutant_entries() {
   for (const Mutant& mutant : mutants()) {
     const std::string needs =
         mutant.needs.empty() ? "" : fmt::format(" (shows on maps with {})", mutant.needs);
-    entries.push_back(
-        {std::string(mutant.name), std::string(mutant.defect) + needs, "map", mutant.diagnosis});
+    entries.push_back({std::string(mutant.name),
+                       std::string(mutant.defect) + needs,
+                       {{"over", "map"}, {"diagnosis", mutant.diagnosis}}});
   }
   for (const DirectionMutant& mutant : direction_mutants()) {
+    entries.push_back({mutant.sampler.name,
+                       mutant.sampler.description,
+                       {{"over", "directions"}, {"diagnosis", mutant.diagnosis}}});
+  }
+  return entries;
+}
+
+std::vector<Entry> point_set_entries() {
+  std::vector<Entry> entries;
+  for (const PointSetInfo& set : point_sets()) {
     entries.push_back(
-        {mutant.sampler.name, mutant.sampler.description, "directions", mutant.diagnosis});
+        {std::string(set.name),
+         fmt::format("{}; {}, {}{}{} ({})", set.description, to_string(set.kind),
+                     set.is_finite ? "finite" : "infinite",
+                     set.is_float ? ", in float as shaders have it" : "",
+                     set.defect.empty() ? "" : fmt::format("; defect: {}", set.defect), set.source),
+         {{"kind", to_string(set.kind)},
+          {"finite", set.is_finite},
+          {"float", set.is_float},
+          {"defect", set.defect.empty() ? Json(nullptr) : Json(set.defect)}}});
   }
   return entries;
 }
@@ -85,13 +106,12 @@ std::vector<Entry> entries_of(const std::string& registry) {
   if (registry == "presets") return described(presets());
   if (registry == "materials") return described(materials());
   if (registry == "receivers") return described(receivers());
+  if (registry == "points") return point_set_entries();
   return estimator_entries();
 }
 
-const std::vector<std::string> kRegistries = {"samplers",  "mutants",   "maps",      "presets",
-                                              "materials", "receivers", "estimators"};
-
-using Json = nlohmann::ordered_json;
+const std::vector<std::string> kRegistries = {"samplers",  "mutants",   "maps",       "presets",
+                                              "materials", "receivers", "estimators", "points"};
 
 /// Version of the format of `list --json` (docs/schema/list.schema.json).
 constexpr int kListFormatVersion = 1;
@@ -108,9 +128,7 @@ int run(const Options& options) {
     Json list = Json::array();
     for (const Entry& entry : entries) {
       list.push_back({{"name", entry.name}, {"description", entry.description}});
-      if (entry.over.empty()) continue;
-      list.back()["over"] = entry.over;
-      list.back()["diagnosis"] = entry.diagnosis;
+      if (!entry.more.is_null()) list.back().update(entry.more);
     }
     const RunDescription run = describe_run(options.command_line);
     const Json document = {{"format_version", kListFormatVersion},

@@ -15,7 +15,7 @@ Rgb mean_of(const Lighting& lighting, const ShadingPoint& at, const RandomStream
   for (std::uint64_t done = 0; done < budget.samples; done += LightBatch::kCapacity) {
     const auto count = std::min<std::uint64_t>(budget.samples - done, LightBatch::kCapacity);
     const std::span<const Rgb> estimates =
-        batch.estimate(lighting, at, stream, budget.first + done, count);
+        batch.estimate(lighting, at, {stream, budget.first + done}, count);
     for (const Rgb estimate : estimates) sum += glm::dvec3(estimate);
     if (each) each(estimates);
   }

@@ -6,11 +6,27 @@
 
 #include "lightproof/core/error.h"
 #include "lightproof/estimators/one_sample.h"
+#include "lightproof/estimators/point_set.h"
 
 namespace lightproof {
 namespace {
 
 using reference::SampledDensity;
+
+/// Names of point sets.
+constexpr std::string_view kHammersley = "hammersley";
+constexpr std::string_view kR2 = "R2";
+constexpr std::string_view kSobol = "sobol";
+
+template <const std::string_view& kPointSet>
+PreparedEstimator from_map_at(const EnvironmentMap& map) {
+  return prepare_point_set(map, MapDensity{DensitySpace::solid_angle}, kPointSet);
+}
+
+template <const std::string_view& kPointSet>
+PreparedEstimator from_lobes_at(const EnvironmentMap& map) {
+  return prepare_point_set(map, MaterialLobes{}, kPointSet);
+}
 
 constexpr std::array kEstimators = {
     EstimatorInfo{
@@ -43,6 +59,36 @@ constexpr std::array kEstimators = {
                       [](const EnvironmentMap& map) {
                         return prepare_one_sample(map, MapDensity{DensitySpace::solid_angle});
                       }},
+    EstimatorInfo{.name = "environment B hammersley",
+                  .description = "as environment B, at Hammersley's points, shifted at random",
+                  .source = "Hammersley 1960; Cranley and Patterson 1976",
+                  .kind = EstimatorKind::point_set,
+                  .prepare = from_map_at<kHammersley>},
+    EstimatorInfo{.name = "environment B R2",
+                  .description = "as environment B, at the points of R2, shifted at random",
+                  .source = "Roberts 2018; Cranley and Patterson 1976",
+                  .kind = EstimatorKind::point_set,
+                  .prepare = from_map_at<kR2>},
+    EstimatorInfo{.name = "environment B sobol",
+                  .description = "as environment B, at Owen-scrambled Sobol points",
+                  .source = "Owen 1995; Kollig and Keller 2002; Burley 2020",
+                  .kind = EstimatorKind::point_set,
+                  .prepare = from_map_at<kSobol>},
+    EstimatorInfo{.name = "brdf hammersley",
+                  .description = "as brdf, at Hammersley's points, shifted at random",
+                  .source = "Hammersley 1960; Cranley and Patterson 1976",
+                  .kind = EstimatorKind::point_set,
+                  .prepare = from_lobes_at<kHammersley>},
+    EstimatorInfo{.name = "brdf R2",
+                  .description = "as brdf, at the points of R2, shifted at random",
+                  .source = "Roberts 2018; Cranley and Patterson 1976",
+                  .kind = EstimatorKind::point_set,
+                  .prepare = from_lobes_at<kR2>},
+    EstimatorInfo{.name = "brdf sobol",
+                  .description = "as brdf, at Owen-scrambled Sobol points",
+                  .source = "Owen 1995; Kollig and Keller 2002; Burley 2020",
+                  .kind = EstimatorKind::point_set,
+                  .prepare = from_lobes_at<kSobol>},
 };
 
 }  // namespace

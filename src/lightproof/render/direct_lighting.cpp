@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "lightproof/core/random_batch.h"
 #include "lightproof/materials/material_batch.h"
-#include "lightproof/samplers/batch.h"
 #include "lightproof/warp/lat_long.h"
 #include "lightproof/warp/sphere_batch.h"
 
@@ -28,21 +26,21 @@ void LightBatch::fill_from_sphere(std::size_t count) {
 }
 
 void LightBatch::fill_from_map(std::size_t count, const GuideTable& sampler,
-                               const RandomStream& stream, std::uint64_t first) {
-  sample_directions(sampler, stream, first,
-                    {std::span(x_).first(count), std::span(y_).first(count),
-                     std::span(z_).first(count), std::span(pdf_).first(count),
-                     std::span(column_).first(count), std::span(row_).first(count)});
+                               const BatchPoints& points) {
+  draw_batch(sampler, points,
+             DirectionBatch{std::span(x_).first(count), std::span(y_).first(count),
+                            std::span(z_).first(count), std::span(pdf_).first(count),
+                            std::span(column_).first(count), std::span(row_).first(count)});
 }
 
-void LightBatch::draw(const Lighting& lighting, const ShadingPoint& at, const RandomStream& stream,
-                      std::uint64_t first, std::size_t count) {
+void LightBatch::draw(const Lighting& lighting, const ShadingPoint& at, const BatchPoints& points,
+                      std::size_t count) {
   assert(count <= kCapacity);
   count_ = count;
   if (const auto& sampler = lighting.light->sampler()) {
-    return fill_from_map(count, *sampler, stream, first);
+    return fill_from_map(count, *sampler, points);
   }
-  fill_points(stream, first, std::span(s_).first(count), std::span(u_).first(count));
+  points.fill(0, std::span(s_).first(count), std::span(u_).first(count));
   if (std::holds_alternative<MaterialLobes>(lighting.light->source())) {
     return fill_from_material(count, lighting.material, at);
   }
@@ -92,9 +90,8 @@ std::span<const Rgb> LightBatch::resolve() {
 }
 
 std::span<const Rgb> LightBatch::estimate(const Lighting& lighting, const ShadingPoint& at,
-                                          const RandomStream& stream, std::uint64_t first,
-                                          std::size_t count) {
-  draw(lighting, at, stream, first, count);
+                                          const BatchPoints& points, std::size_t count) {
+  draw(lighting, at, points, count);
   shade(lighting, at);
   trace(*lighting.scene);
   return resolve();

@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <span>
 
-#include "lightproof/core/random.h"
 #include "lightproof/materials/material.h"
 #include "lightproof/render/environment_light.h"
 #include "lightproof/render/scene.h"
+#include "lightproof/samplers/batch.h"
 
 namespace lightproof {
 
@@ -26,14 +26,14 @@ class LightBatch {
  public:
   static constexpr std::size_t kCapacity = 256;
 
-  /// All four phases over the points [first, first + count) of the stream, count <= kCapacity.
-  /// Returns each sample's estimate of the outgoing radiance; their mean converges to L_o.
+  /// All four phases over the first `count` of these points, count <= kCapacity. Returns each
+  /// sample's estimate of the outgoing radiance; their mean converges to L_o.
   std::span<const Rgb> estimate(const Lighting& lighting, const ShadingPoint& at,
-                                const RandomStream& stream, std::uint64_t first, std::size_t count);
+                                const BatchPoints& points, std::size_t count);
 
   /// Draws directions and their densities.
-  void draw(const Lighting& lighting, const ShadingPoint& at, const RandomStream& stream,
-            std::uint64_t first, std::size_t count);
+  void draw(const Lighting& lighting, const ShadingPoint& at, const BatchPoints& points,
+            std::size_t count);
   /// Weighs them by k / pdf, finds their texels and makes rays of those that matter.
   void shade(const Lighting& lighting, const ShadingPoint& at);
   /// Asks the scene which rays are blocked.
@@ -53,8 +53,7 @@ class LightBatch {
 
   void fill_from_material(std::size_t count, const Material& material, const ShadingPoint& at);
   void fill_from_sphere(std::size_t count);
-  void fill_from_map(std::size_t count, const GuideTable& sampler, const RandomStream& stream,
-                     std::uint64_t first);
+  void fill_from_map(std::size_t count, const GuideTable& sampler, const BatchPoints& points);
   Direction direction(std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
   /// The texels of the positions on the map.
   void locate(Extent map);

@@ -59,10 +59,15 @@ double log_gamma_p(double a, double x) {
   return log_gamma_density(a, x) + std::log(sum);
 }
 
+/// Whether P(a, x) is surely below 1e-80, so that Q(a, x) is 1: near x = 0 Boost would take
+/// Gamma(a) itself, which is no double from a = 1755 on.
+bool is_far_below(double a, double x) { return a > 1000.0 && x < 0.5 * a; }
+
 /// log10 P(a, x).
 double log10_gamma_p(double a, double x) {
   if (x <= 0.0) return -INFINITY;
   if (std::isinf(x)) return 0.0;
+  if (is_far_below(a, x)) return log_gamma_p(a, x) / kLn10;
   const double p = boost::math::gamma_p(a, x);
   return p > kSmallestNormal ? std::log10(p) : log_gamma_p(a, x) / kLn10;
 }
@@ -74,6 +79,7 @@ double log10_chi_square_tail(double statistic, double dof) {
   if (std::isinf(statistic)) return -INFINITY;
   const double a = 0.5 * dof;
   const double x = std::max(0.0, 0.5 * statistic);
+  if (is_far_below(a, x)) return 0.0;
   const double q = boost::math::gamma_q(a, x);
   return q > kSmallestNormal ? std::log10(q) : log_gamma_q(a, x) / kLn10;
 }
