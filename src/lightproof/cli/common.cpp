@@ -105,13 +105,13 @@ bool is_readable(const std::string& input, Extent size, const ReadOptions& read)
 
 }  // namespace
 
-void add_common_options(CLI::App& command, CommonOptions& options) {
+void add_common_options(CLI::App& command, CommonOptions& options, const std::string& size_option) {
   command.add_option("MAP", options.maps,
                      "environment maps: files (OpenEXR, Radiance .hdr, PNG, JPEG) or built-in "
                      "names (see `lightproof list maps`)");
   command.add_option("--preset", options.preset,
                      "how the files' pixels map to directions (see `lightproof list presets`)");
-  command.add_option("--size", options.size, "WxH of built-in maps")->capture_default_str();
+  command.add_option(size_option, options.size, "WxH of built-in maps")->capture_default_str();
   add_input_options(command, options);
   command.add_flag("--any-aspect", options.any_aspect, "accept maps that are not 2:1");
   add_number(command, "--seed", options.seed, 0, UINT64_MAX, "base seed of all random numbers");

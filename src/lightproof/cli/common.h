@@ -40,8 +40,10 @@ struct CommonOptions : InputOptions {
   CommandLine command_line = {};        ///< that these options are from; may be empty
 };
 
-/// Adds the positional MAP… and the options above.
-void add_common_options(CLI::App& command, CommonOptions& options);
+/// Adds the positional MAP… and the options above; `size_option` is the name of the one for the
+/// size of built-in maps.
+void add_common_options(CLI::App& command, CommonOptions& options,
+                        const std::string& size_option = "--size");
 
 /// The most samples that are drawn for one test.
 inline constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 40U;
@@ -81,6 +83,7 @@ bool use_color(const CommonOptions& options, int stream);
 /// Each registers its subcommand, which writes the exit code when it is run. `line` is the command
 /// line that will be parsed.
 void add_gate(CLI::App& app, const CommandLine& line, int& exit_code);
+void add_precompute(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_study(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_info(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_history(CLI::App& app, const CommandLine& line, int& exit_code);

@@ -62,6 +62,7 @@ int run(int argc, char** argv) {
   app.get_formatter()->column_width(34);
   int exit_code = kPassed;
   add_study(app, line, exit_code);
+  add_precompute(app, line, exit_code);
   add_gate(app, line, exit_code);
   add_info(app, line, exit_code);
   add_history(app, line, exit_code);

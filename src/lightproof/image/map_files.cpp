@@ -113,6 +113,8 @@ void write_map(const fs::path& folder, const std::string& stem, const MapLevels&
 
 bool holds_brdf_map(MapFormat format) { return format != MapFormat::hdr; }
 
+MapFormat brdf_format(MapFormat format) { return holds_brdf_map(format) ? format : MapFormat::exr; }
+
 void write_brdf_map(const fs::path& folder, const std::string& stem, const BrdfMap& map,
                     MapFormat format) {
   const fs::path file = folder / name_of_file(stem, format);

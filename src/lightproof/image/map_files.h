@@ -36,6 +36,9 @@ void write_map(const std::filesystem::path& folder, const std::string& stem, con
 /// would leave B, which is small beside A, with few digits.
 bool holds_brdf_map(MapFormat format);
 
+/// The format itself, or EXR where it cannot hold a BRDF integration map.
+MapFormat brdf_format(MapFormat format);
+
 /// Writes STEM.exr (32-bit floats), STEM.ktx2 (16-bit floats) or STEM.png (8 bits, A in red, B in
 /// green, not encoded). Throws InputError if the file cannot be written, if the format is .hdr, or
 /// if a value is not finite.

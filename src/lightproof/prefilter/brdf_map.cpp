@@ -6,8 +6,8 @@
 
 #include "lightproof/core/direction.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/points/hammersley.h"
 #include "lightproof/prefilter/brdf_quadrature.h"
-#include "lightproof/prefilter/hammersley.h"
 #include "lightproof/prefilter/lobe_samples.h"
 #include "lightproof/warp/hemisphere.h"
 
@@ -42,8 +42,9 @@ ScaleBias integrate_brdf(double cosine, double roughness, Masking masking, Hamme
   const double alpha = roughness * roughness;
   const Direction view = {std::sqrt(1.0 - cosine * cosine), 0.0, cosine};
   ScaleBias sum = {0.0, 0.0};
+  const Hammersley set(points.count, points.first, {});
   for (std::uint32_t i = 0; i < points.count; ++i) {
-    const SquarePoint u = hammersley(points.first + i, points.count);
+    const SquarePoint u = set.point(i);
     const Direction half = direction_around_z(ggx_half_vector_cosine(alpha, u.t), u.s);
     const Direction light = reflect_about(view, half);
     const double view_half = std::clamp(glm::dot(view, half), 0.0, 1.0);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lightproof/prefilter/hammersley.h"
+#include "lightproof/points/hammersley.h"
 #include "lightproof/warp/hemisphere.h"
 
 namespace lightproof {
@@ -95,9 +95,9 @@ std::vector<LobeSample> lobe_samples(const Lobe& lobe, LobeSampling sampling, in
   const LobeDrawing by_lobe(lobe);
   std::vector<LobeSample> samples;
   double sum = 0.0;
+  const Hammersley points(static_cast<std::uint64_t>(count), 0, {});
   for (int n = 0; n < count; ++n) {
-    const SquarePoint u =
-        hammersley(static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(count));
+    const SquarePoint u = points.point(static_cast<std::uint32_t>(n));
     const Drawn drawn = sampling == LobeSampling::uniform       ? draw_uniform(u)
                         : sampling == LobeSampling::half_vector ? draw_half_vector(lobe, u)
                                                                 : by_lobe(u);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lightproof/prefilter/level_look_up.h"
+#include "lightproof/prefilter/radiance_look_up.h"
 #include "lightproof/prefilter/resample.h"
 
 namespace lightproof {

@@ -8,8 +8,8 @@
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
-#include "lightproof/prefilter/level_look_up.h"
 #include "lightproof/prefilter/lobe_plan.h"
+#include "lightproof/prefilter/radiance_look_up.h"
 #include "lightproof/prefilter/resample.h"
 #include "lightproof/prefilter/sampled_prefilter.h"
 #include "lightproof/prefilter/sphere_interpolation.h"

@@ -6,8 +6,8 @@
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
-#include "lightproof/prefilter/level_look_up.h"
 #include "lightproof/prefilter/lobe_samples.h"
+#include "lightproof/prefilter/radiance_look_up.h"
 #include "lightproof/warp/hemisphere.h"
 #include "lightproof/warp/lat_long.h"
 

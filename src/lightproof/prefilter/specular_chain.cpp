@@ -7,30 +7,17 @@
 #include <cmath>
 
 #include "lightproof/core/error.h"
-#include "lightproof/prefilter/level_look_up.h"
+#include "lightproof/image/map_levels.h"
+#include "lightproof/prefilter/radiance_look_up.h"
 #include "lightproof/warp/lat_long.h"
 
 namespace lightproof {
 
-int most_levels(Extent extent) {
-  int levels = 1;
-  for (int side = std::max(extent.width, extent.height); side > 1; side /= 2) ++levels;
-  return levels;
-}
-
 std::vector<Extent> level_extents(Extent extent, int levels) {
-  if (extent.width < 1 || extent.height < 1) {
-    throw InputError(
-        fmt::format("a map of {} x {} texels: at least 1 x 1 needed", extent.width, extent.height));
-  }
-  if (levels < 1 || levels > most_levels(extent)) {
-    throw InputError(fmt::format("{} levels of a map of {} x {} texels: 1 to {} possible", levels,
-                                 extent.width, extent.height, most_levels(extent)));
-  }
+  check_map_size(Projection::lat_long, extent);
+  check_level_count(extent, levels);
   std::vector<Extent> extents;
-  for (int level = 0; level < levels; ++level) {
-    extents.push_back({std::max(1, extent.width >> level), std::max(1, extent.height >> level)});
-  }
+  for (int level = 0; level < levels; ++level) extents.push_back(level_extent(extent, level));
   return extents;
 }
 

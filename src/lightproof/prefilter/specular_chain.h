@@ -15,9 +15,6 @@ namespace lightproof {
 /// Level by level, the finest first.
 using SpecularChain = std::vector<Grid<Rgb>>;
 
-/// How many levels a chain can have: until a side of 1 x 1 texels.
-int most_levels(Extent extent);
-
 /// Sizes of the levels, each half of the one before, rounded down, at least 1. Throws InputError if
 /// the size is not positive or has not so many levels.
 std::vector<Extent> level_extents(Extent extent, int levels);
