@@ -228,12 +228,15 @@ struct Stage {
   std::vector<Pixel> pixels;
 };
 
-/// Every estimator, prepared for one map.
+/// The estimators in the registry's order, prepared for one map; empty where the error is not
+/// predicted.
 using PreparedEstimators = std::vector<PreparedEstimator>;
 
 PreparedEstimators prepared_for(const EnvironmentMap& map) {
   PreparedEstimators prepared;
-  for (const EstimatorInfo& info : estimators()) prepared.push_back(info.prepare(map));
+  for (const EstimatorInfo& info : estimators()) {
+    prepared.push_back(info.density ? info.prepare(map) : PreparedEstimator{});
+  }
   return prepared;
 }
 
@@ -260,7 +263,7 @@ std::vector<Line> lines_of(const Lights& lights, const Stage& stage, const Mater
   for (std::size_t map = 0; map < lights.maps.size(); ++map) {
     for (std::size_t i = 0; i < estimators().size(); ++i) {
       const EstimatorInfo& info = estimators()[i];
-      if (!info.density) continue;  // its error is not predicted
+      if (!info.density) continue;
       Line line{&lights.maps[map],
                 stage.receiver,
                 &material,
