@@ -13,7 +13,6 @@
 namespace lightproof {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
 
