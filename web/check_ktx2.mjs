@@ -1,12 +1,16 @@
 // Reads a KTX 2.0 file of 16-bit floats with ktx-parse and compares it with what was to be written.
-// Usage: node check_ktx2.mjs FILE.ktx2 EXPECTED.json
-// EXPECTED holds vkFormat, width, height, channels, primaries, keys (an object of strings) and
-// levels: a list of levels, each a list of faces, each a flat list of numbers. Exit code 1, with the
-// first difference on standard error, if there is one.
+// Usage: node check_ktx2.mjs NODE_MODULES FILE.ktx2 EXPECTED.json
+// NODE_MODULES is the folder that holds ktx-parse. EXPECTED holds vkFormat, width, height, channels,
+// primaries, keys (an object of strings) and levels: a list of levels, each a list of faces, each a
+// flat list of numbers. Exit code 1, with the first difference on standard error, if there is one.
 import { readFileSync } from "node:fs";
-import { read, write } from "ktx-parse";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 
-const [file, expectedFile] = process.argv.slice(2);
+const [modules, file, expectedFile] = process.argv.slice(2);
+const parser = createRequire(join(modules, "here.js")).resolve("ktx-parse");
+const { read, write } = await import(pathToFileURL(parser).href);
 const bytes = readFileSync(file);
 const expected = JSON.parse(readFileSync(expectedFile, "utf8"));
 

@@ -13,7 +13,6 @@
 namespace lightproof {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
 
@@ -66,8 +65,8 @@ class Ktx2 : public testing::Test {
     test::write_bytes(folder_ / "a.ktx2", bytes);
     test::write_bytes(folder_ / "expected.json", expected.dump());
     try {
-      run_child(NODE_PROGRAM,
-                {CHECK_KTX2, (folder_ / "a.ktx2").string(), (folder_ / "expected.json").string()});
+      run_child(NODE_PROGRAM, {CHECK_KTX2, WEB_MODULES, (folder_ / "a.ktx2").string(),
+                               (folder_ / "expected.json").string()});
     } catch (const InputError& error) {
       return error.what();
     }

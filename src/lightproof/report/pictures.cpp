@@ -107,9 +107,10 @@ Grid<Rgb> unfolded_cube(std::span<const Grid<Rgb>> faces, Rgb background) {
   const int size = faces[0].extent().width;
   Grid<Rgb> cross(Extent{4 * size, 3 * size}, background);
   for (std::size_t i = 0; i < faces.size(); ++i) {
+    const int left = kPlaces[i].width * size;
+    const int top = kPlaces[i].height * size;
     for (int y = 0; y < size; ++y) {
-      const auto row = cross.row(kPlaces[i].height * size + y).subspan(kPlaces[i].width * size);
-      std::ranges::copy(faces[i].row(y), row.begin());
+      std::ranges::copy(faces[i].row(y), &cross(left, top + y));
     }
   }
   return cross;
