@@ -8,8 +8,9 @@
 
 namespace lightproof::reference {
 
-/// ∫ (n·w)+ d(omega) over texel (x, y) in steradian, to 1e-13 of the texel's solid angle: Gauss's
-/// rule over theta, from and to the horizon, inside of an adaptive one over the longitude.
+/// ∫ (n·w)+ d(omega) over texel (x, y) in steradian, to some 1e-15: Gauss's rule over theta, from
+/// and to the horizon, and over the longitude, between the places at which the horizon enters or
+/// leaves the texel.
 double clamped_cosine_of_texel(Extent map, int x, int y, Direction normal);
 
 /// The sum over all texels; for small maps.

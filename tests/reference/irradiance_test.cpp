@@ -1,4 +1,5 @@
-// Irradiance of maps with closed forms: the reference's mean of L k for the cosine kernel.
+// Irradiance of maps with closed forms: the reference's mean of L k for the cosine kernel, and its
+// sum over texels.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,6 +7,8 @@
 #include "lightproof/core/measure.h"
 #include "lightproof/image/synthetic.h"
 #include "reference/estimator_moments.h"
+#include "reference/irradiance.h"
+#include "tests/reference/maps.h"
 
 namespace lightproof::reference {
 namespace {
@@ -16,7 +19,7 @@ constexpr double kStep = kPi / 256.0;
 /// Axis of the lobe and the step.
 constexpr Direction kAxis = {2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0};
 
-double irradiance(const Grid<double>& luminance, Direction normal) {
+double irradiance_at_nodes(const Grid<double>& luminance, Direction normal) {
   const Grid<double> grids[] = {luminance};
   const LightMoments m = light_moments(cosine_kernel(normal), grids).front();
   EXPECT_NEAR(m[SampledDensity::texture_space].mean(), m[SampledDensity::uniform].mean(),
@@ -45,7 +48,8 @@ TEST(Irradiance, OfTheStepIsThatOfASphericalWedge) {
   for (const double gamma : kAngles) {
     for (const bool other : {false, true}) {
       const double exact = kPi * (1.0 + std::cos(gamma)) / 2.0;
-      EXPECT_NEAR(irradiance(luminance, at_angle(gamma, other)), exact, 2.0 * radius) << gamma;
+      EXPECT_NEAR(irradiance_at_nodes(luminance, at_angle(gamma, other)), exact, 2.0 * radius)
+          << gamma;
     }
   }
 }
@@ -61,7 +65,7 @@ TEST(Irradiance, OfTheCosineLobeIsItsClosedForm) {
   for (const double gamma : kAngles) {
     for (const bool other : {false, true}) {
       const double exact = 2.0 / 3.0 * ((kPi - gamma) * std::cos(gamma) + std::sin(gamma));
-      EXPECT_NEAR(irradiance(luminance, at_angle(gamma, other)), exact, bound) << gamma;
+      EXPECT_NEAR(irradiance_at_nodes(luminance, at_angle(gamma, other)), exact, bound) << gamma;
     }
   }
 }
@@ -73,7 +77,7 @@ TEST(Irradiance, OfTheGradientIsLinearInTheNormal) {
   for (const Direction along :
        {Direction(0, 0, 1), Direction(0, 0, -1), Direction(1, 0, 0), Direction(1, -2, 2) / 3.0}) {
     const double exact = kPi * c * (1.0 + along.z / 3.0);
-    EXPECT_NEAR(irradiance(luminance, along), exact, kPi * (kStep * kStep / 24.0) + 1e-6);
+    EXPECT_NEAR(irradiance_at_nodes(luminance, along), exact, kPi * (kStep * kStep / 24.0) + 1e-6);
   }
 }
 
@@ -96,9 +100,34 @@ TEST(Irradiance, OfOneVisibleTexelIsItsExactVector) {
     const Direction normal = glm::normalize(along);
     ASSERT_GT(glm::dot(normal, v), 0.0);
     // Gauss-Legendre: h^4/4320 = 5e-12 of it, and the luminance weights' own rounding.
-    EXPECT_NEAR(irradiance(luminance, normal) / glm::dot(normal, v), 1.0, 1e-10);
+    EXPECT_NEAR(irradiance_at_nodes(luminance, normal) / glm::dot(normal, v), 1.0, 1e-10);
   }
-  EXPECT_EQ(irradiance(luminance, -glm::normalize(v)), 0.0);
+  EXPECT_EQ(irradiance_at_nodes(luminance, -glm::normalize(v)), 0.0);
+}
+
+TEST(Irradiance, TexelByTexelIsThatOfTheNodes) {
+  const Extent extent = {33, 17};
+  std::vector<float> values;
+  for (std::size_t i = 0; i < extent.count(); ++i) values.push_back(static_cast<float>(i % 7));
+  const EnvironmentMap map = grey_map(extent, values);
+  // Nodes take cells of the horizon of h = pi/2048: of their number 2 pi/h, area h^2 and values up
+  // to h, an eighth may be wrong, with radiance up to 6.
+  const double tolerance = 6.0 * 2.0 * kPi / 8.0 * std::pow(kPi / 2048.0, 2);
+  for (const Direction along : {Direction(0, 0, 1), Direction(1, 0, 0), Direction(1, -2, -3)}) {
+    const Direction normal = glm::normalize(along);
+    EXPECT_NEAR(irradiance(map, normal).g, irradiance_at_nodes(luminance_of(map), normal),
+                tolerance);
+  }
+}
+
+TEST(Irradiance, TexelByTexelOfConstantLightIsPi) {
+  for (const Extent extent : kExtents) {
+    const EnvironmentMap map = grey_map(extent, std::vector<float>(extent.count(), 1.0F));
+    for (const Direction along :
+         {Direction(0, 0, -1), Direction(1, 0, 1e-3), Direction(1, -2, 3)}) {
+      EXPECT_NEAR(irradiance(map, glm::normalize(along)).r, kPi, 1e-11);
+    }
+  }
 }
 
 }  // namespace

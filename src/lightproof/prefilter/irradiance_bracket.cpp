@@ -25,7 +25,7 @@ Interval cosines(Interval angles) {
     return std::floor((angles.high - angle) / (2.0 * kPi)) >=
            std::ceil((angles.low - angle) / (2.0 * kPi));
   };
-  const auto [low, high] = std::minmax(std::cos(angles.low), std::cos(angles.high));
+  const auto [low, high] = std::minmax({std::cos(angles.low), std::cos(angles.high)});
   return {holds(kPi) ? -1.0 : low, holds(0.0) ? 1.0 : high};
 }
 
