@@ -46,7 +46,7 @@ struct HalfVectorLobe {
 using Lobe = std::variant<PhongLobe, GgxLobe, HalfVectorLobe>;
 
 /// alpha = R^2.
-constexpr double ggx_alpha(double roughness) { return roughness * roughness; }
+constexpr double alpha_of_roughness(double roughness) { return roughness * roughness; }
 
 /// S = 2/R^4 - 2, which gives Blinn's distribution the slopes of GGX with alpha = R^2. Infinite at
 /// R = 0, negative beyond R = 1.

@@ -20,9 +20,9 @@ glm::dvec3 MipPyramid::trilinear(SquarePoint at, double level_of_detail) const {
   const double level_place = std::clamp(level_of_detail, 0.0, last);
   const auto finer = static_cast<std::size_t>(level_place);
   const double between = level_place - static_cast<double>(finer);
-  const glm::dvec3 value = bilinear(level(finer), at);
+  const glm::dvec3 value = look_up_bilinear(level(finer), at);
   if (between == 0.0) return value;
-  return (1.0 - between) * value + between * bilinear(level(finer + 1), at);
+  return (1.0 - between) * value + between * look_up_bilinear(level(finer + 1), at);
 }
 
 }  // namespace lightproof

@@ -216,7 +216,7 @@ std::vector<Rgb> prefilter(const Grid<Rgb>& map, const std::optional<Lobe>& lobe
   check(settings);
   if (!lobe) {
     return at_all(directions, [&](Direction axis) {
-      return glm::dvec3(nearest(map, square_from_direction(axis)));
+      return glm::dvec3(look_up_nearest(map, square_from_direction(axis)));
     });
   }
   if (samples(settings.method)) return Sampling(map, settings)(*lobe, directions);

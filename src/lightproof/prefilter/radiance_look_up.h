@@ -12,7 +12,7 @@ namespace lightproof {
 
 /// Interpolates between the centres of the four nearest texels: s wraps around, t is clamped, so
 /// that the half rows at the poles are constant in t.
-inline glm::dvec3 bilinear(const Grid<Rgb>& level, SquarePoint at) {
+inline glm::dvec3 look_up_bilinear(const Grid<Rgb>& level, SquarePoint at) {
   const auto [width, height] = level.extent();
   const double column = std::floor(at.s * width - 0.5);
   const double row = std::floor(at.t * height - 0.5);
@@ -29,7 +29,7 @@ inline glm::dvec3 bilinear(const Grid<Rgb>& level, SquarePoint at) {
 }
 
 /// The texel that holds the point; a coordinate of exactly 1 belongs to the last.
-inline Rgb nearest(const Grid<Rgb>& level, SquarePoint at) {
+inline Rgb look_up_nearest(const Grid<Rgb>& level, SquarePoint at) {
   const auto [width, height] = level.extent();
   return level(std::clamp(static_cast<int>(at.s * width), 0, width - 1),
                std::clamp(static_cast<int>(at.t * height), 0, height - 1));

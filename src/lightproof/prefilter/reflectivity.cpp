@@ -24,7 +24,7 @@ Direction texel_centre(std::size_t texel, Extent extent) {
 
 /// What the map shows from around an axis.
 glm::dvec3 radiance_from(const Grid<Rgb>& map, const Frame& frame, Direction local) {
-  return glm::dvec3(nearest(map, approximate_square_from_direction(frame.to_world(local))));
+  return glm::dvec3(look_up_nearest(map, approximate_square_from_direction(frame.to_world(local))));
 }
 
 }  // namespace

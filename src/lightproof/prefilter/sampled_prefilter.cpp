@@ -13,7 +13,7 @@ glm::dvec3 sum_nearest(const Grid<Rgb>& map, std::span<const LobeSample> samples
   glm::dvec3 sum(0.0);
   for (const LobeSample& sample : samples) {
     const SquarePoint at = approximate_square_from_direction(frame.to_world(sample.local));
-    sum += sample.weight * glm::dvec3(nearest(map, at));
+    sum += sample.weight * glm::dvec3(look_up_nearest(map, at));
   }
   return sum;
 }

@@ -38,8 +38,8 @@ std::optional<Lobe> ggx_lobe(double roughness, GgxWeight weight, double f0) {
   check_roughness(roughness);
   // Below, the lobe is narrower than the rounding of a direction.
   constexpr double kLeastAlpha = 1e-7;
-  if (ggx_alpha(roughness) < kLeastAlpha) return std::nullopt;
-  return GgxLobe{ggx_alpha(roughness), weight, f0};
+  if (alpha_of_roughness(roughness) < kLeastAlpha) return std::nullopt;
+  return GgxLobe{alpha_of_roughness(roughness), weight, f0};
 }
 
 SpecularChain ggx_chain(const Grid<Rgb>& map, Extent extent, int levels, GgxWeight weight,
@@ -74,9 +74,9 @@ Rgb look_up(const SpecularChain& chain, Direction direction, double level) {
   const auto finer = static_cast<std::size_t>(place);
   const double between = place - static_cast<double>(finer);
   const SquarePoint at = square_from_direction(direction);
-  const glm::dvec3 value = bilinear(chain[finer], at);
+  const glm::dvec3 value = look_up_bilinear(chain[finer], at);
   if (between == 0.0) return Rgb(value);
-  return Rgb((1.0 - between) * value + between * bilinear(chain[finer + 1], at));
+  return Rgb((1.0 - between) * value + between * look_up_bilinear(chain[finer + 1], at));
 }
 
 }  // namespace lightproof

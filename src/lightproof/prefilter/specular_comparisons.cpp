@@ -5,6 +5,7 @@
 
 #include "lightproof/core/measure.h"
 #include "lightproof/core/random.h"
+#include "lightproof/prefilter/brdf_map.h"
 #include "lightproof/prefilter/progressive.h"
 #include "lightproof/prefilter/reflectivity.h"
 #include "lightproof/prefilter/specular_chain.h"
@@ -12,7 +13,7 @@
 namespace lightproof {
 namespace {
 
-/// 2^(-x/2): cos^x at 45 degrees, where a half-vector mirrors in the horizon.
+/// cos^x at 45 degrees, where a half-vector mirrors in the horizon.
 double cosine_at_horizon(double x) { return std::exp2(-0.5 * x); }
 
 /// The integral of u^x (2u - 1) from a to b.
@@ -30,46 +31,53 @@ double power_integral(double x, double a, double b) {
 
 }  // namespace
 
-Comparison compare_hammersley_range(double cosine, double roughness, std::uint32_t count) {
-  return {
-      integrate_brdf(cosine, roughness, Masking::karis, HammersleyRange::published(count)).scale,
-      integrate_brdf(cosine, roughness, Masking::karis, HammersleyRange{count, 0}).scale,
-      integrate_brdf(cosine, roughness, Masking::karis).scale};
+PublishedComparison hammersley_range_comparison(double cosine, double roughness,
+                                                std::uint32_t count) {
+  const auto scale = [&](std::uint32_t first) {
+    return integrate_brdf(cosine, roughness, Masking::karis, HammersleyRange{count, first}).scale;
+  };
+  return {"002-5", "scale of the BRDF map: Hammersley points 1 to N against 0 to N-1",
+          integrate_brdf(cosine, roughness, Masking::karis).scale, scale(1), scale(0)};
 }
 
-Comparison compare_masking(double cosine, double roughness, std::uint32_t count) {
-  const HammersleyRange points = {count, 0};
-  return {integrate_brdf(cosine, roughness, Masking::karis, points).scale,
-          integrate_brdf(cosine, roughness, Masking::height_correlated, points).scale,
-          integrate_brdf(cosine, roughness, Masking::height_correlated).scale};
+PublishedComparison masking_comparison(double cosine, double roughness, std::uint32_t count) {
+  const auto scale = [&](Masking masking) {
+    return integrate_brdf(cosine, roughness, masking, HammersleyRange{count, 0}).scale;
+  };
+  return {"002-5", "scale of the BRDF map: Karis's masking against Smith's, height-correlated",
+          integrate_brdf(cosine, roughness, Masking::height_correlated).scale,
+          scale(Masking::karis), scale(Masking::height_correlated)};
 }
 
-Comparison compare_level_of_roughness(double roughness, int levels) {
+PublishedComparison level_of_roughness_comparison(double roughness, int levels) {
   const double exact = level_of_roughness(roughness, levels);
-  return {level_of_roughness_published(roughness, levels), exact, exact};
+  return {"002-6", "level of a roughness: R mipCount against R (mipCount - 1)", exact,
+          level_of_roughness_published(roughness, levels), exact};
 }
 
-Comparison compare_progressive_mean(int frames) {
+PublishedComparison progressive_mean_comparison(int frames) {
   SwappedBlend swapped;
   RunningMean<double> mean;
   for (int frame = 0; frame < frames; ++frame) {
     swapped.add(1.0, 16);
     mean.add(1.0, 16);
   }
-  return {swapped.mean(), mean.mean(), 1.0};
+  return {"004-1", "mean of frames of mean 1, with swapped weights", 1.0, swapped.mean(),
+          mean.mean()};
 }
 
-Comparison compare_progressive_variance(int frames) {
+PublishedComparison progressive_variance_comparison(int frames) {
   // Frame k keeps (k-1)/k of itself and 1/k of what was there.
   double squares = 0.0;
   for (int k = 1; k <= frames; ++k) {
     const double kept = 1.0 / k;
     squares = squares * kept * kept + (1.0 - kept) * (1.0 - kept);
   }
-  return {squares, 1.0 / frames, 1.0 / frames};
+  return {"004-1", "variance that is left after the frames, with swapped weights", 1.0 / frames,
+          squares, 1.0 / frames};
 }
 
-Comparison compare_progressive_precision(std::uint64_t samples) {
+PublishedComparison progressive_precision_comparison(std::uint64_t samples) {
   const RandomStream stream("progressive/precision", 1);
   constexpr double kProbability = 1e-3;
   PublishedBlend blend;
@@ -81,52 +89,79 @@ Comparison compare_progressive_precision(std::uint64_t samples) {
     mean.add(hit ? 1000.0 : 0.0, 1);
     if (hit) ++hits;
   }
-  return {static_cast<double>(blend.mean()), mean.mean(),
-          1000.0 * static_cast<double>(hits) / static_cast<double>(samples)};
+  return {"004-1", "mean of rare samples of 1000, blended in single precision",
+          1000.0 * static_cast<double>(hits) / static_cast<double>(samples),
+          static_cast<double>(blend.mean()), mean.mean()};
 }
 
-Comparison compare_shininess(int level, int levels) {
+PublishedComparison shininess_comparison(int level, int levels) {
   const double exact = half_vector_shininess(reflectivity_roughness(level, levels));
-  return {half_vector_shininess(reflectivity_roughness_published(level)), exact, exact};
+  return {"004-4", "shininess of a level, its roughness not divided by the number of levels", exact,
+          half_vector_shininess(reflectivity_roughness_published(level)), exact};
 }
 
-Comparison compare_half_vector_density() { return {2.0 * kPi, 1.0, 1.0}; }
-
-Comparison compare_weight_mean(double shininess) {
-  // cos(theta) has the mean (S+1)/(S+2).
-  const double cosine = (shininess + 1.0) / (shininess + 2.0);
-  return {reflectivity_weight_published(shininess, cosine), reflectivity_weight(shininess, cosine),
+PublishedComparison half_vector_density_comparison() {
+  return {"004-5", "integral of the half-vector's density over the hemisphere", 1.0, 2.0 * kPi,
           1.0};
 }
 
-Comparison compare_white_map(double roughness) {
+PublishedComparison weight_comparison(double shininess) {
+  const double mean_cosine = (shininess + 1.0) / (shininess + 2.0);
+  return {"004-6", "mean weight of a draw", 1.0,
+          reflectivity_weight_published(shininess, mean_cosine),
+          reflectivity_weight(shininess, mean_cosine)};
+}
+
+PublishedComparison white_map_comparison(double roughness) {
   const double shininess = half_vector_shininess(roughness);
   const double published = 2.0 / kPi * (1.0 - cosine_at_horizon(shininess + 2.0)) /
                            (1.0 - half_vector_below_horizon(shininess));
-  return {published, 1.0, 1.0};
+  return {"004-7", "reflectivity of a white map, renormalised by the samples that are left", 1.0,
+          published, 1.0};
 }
 
-Comparison compare_repeated_draws(double roughness, int samples) {
+PublishedComparison repeated_draws_comparison(double roughness, int samples) {
   const double shininess = half_vector_shininess(roughness);
   const double skipped = std::max(half_vector_below_horizon(shininess), skipped_share(shininess));
-  return {std::pow(skipped, samples) / (1.0 - skipped), 0.0, 0.0};
+  return {"004-8", "random numbers of a frame that the next frame draws again", 0.0,
+          std::pow(skipped, samples) / (1.0 - skipped), 0.0};
 }
 
-Comparison compare_geometry(double roughness) {
+PublishedComparison geometry_comparison(double roughness) {
   const double shininess = half_vector_shininess(roughness);
   const double exact = white_with_cook_torrance(shininess);
-  return {white_with_cosine_geometry(shininess), exact, exact};
+  return {"004-9", "reflectivity of a white map with G = 2 n·l against Cook and Torrance's", exact,
+          white_with_cosine_geometry(shininess), exact};
 }
 
-Comparison compare_height(int width) {
+PublishedComparison height_comparison(int width) {
   const auto exact = static_cast<double>(reflectivity_extent(width).height);
-  return {static_cast<double>(reflectivity_extent_published(width).height), exact, exact};
+  return {"004-10", "height of a reflectivity map", exact,
+          static_cast<double>(reflectivity_extent_published(width).height), exact};
 }
 
-Comparison compare_fresnel_at_mirror(double f0, double cosine, double roughness) {
+PublishedComparison fresnel_at_mirror_comparison(double f0, double cosine, double roughness) {
   const ScaleBias split = integrate_brdf(cosine, roughness, Masking::height_correlated);
   const double mirrored = f0 + (1.0 - f0) * std::pow(1.0 - cosine, 5.0);
-  return {mirrored * (split.scale + split.bias), split.reflected(f0), split.reflected(f0)};
+  return {"004-14", "reflection of a white sky, the Fresnel factor taken out of the integral",
+          split.reflected(f0), mirrored * (split.scale + split.bias), split.reflected(f0)};
+}
+
+std::vector<PublishedComparison> specular_comparisons() {
+  return {hammersley_range_comparison(0.1, 0.5, 1024),
+          masking_comparison(0.1, 0.5, 1024),
+          level_of_roughness_comparison(1.0, 9),
+          progressive_mean_comparison(2),
+          progressive_variance_comparison(100),
+          progressive_precision_comparison(10'000'000),
+          shininess_comparison(3, kReflectivityLevels),
+          half_vector_density_comparison(),
+          weight_comparison(30.0),
+          white_map_comparison(1.0),
+          repeated_draws_comparison(1.0, 16),
+          geometry_comparison(0.5),
+          height_comparison(1024),
+          fresnel_at_mirror_comparison(0.04, 0.1, 0.5)};
 }
 
 double ggx_below_horizon(double alpha) { return alpha * alpha / (1.0 + alpha * alpha); }

@@ -3,73 +3,71 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
-#include "lightproof/prefilter/brdf_map.h"
+#include "lightproof/prefilter/published_comparison.h"
 
 namespace lightproof {
 
-/// One quantity by three ways, in the same unit.
-struct Comparison {
-  double published;
-  double corrected;
-  double exact;
-};
-
 /// 002-5: the scale A of the BRDF integration map with Karis's masking, by the lecture's points n =
-/// 1 … N, by n = 0 … N - 1, and by quadrature.
-Comparison compare_hammersley_range(double cosine, double roughness, std::uint32_t count);
+/// 1 … N, and by n = 0 … N - 1. Exact: quadrature.
+PublishedComparison hammersley_range_comparison(double cosine, double roughness,
+                                                std::uint32_t count);
 
-/// 002-5: the scale A, which the lecture leaves to an unnamed G_Smith: with Karis's fit, against
-/// Smith's height-correlated masking by the same points and by quadrature.
-Comparison compare_masking(double cosine, double roughness, std::uint32_t count);
+/// 002-5: the scale A, whose G_Smith the lecture leaves open: with Karis's fit, and with Smith's
+/// height-correlated masking. Exact: the latter by quadrature.
+PublishedComparison masking_comparison(double cosine, double roughness, std::uint32_t count);
 
-/// 002-6: the level that a roughness is looked up at: R mipCount against R (mipCount - 1).
-Comparison compare_level_of_roughness(double roughness, int levels);
+/// 002-6: the level that a roughness is looked up at: R mipCount, and R (mipCount - 1).
+PublishedComparison level_of_roughness_comparison(double roughness, int levels);
 
-/// 004-1: the mean of `frames` equal frames of mean 1, with the weights that the text swaps: 1 -
-/// 1/k! against 1.
-Comparison compare_progressive_mean(int frames);
+/// 004-1: the mean of `frames` equal frames of mean 1: the weights that the text swaps make it 1 -
+/// 1/k!. Exactly 1.
+PublishedComparison progressive_mean_comparison(int frames);
 
 /// 004-1: the sum of the squared weights of `frames` equal frames, by which the variance of a frame
-/// is multiplied: it tends to 1 with swapped weights, and is 1/k of a mean.
-Comparison compare_progressive_variance(int frames);
+/// is multiplied: it tends to 1 with swapped weights. Exactly 1/k.
+PublishedComparison progressive_variance_comparison(int frames);
 
 /// 004-1: the mean of `samples` samples that are 1000 with probability 1/1000 and else 0, a frame
-/// of one sample each: blended in single precision as in the code, in double with compensation, and
-/// counted.
-Comparison compare_progressive_precision(std::uint64_t samples);
+/// of one sample each: blended in single precision as in the code, and in double with compensation.
+/// Exact: counted.
+PublishedComparison progressive_precision_comparison(std::uint64_t samples);
 
 /// 004-4: the shininess of level i of n: of roughness i + 1/2, and of (i + 1/2)/n.
-Comparison compare_shininess(int level, int levels);
+PublishedComparison shininess_comparison(int level, int levels);
 
 /// 004-5: the integral of the half-vector's density over the hemisphere, whatever the shininess:
-/// (S+1) cos^S lacks 1/2pi.
-Comparison compare_half_vector_density();
+/// (S+1) cos^S lacks 1/2pi. Exactly 1.
+PublishedComparison half_vector_density_comparison();
 
-/// 004-6: the mean over all draws of the weight D/pdf, those from below the horizon included: 2/pi
-/// against 1.
-Comparison compare_weight_mean(double shininess);
+/// 004-6: the mean over all draws of the weight D/pdf, those from below the horizon included.
+/// Exactly 1.
+PublishedComparison weight_comparison(double shininess);
 
 /// 004-7: a white map after skipping and renormalising: divided by the number of good samples,
-/// (2/pi) (1 - 2^(-(S+2)/2))/(1 - 2^(-(S+1)/2)), against the sum of their weights. The published
-/// rule that skips densities below 1e-4 is left out: see skipped_share.
-Comparison compare_white_map(double roughness);
+/// (2/pi) (1 - 2^(-(S+2)/2))/(1 - 2^(-(S+1)/2)), and by the sum of their weights. Exactly 1. The
+/// published rule that skips densities below 1e-4 is left out: see skipped_share.
+PublishedComparison white_map_comparison(double roughness);
 
 /// 004-8: how many of a frame's random numbers the next frame draws again, on average, because a
-/// texel draws on until one sample is good.
-Comparison compare_repeated_draws(double roughness, int samples);
+/// texel draws on until one sample is good. Exactly 0.
+PublishedComparison repeated_draws_comparison(double roughness, int samples);
 
-/// 004-9: a white map by the formula D G/4 with F = 1: with G = 2 (n·l)+, 2 (S + 2^(-S/2))/(S + 4);
-/// with Cook and Torrance's G = min(1, 2 (n·l)+), corrected and exact alike.
-Comparison compare_geometry(double roughness);
+/// 004-9: a white map by the formula D G/4 with F = 1: with G = 2 (n·l)+, 2 (S + 2^(-S/2))/(S + 4),
+/// and with Cook and Torrance's G = min(1, 2 (n·l)+).
+PublishedComparison geometry_comparison(double roughness);
 
 /// 004-10: the height of a map of this width.
-Comparison compare_height(int width);
+PublishedComparison height_comparison(int width);
 
 /// 004-14: the light that GGX (height-correlated masking) reflects of a white sky: Schlick's
-/// reflectance of the mirrored direction taken out of the integral, F(n·v) (A + B), against the
-/// split sum F0 A + B, which is exact here.
-Comparison compare_fresnel_at_mirror(double f0, double cosine, double roughness);
+/// reflectance of the mirrored direction taken out of the integral, F(n·v) (A + B), and the split
+/// sum F0 A + B, which is exact here.
+PublishedComparison fresnel_at_mirror_comparison(double f0, double cosine, double roughness);
+
+/// All of them, at telling inputs.
+std::vector<PublishedComparison> specular_comparisons();
 
 /// The share of half-vectors that mirror light from below the horizon when n = v: alpha^2/(1 +
 /// alpha^2) of GGX's, 2^(-(S+1)/2) of those drawn by cos^S.
