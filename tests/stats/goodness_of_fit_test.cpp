@@ -305,7 +305,7 @@ double poisson_upper(int count, double mean) {
 }
 
 TEST(WorstCell, CriticalCountIsTheFirstWhoseTailIsBelowTheLevel) {
-  for (const double mean : {0.01, 1.0, 32.0, 1000.0}) {
+  for (const double mean : {1e-6, 0.01, 1.0, 32.0, 1000.0}) {
     for (const double level : {1e-3, 1e-9}) {
       const auto count = static_cast<int>(critical_count(mean, level));
       EXPECT_LE(poisson_upper(count, mean), level) << mean;

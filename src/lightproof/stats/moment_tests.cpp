@@ -1,10 +1,10 @@
 #include "lightproof/stats/moment_tests.h"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "lightproof/stats/critical_value.h"
 #include "lightproof/stats/tails.h"
 
 namespace lightproof {
@@ -34,16 +34,8 @@ double log10_tails_of_mean(double z, double samples, const ExactMoments& moments
 
 double minimum_detectable_factor(double level, double power, double samples,
                                  const ExactMoments& moments, double exact) {
-  const auto excess = [&](double z) {
-    return log10_tails_of_mean(z, samples, moments) > std::log10(level) ? 1.0 : -1.0;
-  };
-  double high = 0.0;  // of a level that everything passes
-  if (excess(high) > 0.0) {
-    double beyond = 1.0;
-    while (excess(beyond) > 0.0) beyond *= 2.0;
-    const boost::math::tools::eps_tolerance<double> close(40);
-    high = boost::math::tools::bisect(excess, high, beyond, close).second;
-  }
+  const double high = critical_value(
+      [&](double z) { return log10_tails_of_mean(z, samples, moments); }, std::log10(level));
   const double error = std::sqrt(moments.variance / samples) / exact;
   const double least = 1.0 - normal_quantile(power) * error;
   return least > 0.0 ? (1.0 + high * error) / least : HUGE_VAL;
