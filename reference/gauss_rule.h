@@ -8,23 +8,23 @@
 
 namespace lightproof::reference {
 
-/// A node of a rule over [0,1], and its share of the interval.
+/// A node of a Gauss-Legendre rule over [0,1].
 struct GaussNode {
-  double at;
-  double weight;  ///< a rule's sum to 1
+  double at;      ///< position in (0,1)
+  double weight;  ///< share of the interval; the weights of a rule sum to 1
 };
 
-/// The rule of `kNodes` nodes, which integrates polynomials up to degree 2 kNodes - 1 exactly.
-/// There are those of 2 and 3 nodes.
+/// The Gauss-Legendre rule of `kNodes` nodes, 2 or 3, which integrates polynomials up to degree
+/// 2 kNodes - 1 exactly.
 template <std::size_t kNodes>
 class GaussRule {
  public:
   GaussRule();
 
-  /// In ascending order.
+  /// The nodes over [0,1] in ascending order.
   const std::array<GaussNode, kNodes>& nodes() const { return nodes_; }
 
-  /// ∫ of a function of one number over [low, high].
+  /// ∫ of a function of one number over [low, high], which is evaluated at the kNodes nodes.
   template <class Function>
   double integrate(double low, double high, const Function& f) const {
     double mean = 0.0;
