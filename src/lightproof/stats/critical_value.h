@@ -6,10 +6,10 @@
 
 namespace lightproof {
 
-/// The statistic, from 0 up, at which an upper tail falls to a level. `log10_tail` is log10 P(X >=
-/// x) as a function of x, and never rises; where it jumps over the level, the result is where it
-/// jumps. 0 if the tail is no higher than the level there. The result errs by less than 2^-49 of
-/// itself, and towards the side on which the tail is not above the level. The level is positive.
+/// The statistic x >= 0 at which an upper tail P(X >= x) falls to a positive level, both given by
+/// their decimal logarithms. The tail must never rise; if it jumps over the level, the result is
+/// where it does. It is 0 if the tail is at most the level at once. It errs by less than 2^-49 of
+/// itself, and only upwards: the tail there is at most the level.
 double critical_value(const std::function<double(double)>& log10_tail, double log10_level);
 
 }  // namespace lightproof
