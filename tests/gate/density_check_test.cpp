@@ -28,7 +28,7 @@ BoundSampler with_mass(const EnvironmentMap& map, int x, int y, double factor) {
   return bound(DiscreteSampler(std::move(masses), kTarget.density_space));
 }
 
-TEST(DensityCheck, ASoundPdfIsTheDeclaredDensity) {
+TEST(DensityCheck, ACorrectPdfIsTheDeclaredDensity) {
   for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
     const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
     const TargetDensity target = {density_space, kRec709};

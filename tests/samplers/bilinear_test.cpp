@@ -214,7 +214,7 @@ TEST_P(BilinearOnMaps, PdfIntegratesToOne) {
 // The table rounds the mass of a patch: its two CDF entries in each of two distributions are off by
 // less than a unit for rounding and one for every cell with light. Inside the patch the luminance
 // is a float.
-TEST_P(BilinearOnMaps, PdfIsTheInterpolatedGreyOverItsIntegral) {
+TEST_P(BilinearOnMaps, PdfIsTheInterpolatedLuminanceOverItsIntegral) {
   const auto [name, density_space] = GetParam();
   for (const Extent extent : kSizes) {
     const EnvironmentMap map = make_synthetic_map(name, extent);

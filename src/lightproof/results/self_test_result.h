@@ -61,8 +61,7 @@ struct KillRecord {
     std::uint64_t samples = 0;
   };
   std::vector<Kill> kills;
-  std::optional<std::uint64_t>
-      sequential;  ///< samples that the sequential gate took; none: accepted
+  std::optional<std::uint64_t> sequential;  ///< samples that the sequential gate took, or none
 };
 
 /// What the gate calls one mutant on the maps of a study, under both densities.
