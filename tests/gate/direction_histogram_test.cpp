@@ -64,7 +64,7 @@ DirectionHistogram histogram_of(std::span<const Direction> directions) {
   return histogram;
 }
 
-/// The bin of one direction; {-1, -1} if it was lost.
+/// The bin of one direction; {-1, -1} if it was invalid.
 Bin bin_of(Direction d) {
   const DirectionHistogram histogram = histogram_of({&d, 1});
   EXPECT_EQ(histogram.samples(), 1U);

@@ -127,10 +127,10 @@ struct ThinTail {
 };
 
 TEST(CressieRead, SeesALeakIntoCellsThatPoolingMightDrop) {
-  const ThinTail sound(0.00005);
-  ASSERT_EQ(std::accumulate(sound.counts.begin(), sound.counts.end(), std::uint64_t{0}),
+  const ThinTail correct(0.00005);
+  ASSERT_EQ(std::accumulate(correct.counts.begin(), correct.counts.end(), std::uint64_t{0}),
             ThinTail::kSamples);
-  const auto fit = cressie_read(sound.counts, sound.probability, ThinTail::kSamples);
+  const auto fit = cressie_read(correct.counts, correct.probability, ThinTail::kSamples);
   EXPECT_GT(log10_chi_square_tail(fit.statistic, fit.dof), -6.0);
   EXPECT_TRUE(fit.underdispersed) << "these counts are no random ones";
   EXPECT_LT(fit.log10_p, -6.0);
