@@ -61,7 +61,7 @@ struct KillRecord {
     std::uint64_t samples = 0;
   };
   std::vector<Kill> kills;
-  std::optional<std::uint64_t> sequential;  ///< samples that the sequential gate took, or none
+  std::optional<std::uint64_t> sequential;  ///< the sequential gate's samples; none: accepted
 };
 
 /// What the gate calls one mutant on the maps of a study, under both densities.
