@@ -1,4 +1,5 @@
-// A pdf against the declared density: what is unlit, unreachable or off is found in one texel of thousands.
+// A pdf against the declared density: what is unlit, unreachable or off is found in one texel of
+// thousands.
 #include "lightproof/gate/density_check.h"
 
 #include <gmock/gmock.h>
