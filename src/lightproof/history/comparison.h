@@ -41,8 +41,8 @@ struct ComparisonRow {
 
 /// Two commits, benchmark by benchmark.
 struct Comparison {
-  std::string base;  ///< the commit that is the measure
-  std::string head;  ///< the commit that is measured by it
+  std::string base;  ///< the commit that head is compared with
+  std::string head;  ///< the commit that may be slower
   std::string machine;
   std::string compiler;
   std::string flags;

@@ -46,7 +46,7 @@ struct Judgement {
   double ratio = 1.0;             ///< head / base
   double limit = 1.0;             ///< the ratio, or its inverse, is an effect beyond this
   double noise = 0.0;             ///< A/A noise, relative; 0 for instructions
-  std::optional<double> log10_p;  ///< log10 P(so slow a head if it is not); none for instructions
+  std::optional<double> log10_p;  ///< log10 p of the Mann-Whitney test; none for instructions
   Change change = Change::none;
 };
 
