@@ -8,16 +8,15 @@
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
+#include "reference/gauss_rule.h"
 
 namespace lightproof::reference {
 namespace {
 
 constexpr double kWidestPiece = 1.0 / 64.0;
 
-/// Gauss-Legendre on [0,1], n = 3 (Abramowitz & Stegun 25.4.29): over 1/64 of the square exact to
-/// 1e-14 for the product of a linear function and sin(pi t).
-constexpr std::array<double, 3> kPlaces = {0.11270166537925831, 0.5, 0.88729833462074169};
-constexpr std::array<double, 3> kWeights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+/// Over 1/64 of the square exact to 1e-14 for the product of a linear function and sin(pi t).
+const GaussRule<3> kRule;
 
 /// ∫ of a function without edges.
 template <class Function>
@@ -26,9 +25,7 @@ double integrate(double low, double high, const Function& f) {
   const double width = (high - low) / pieces;
   double sum = 0.0;
   for (int i = 0; i < pieces; ++i) {
-    for (std::size_t k = 0; k < kPlaces.size(); ++k) {
-      sum += width * kWeights[k] * f(low + (i + kPlaces[k]) * width);
-    }
+    sum += kRule.integrate(low + i * width, low + (i + 1) * width, f);
   }
   return sum;
 }

@@ -13,10 +13,10 @@
 
 namespace lightproof::reference {
 
-/// The part that one texel of a line contributes to an integral along it.
+/// What the tent of one texel of a line adds to an integral along the line.
 struct TentPart {
-  int texel;
-  double integral;
+  int texel;        ///< index of the texel in its line
+  double integral;  ///< ∫ of the tent, which is 1 at the texel's centre, times the weight
 };
 
 /// ∫ of tent times weight between two positions in [0,1], for all tents of a line of `texels` that
@@ -29,15 +29,18 @@ std::vector<TentPart> tent_parts(double low, double high, int texels, bool wraps
 /// InputError if the map is black.
 Grid<double> bilinear_masses(const EnvironmentMap& map, TargetDensity target, Extent cells);
 
-/// The probability integral transform of the distribution.
+/// The Rosenblatt transform of the density over the square that is proportional to the bilinearly
+/// interpolated luminance, under B times sin(pi t).
 class BilinearTransform {
  public:
-  /// The map is not black.
+  /// Integrates the map once; it must not be black.
   BilinearTransform(const EnvironmentMap& map, TargetDensity target);
 
+  /// The transformed coordinates of a position; its row is one of patches, of which there are
+  /// H + 1 between the centres of texels and beyond the outermost of them.
   RosenblattPoint operator()(SquarePoint at) const;
 
-  /// Mass of every row of patches; they sum to 1.
+  /// Probability of every row of patches, H + 1 of them from t = 0 up; they sum to 1.
   std::vector<double> rows() const;
 
   /// ∫ of the interpolated luminance over the square, under B times sin(pi t).
@@ -58,7 +61,7 @@ class BilinearTransform {
   std::vector<double> along_;    ///< mass below the lower edge of every row of patches, and 1
   std::vector<double> columns_;  ///< luminance of the columns, weighted as their rows are
   Sums column_sums_;
-  std::vector<Sums> sums_;  ///< of every row
+  std::vector<Sums> sums_;  ///< those of every row of texels
   double total_ = 0.0;
 };
 

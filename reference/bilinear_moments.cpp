@@ -10,6 +10,7 @@
 #include "lightproof/image/look_up.h"
 #include "lightproof/warp/lat_long.h"
 #include "reference/bilinear_distribution.h"
+#include "reference/gauss_rule.h"
 #include "reference/quadrature.h"
 
 namespace lightproof::reference {
@@ -142,14 +143,14 @@ double mean_reciprocal(double low, double high) {
   return (std::abs(x) < 1e-8 ? 1.0 - 0.5 * x : std::log1p(x) / x) / low;
 }
 
-/// Mean of weight(t) / L between two shares of the way: exact along s; along t by three
-/// Gauss-Legendre nodes where L changes by less than a quarter and t by less than 1/64, in which
-/// the rule's error is below 1e-7.
+/// Where L changes by less than a quarter and t by less than 1/64 its error is below 1e-7.
+const GaussRule<3> kRule;
+
+/// Mean of weight(t) / L between two shares of the way: exact over s, by pieces of that size over
+/// t.
 template <class Weight>
 double mean_over_light(const Quarter& quarter, double from, double to, const Weight& weight) {
   constexpr double kMostChange = 1.25;
-  constexpr std::array<double, 3> kPlaces = {0.11270166537925831, 0.5, 0.88729833462074169};
-  constexpr std::array<double, 3> kWeights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
   const auto changes = [&](const std::array<double, 2>& ends) {
     const double a = between(ends, from);
     const double b = between(ends, to);
@@ -161,13 +162,10 @@ double mean_over_light(const Quarter& quarter, double from, double to, const Wei
     return mean_over_light(quarter, from, middle, weight) +
            mean_over_light(quarter, middle, to, weight);
   }
-  double sum = 0.0;
-  for (std::size_t i = 0; i < kPlaces.size(); ++i) {
-    const double v = from + kPlaces[i] * (to - from);
-    sum += kWeights[i] * weight(quarter.t + v * quarter.height) *
+  return kRule.integrate(from, to, [&](double v) {
+    return weight(quarter.t + v * quarter.height) *
            mean_reciprocal(between(quarter.near, v), between(quarter.far, v));
-  }
-  return (to - from) * sum;
+  });
 }
 
 /// The quarters of texel (x, y).

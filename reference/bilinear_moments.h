@@ -1,5 +1,5 @@
-// As estimator_moments.h, of radiance that is interpolated between the centres of texels, and drawn
-// in proportion to it.
+// Exact moments of the one-sample estimators of estimator_moments.h where the radiance is
+// interpolated between the centres of texels, and the densities are proportional to it so.
 #pragma once
 
 #include <functional>
@@ -9,12 +9,13 @@
 
 namespace lightproof::reference {
 
-/// Quarters of texels are cells of the quadrature: the radiance is bilinear in each.
+/// The moments of the one-sample estimators of ∫ L k d(omega) for radiance L that is interpolated
+/// bilinearly, by a quadrature in quarters of texels: L is bilinear in each.
 LightMoments bilinear_light_moments(const Kernel& kernel, const Grid<double>& radiance);
 
-/// 1/p(omega) where the sample lies in a texel whose own value is bright, else 0: the mean, the
-/// mean square and a bound of the largest value; higher moments are left at 0. Bright texels are
-/// positive.
+/// Mean, mean square and a bound of the largest value of the estimator that is 1/p(omega) where the
+/// sample lies in a texel whose own value is bright, and 0 elsewhere; p is proportional to the
+/// interpolated radiance. Its higher moments are left at 0. Bright texels must be positive.
 EstimatorMoments bilinear_inverse_pdf(const Grid<double>& radiance, DensitySpace density_space,
                                       const std::function<bool(double)>& is_bright);
 

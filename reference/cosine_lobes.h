@@ -15,23 +15,23 @@ namespace lightproof::reference {
 struct CosineLobe {
   Direction axis;   ///< unit vector
   double exponent;  ///< n >= 0
-  double share;     ///< of all samples; those of a mixture sum to 1
+  double share;     ///< probability of the lobe; the shares of a mixture sum to 1
 };
 
-/// Per steradian.
+/// Density of the mixture at a direction, per steradian.
 double density(std::span<const CosineLobe> lobes, Direction d);
 
 /// A grid over the square whose cells are small against the narrowest lobe.
 Extent cells_for(std::span<const CosineLobe> lobes);
 
-/// Probabilities of the cells of the square; they sum to 1. Lobes around +z in closed form, their
-/// cumulative distribution being cos^(n+1); others by quadrature.
+/// Probabilities of the cells of a grid over the square; they sum to 1. Lobes around +z in closed
+/// form, their cumulative distribution being cos^(n+1); others by quadrature.
 Grid<double> cell_masses(std::span<const CosineLobe> lobes, Extent cells);
 
 /// Whether every lobe stands on +z.
 bool is_around_z(std::span<const CosineLobe> lobes);
 
-/// The transform to independent uniform numbers, for lobes around +z.
+/// The Rosenblatt transform of a mixture of lobes around +z at a point of the square.
 RosenblattPoint rosenblatt_point(std::span<const CosineLobe> lobes, SquarePoint at);
 
 }  // namespace lightproof::reference

@@ -19,23 +19,28 @@ struct KernelValue {
   double pdf = 0.0;  ///< density, per steradian, with which the material draws the direction
 };
 
+/// What an estimator integrates the map's radiance against, over all directions.
 struct Kernel {
+  /// The kernel's value at a direction, a unit vector.
   std::function<KernelValue(Direction)> at;
   /// Whether an edge of k (a horizon, a silhouette) may cross the cap of this angle in radians
   /// around the direction; such texels are split.
   std::function<bool(Direction, double)> straddles;
 };
 
-/// (n·omega)+ without occlusion; no material draws from it.
+/// The kernel (n·omega)+ of irradiance without occlusion; no material draws from it, so that its
+/// pdf is 0.
 Kernel cosine_kernel(Direction normal);
 
 /// Moments of an estimator about zero, and what follows from them.
 struct EstimatorMoments {
   std::array<double, 4> raw = {};  ///< E[X], E[X^2], E[X^3], E[X^4]
-  double largest = 0.0;            ///< X seen at a node; between nodes it is a few percent more
+  double largest = 0.0;  ///< the largest X at any node; between nodes it is a few percent more
 
   double mean() const { return raw[0]; }
+  /// E[X^2] - E[X]^2, but not below 0.
   double variance() const;
+  /// E[(X - E[X])^4], but not below 0.
   double fourth_central() const;
 };
 
@@ -51,6 +56,7 @@ inline constexpr std::size_t kSampledDensities = 4;
 /// The moments of the one-sample estimators of every density, over one map.
 class LightMoments {
  public:
+  /// The moments of the estimator that draws from this density.
   EstimatorMoments& operator[](SampledDensity density) {
     return of_[static_cast<std::size_t>(density)];
   }
@@ -64,7 +70,8 @@ class LightMoments {
   std::array<EstimatorMoments, kSampledDensities> of_;
 };
 
-/// One entry per grid of radiance L; all grids have one extent. Under A and B the density is
+/// The moments of the one-sample estimators of ∫ L k d(omega), one entry per grid of radiance L,
+/// which is constant inside a texel; all grids have one extent. Under A and B the density is
 /// proportional to the same L, so X is bounded however bright a sun is.
 std::vector<LightMoments> light_moments(const Kernel& kernel,
                                         std::span<const Grid<double>> radiance);

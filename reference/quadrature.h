@@ -12,31 +12,35 @@
 
 namespace lightproof::reference {
 
-/// A point of evaluation and the solid angle in steradian that it stands for.
+/// A direction at which an integrand over the sphere is evaluated.
 struct Node {
   Direction direction;
   double sin_theta;
-  double solid_angle;
-  SquarePoint at;
+  double solid_angle;  ///< weight of the node in steradian
+  SquarePoint at;      ///< the direction's position in the square
 };
 
-/// Nodes of the texels of one map size. The weights of a texel sum to its exact solid angle.
+/// A quadrature over the sphere by nodes in the texels of a map of one extent. The weights of a
+/// texel's nodes sum to its exact solid angle.
 class SphereQuadrature {
  public:
   /// The sphere is never divided into fewer cells than this, however few texels the map has: the
   /// rule's error is then below 1e-9 of an integrand as smooth as a cosine.
   static constexpr Extent kLeastCells = {256, 128};
-  /// And where an edge of the integrand may run, never into fewer than this.
+  /// The part of the sphere where an edge of the integrand may run is never divided into fewer
+  /// cells than if the whole had this many.
   static constexpr Extent kLeastEdgeCells = {4096, 2048};
 
   explicit SphereQuadrature(Extent extent);
 
   Extent extent() const { return extent_; }
+  /// Direction of the centre of texel (x, y).
   Direction centre(int x, int y) const;
   /// Largest angle between the centre of a texel and a point of it, in radians.
   double radius() const { return radius_; }
 
-  /// Calls visit(Node) for every node of texel (x, y).
+  /// Calls visit(Node) for every node of texel (x, y); `split` asks for the finer cells of a texel
+  /// that an edge of the integrand may cross.
   template <class Visit>
   void visit(int x, int y, bool split, const Visit& visit) const {
     const Level& level = split ? fine_ : coarse_;
@@ -62,11 +66,11 @@ class SphereQuadrature {
   struct Column {
     double cosine;
     double sine;
-    double weight;  ///< share of the cell; a cell's sum to 1
+    double weight;  ///< share of the cell; the shares of a cell's columns sum to 1
     double s;
   };
   struct Level {
-    Extent nodes;  ///< of one texel
+    Extent nodes;  ///< how many nodes a texel has
     std::vector<Row> rows;
     std::vector<Column> columns;
   };

@@ -13,23 +13,24 @@ namespace lightproof::reference {
 /// Coordinates of the Rosenblatt transform and what they are made of, each a share in [0,1],
 /// uniform if the density is right.
 struct RosenblattPoint {
-  double marginal;         ///< mass of all rows below
-  double conditional;      ///< mass to the left in its own row, as a share of that row's
-  double column_marginal;  ///< mass to the left over all rows
+  double marginal;         ///< mass below the point's t
+  double conditional;      ///< mass to the left of the point at its t, as a share of all mass there
+  double column_marginal;  ///< mass to the left of the point's s, over all rows
   /// Row of cells inside which the density has no edge: of texels, or of bilinear patches. -1 for a
   /// density that has no such rows.
   int row = -1;
-  double share_of_row = 0.0;   ///< of the row's mass, below the point
-  double share_of_cell = 0.0;  ///< of its cell's mass at the same t, to the left of the point
+  double share_of_row = 0.0;   ///< share of the row's mass that lies below the point
+  double share_of_cell = 0.0;  ///< share of the mass in its cell at its t that lies to its left
 };
 
+/// The Rosenblatt transform of a density that is given by the masses of texels.
 class RosenblattTransform {
  public:
   /// The transform of a density given by texel masses that sum to 1; uniform inside a texel in s,
   /// and in t or cos(theta) by the density space.
   RosenblattTransform(const Grid<double>& masses, DensitySpace density_space);
 
-  /// `at` lies in texel (x, y).
+  /// The transformed coordinates of `at`, which lies in texel (x, y).
   RosenblattPoint operator()(SquarePoint at, int x, int y) const;
 
   /// The transformed coordinates of `at`, which lies in texel (x, y) and whose cos(theta) is known:

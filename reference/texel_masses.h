@@ -15,12 +15,13 @@ Grid<double> texel_masses(const EnvironmentMap& map, TargetDensity target);
 /// texels and bins: linear in s; linear in t under A, in cos(theta) under B.
 Grid<double> bin_masses(const Grid<double>& texel_masses, DensitySpace density_space, Extent bins);
 
-/// The same of a map's own target density, whatever its look-up. Throws InputError if the map is
-/// black.
+/// Probability of every bin of a `bins` grid laid over the square, of a map's target density by
+/// either look-up; they sum to 1. Throws InputError if the map is black.
 Grid<double> bin_masses(const EnvironmentMap& map, TargetDensity target, Extent bins);
 
-/// Sums over columns: the marginal of the rows. And over rows.
+/// Masses of the rows of a grid: the sums over its columns.
 std::vector<double> row_marginal(const Grid<double>& masses);
+/// Masses of the columns of a grid: the sums over its rows.
 std::vector<double> column_marginal(const Grid<double>& masses);
 
 }  // namespace lightproof::reference

@@ -35,7 +35,7 @@ bool has_rejected_check_at_origin(const json& gate) {
   });
 }
 
-TEST(Gate, AcceptsASoundSamplerWithATable) {
+TEST(Gate, AcceptsACorrectSamplerWithATable) {
   Words words = kSound;
   words.insert(words.end(), {"--sampler", "binary_search"});
   const Finished gate = lightproof(words);
@@ -284,12 +284,12 @@ TEST(GateGithub, PrintsOneAnnotationForEachDefectEvenIfQuiet) {
 }
 
 TEST(Gate, LeavesOutKnownDefects) {
-  Words sound;
+  Words correct;
   for (const SamplerInfo& sampler : samplers()) {
-    if (!sampler.known_defects) sound.emplace_back(sampler.name);
+    if (!sampler.known_defects) correct.emplace_back(sampler.name);
   }
-  EXPECT_EQ(values_of(gate_results({"constant"}), "sampler"), sound);
-  EXPECT_EQ(values_of(gate_results({"constant", "--sound-only"}), "sampler"), sound)
+  EXPECT_EQ(values_of(gate_results({"constant"}), "sampler"), correct);
+  EXPECT_EQ(values_of(gate_results({"constant", "--sound-only"}), "sampler"), correct)
       << "scripts of earlier versions go on";
   const Finished both =
       lightproof({"gate", "--with-published", "--sampler", "linear_scan_published"});

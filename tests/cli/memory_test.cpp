@@ -44,7 +44,7 @@ TEST_F(Memory, ThatAMapDoesNotFitIntoIsNamed) {
 
 // 8192 x 4096 texels of 12 bytes are 0.4 GB, beside 0.5 GB of libraries; of what the gate needs to
 // know of their distribution, 0.27 GB for a number a texel, there are several.
-TEST_F(Memory, ThatTheLawOfAMapDoesNotFitIntoIsNamed) {
+TEST_F(Memory, ThatTheDistributionOfAMapDoesNotFitIntoIsNamed) {
   const Finished gate = within(
       1200, {"gate", "constant", "--size", "8192x4096", "-n", "1024", "-t", "1"}, folder_ / "");
   EXPECT_EQ(gate.exit_code, kOutOfMemory) << gate.err;

@@ -31,7 +31,7 @@ void put(const fs::path& path, std::string_view content) {
 }
 
 /// A folder of its own for every test, gone afterwards.
-class PendingFiles : public testing::Test {
+class AtomicFiles : public testing::Test {
  protected:
   void SetUp() override {
     std::string pattern = testing::TempDir() + "/lightproof-XXXXXX";
@@ -62,7 +62,7 @@ std::string refusal(const fs::path& path, std::string_view content) {
   return "";
 }
 
-TEST_F(PendingFiles, WriteFileWritesEveryByte) {
+TEST_F(AtomicFiles, WriteFileWritesEveryByte) {
   const std::string content("line\r\n\0\xff end", 12);
   write_file(in_folder("new.json"), content);
   EXPECT_EQ(content_of(in_folder("new.json")), content);
@@ -71,14 +71,14 @@ TEST_F(PendingFiles, WriteFileWritesEveryByte) {
   EXPECT_EQ(files(), 2);
 }
 
-TEST_F(PendingFiles, WriteFileReplacesALongerFile) {
+TEST_F(AtomicFiles, WriteFileReplacesALongerFile) {
   put(in_folder("a.txt"), "what stood here before, and was longer");
   write_file(in_folder("a.txt"), "new");
   EXPECT_EQ(content_of(in_folder("a.txt")), "new");
   EXPECT_EQ(files(), 1);
 }
 
-TEST_F(PendingFiles, WriteFileTakesARelativePath) {
+TEST_F(AtomicFiles, WriteFileTakesARelativePath) {
   const fs::path before = fs::current_path();
   fs::current_path(in_folder(""));
   EXPECT_NO_THROW(write_file("plain.txt", "here"));
@@ -86,7 +86,7 @@ TEST_F(PendingFiles, WriteFileTakesARelativePath) {
   EXPECT_EQ(content_of(in_folder("plain.txt")), "here");
 }
 
-TEST_F(PendingFiles, NothingChangesBeforeTheCommit) {
+TEST_F(AtomicFiles, NothingChangesBeforeTheCommit) {
   const fs::path target = in_folder("image.exr");
   put(target, "old");
   // Someone who has the old file open keeps it whole: it is replaced, not overwritten.
@@ -100,14 +100,14 @@ TEST_F(PendingFiles, NothingChangesBeforeTheCommit) {
   EXPECT_EQ((std::string{std::istreambuf_iterator<char>(reader), {}}), "old");
 }
 
-TEST_F(PendingFiles, TemporaryStandsBesideTheTargetWithItsExtension) {
+TEST_F(AtomicFiles, TemporaryStandsBesideTheTargetWithItsExtension) {
   const AtomicFile pending(in_folder("image.exr"));
   EXPECT_EQ(pending.temporary().extension(), ".exr");
   EXPECT_EQ(pending.temporary().parent_path(), in_folder("image.exr").parent_path());
   EXPECT_NE(pending.temporary(), in_folder("image.exr"));
 }
 
-TEST_F(PendingFiles, AbandonedFileLeavesTheOldOne) {
+TEST_F(AtomicFiles, AbandonedFileLeavesTheOldOne) {
   put(in_folder("a.txt"), "old");
   {
     const AtomicFile pending(in_folder("a.txt"));
@@ -118,12 +118,12 @@ TEST_F(PendingFiles, AbandonedFileLeavesTheOldOne) {
   EXPECT_EQ(files(), 1);
 }
 
-TEST_F(PendingFiles, AbandonedFileLeavesNothingWhereNothingWas) {
+TEST_F(AtomicFiles, AbandonedFileLeavesNothingWhereNothingWas) {
   { const AtomicFile pending(in_folder("a.txt")); }
   EXPECT_EQ(files(), 0);
 }
 
-TEST_F(PendingFiles, MissingFolderIsNamed) {
+TEST_F(AtomicFiles, MissingFolderIsNamed) {
   const fs::path target = in_folder("missing") / "a.txt";
   const std::string message = refusal(target, "x");
   EXPECT_THAT(message, HasSubstr(target.string()));
@@ -132,19 +132,19 @@ TEST_F(PendingFiles, MissingFolderIsNamed) {
   EXPECT_EQ(files(), 0);
 }
 
-TEST_F(PendingFiles, FileInPlaceOfTheFolderIsNamed) {
+TEST_F(AtomicFiles, FileInPlaceOfTheFolderIsNamed) {
   put(in_folder("file"), "x");
   EXPECT_THAT(refusal(in_folder("file") / "a.txt", "x"), HasSubstr("Not a directory"));
 }
 
-TEST_F(PendingFiles, FolderInPlaceOfTheFileIsRefusedAndLeft) {
+TEST_F(AtomicFiles, FolderInPlaceOfTheFileIsRefusedAndLeft) {
   fs::create_directory(in_folder("taken"));
   EXPECT_THAT(refusal(in_folder("taken"), "x"), HasSubstr(in_folder("taken").string()));
   EXPECT_TRUE(fs::is_directory(in_folder("taken")));
   EXPECT_EQ(files(), 1) << "the temporary file is left behind";
 }
 
-TEST_F(PendingFiles, FullDiskIsReportedAndLeavesTheOldFile) {
+TEST_F(AtomicFiles, FullDiskIsReportedAndLeavesTheOldFile) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   const fs::path target = in_folder("a.txt");
   put(target, "old");
@@ -159,7 +159,7 @@ TEST_F(PendingFiles, FullDiskIsReportedAndLeavesTheOldFile) {
   EXPECT_EQ(files(), 1);
 }
 
-TEST_F(PendingFiles, WriteThatFailsHalfWayLeavesTheOldFile) {
+TEST_F(AtomicFiles, WriteThatFailsHalfWayLeavesTheOldFile) {
   const fs::path target = in_folder("a.txt");
   put(target, "old");
   rlimit before{};
@@ -175,7 +175,7 @@ TEST_F(PendingFiles, WriteThatFailsHalfWayLeavesTheOldFile) {
   EXPECT_EQ(files(), 1);
 }
 
-TEST_F(PendingFiles, WriteFileFollowsALink) {
+TEST_F(AtomicFiles, WriteFileFollowsALink) {
   put(in_folder("real.txt"), "old");
   fs::create_symlink("real.txt", in_folder("link.txt"));
   write_file(in_folder("link.txt"), "new");
@@ -184,13 +184,13 @@ TEST_F(PendingFiles, WriteFileFollowsALink) {
   EXPECT_EQ(files(), 2);
 }
 
-TEST_F(PendingFiles, WriteFileReplacesALinkThatLeadsNowhere) {
+TEST_F(AtomicFiles, WriteFileReplacesALinkThatLeadsNowhere) {
   fs::create_symlink("missing.txt", in_folder("link.txt"));
   write_file(in_folder("link.txt"), "new");
   EXPECT_EQ(content_of(in_folder("link.txt")), "new");
 }
 
-TEST_F(PendingFiles, WriteFileWritesIntoAPipe) {
+TEST_F(AtomicFiles, WriteFileWritesIntoAPipe) {
   const fs::path pipe = in_folder("pipe");
   ASSERT_EQ(::mkfifo(pipe.c_str(), S_IRUSR | S_IWUSR), 0);
   const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
@@ -205,7 +205,7 @@ TEST_F(PendingFiles, WriteFileWritesIntoAPipe) {
   EXPECT_EQ(files(), 1);
 }
 
-TEST_F(PendingFiles, CheckWritableLeavesEverythingAsItIs) {
+TEST_F(AtomicFiles, CheckWritableLeavesEverythingAsItIs) {
   put(in_folder("a.txt"), "old");
   EXPECT_NO_THROW(check_writable(in_folder("a.txt")));
   EXPECT_NO_THROW(check_writable(in_folder("new.txt")));
@@ -213,7 +213,7 @@ TEST_F(PendingFiles, CheckWritableLeavesEverythingAsItIs) {
   EXPECT_EQ(files(), 1);
 }
 
-TEST_F(PendingFiles, CheckWritableRefusesWhatCannotBeWritten) {
+TEST_F(AtomicFiles, CheckWritableRefusesWhatCannotBeWritten) {
   const fs::path missing = in_folder("missing") / "a.txt";
   try {
     check_writable(missing);
@@ -224,13 +224,13 @@ TEST_F(PendingFiles, CheckWritableRefusesWhatCannotBeWritten) {
   EXPECT_THROW(check_writable(in_folder("")), InputError) << "a folder";
 }
 
-TEST_F(PendingFiles, ANameTooLongIsBadInput) {
+TEST_F(AtomicFiles, ANameTooLongIsBadInput) {
   const fs::path file = in_folder(std::string(300, 'x'));
   EXPECT_THROW(check_writable(file), InputError);
   EXPECT_THROW(write_file(file, "x"), InputError);
 }
 
-TEST_F(PendingFiles, AFolderThatHasGoneIsNamed) {
+TEST_F(AtomicFiles, AFolderThatHasGoneIsNamed) {
   const fs::path target = in_folder("report");
   AtomicFolder pending(target);
   fs::remove_all(target);
@@ -242,7 +242,7 @@ TEST_F(PendingFiles, AFolderThatHasGoneIsNamed) {
   }
 }
 
-TEST_F(PendingFiles, AFolderAppearsWithAllItsFilesOrNotAtAll) {
+TEST_F(AtomicFiles, AFolderAppearsWithAllItsFilesOrNotAtAll) {
   const fs::path target = in_folder("report");
   {
     const AtomicFolder pending(target);
@@ -264,7 +264,7 @@ TEST_F(PendingFiles, AFolderAppearsWithAllItsFilesOrNotAtAll) {
   EXPECT_EQ(std::distance(fs::directory_iterator(target), fs::directory_iterator()), 3);
 }
 
-TEST_F(PendingFiles, AFolderThatIsAFileIsNamed) {
+TEST_F(AtomicFiles, AFolderThatIsAFileIsNamed) {
   put(in_folder("report"), "a file");
   EXPECT_THROW(AtomicFolder{in_folder("report")}, InputError);
 }

@@ -1,4 +1,5 @@
-// A pdf against the declared density: what is dark, lost or off is found in one texel of thousands.
+// A pdf against the declared density: what is unlit, unreachable or off is found in one texel of
+// thousands.
 #include "lightproof/gate/density_check.h"
 
 #include <gmock/gmock.h>
@@ -28,7 +29,7 @@ BoundSampler with_mass(const EnvironmentMap& map, int x, int y, double factor) {
   return bound(DiscreteSampler(std::move(masses), kTarget.density_space));
 }
 
-TEST(DensityCheck, ASoundPdfIsTheDeclaredDensity) {
+TEST(DensityCheck, ACorrectPdfIsTheDeclaredDensity) {
   for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
     const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
     const TargetDensity target = {density_space, kRec709};

@@ -64,7 +64,7 @@ DirectionHistogram histogram_of(std::span<const Direction> directions) {
   return histogram;
 }
 
-/// The bin of one direction; {-1, -1} if it was lost.
+/// The bin of one direction; {-1, -1} if it was invalid.
 Bin bin_of(Direction d) {
   const DirectionHistogram histogram = histogram_of({&d, 1});
   EXPECT_EQ(histogram.samples(), 1U);
@@ -147,7 +147,7 @@ TEST(DirectionHistogram, KeepsTheColumnNearThePoles) {
   }
 }
 
-TEST(DirectionHistogram, LosesWhatIsNoDirection) {
+TEST(DirectionHistogram, CountsWhatIsNoDirectionAsInvalid) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kMax = std::numeric_limits<double>::max();
@@ -163,7 +163,7 @@ TEST(DirectionHistogram, LosesWhatIsNoDirection) {
   for (const double length : {0.708, 1.224}) EXPECT_EQ(bin_of({0, 0, length}).y, 15);
 }
 
-TEST(DirectionHistogram, FindsTheLostAmongOthers) {
+TEST(DirectionHistogram, FindsTheInvalidAmongOthers) {
   std::vector<Direction> directions = random_directions(5000);
   for (std::size_t i = 0; i < directions.size(); i += 7) directions[i].y = std::nan("");
   const DirectionHistogram histogram = histogram_of(directions);
@@ -209,7 +209,7 @@ TEST(DirectionHistogram, CountsOnFromCallToCall) {
 
 /// Independent of square_from_direction: the distribution's exact masses. Fixed points, alpha =
 /// 1e-6.
-TEST(DirectionHistogram, CountsOfTheCosineHemisphereFitItsLaw) {
+TEST(DirectionHistogram, CountsOfTheCosineHemisphereFitItsDistribution) {
   const RandomStream stream("direction histogram/cosine", 1);
   std::vector<Direction> directions;
   for (std::uint64_t i = 0; i < 1'000'000; ++i) {

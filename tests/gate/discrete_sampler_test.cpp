@@ -74,7 +74,7 @@ TEST(ShareGuide, FindsTheFirstCellWhoseSumLiesAbove) {
   }
 }
 
-TEST(AlternativeDistributions, SumToOneAndDifferFromTheDeclaredLaw) {
+TEST(AlternativeDistributions, SumToOneAndDifferFromTheDeclaredOne) {
   EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
   // Colour, a texel without light, and rows around the absolute threshold.
   for (int y = 0; y < 32; ++y) {

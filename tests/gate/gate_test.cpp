@@ -34,7 +34,7 @@ GateResult run_sequential_gate_on(std::span<const TestCase> test_cases) {
   return run_sequential_gate(test_cases, {.samples = 1024});
 }
 
-TEST(Gate, AcceptsSoundSamplersOnEveryMapAndSize) {
+TEST(Gate, AcceptsCorrectSamplersOnEveryMapAndSize) {
   std::vector<SamplerUnderTest> correct = all_samplers_under_test();
   std::erase_if(correct,
                 [](const SamplerUnderTest& under_test) { return under_test.known_defects; });
@@ -79,7 +79,7 @@ TEST(Expectation, KurtosisInsideOneLitTexelIsThatOfAUniform) {
   }
 }
 
-TEST(Gate, AcceptsSoundSamplersOnOneLitTexelOfAnySize) {
+TEST(Gate, AcceptsCorrectSamplersOnOneLitTexelOfAnySize) {
   std::vector<SamplerUnderTest> correct = all_samplers_under_test();
   std::erase_if(correct,
                 [](const SamplerUnderTest& under_test) { return under_test.known_defects; });
@@ -101,7 +101,7 @@ TEST(Gate, RejectsThePublishedScanWhereTheFirstRowIsBlack) {
   EXPECT_EQ(overall_outcome(result, false), Outcome::inconclusive) << "nothing else decides";
 }
 
-TEST(Gate, TheGreyWeightsThatASamplerDeclaresAreHeldAgainstIt) {
+TEST(Gate, TheLuminanceWeightsThatASamplerDeclaresAreHeldAgainstIt) {
   const EnvironmentMap map = make_synthetic_map("checker", kExtent);
   SamplerUnderTest under_test =
       sampler_under_test(sampler_by_name("binary_search"), DensitySpace::texture);
@@ -185,7 +185,7 @@ TEST(Gate, FindsASingleTexelThatDiffersFromLinearScan) {
   EXPECT_THAT(rejections(result), testing::Contains("check/same texel as linear_scan"));
 }
 
-TEST(Gate, FindsASamplerThatDrawsAnotherLawThanItsTwin) {
+TEST(Gate, FindsASamplerThatDrawsAnotherDistributionThanItsReference) {
   const EnvironmentMap map = make_synthetic_map("constant", kExtent);
   const SamplerUnderTest under_test = changed([](TexelSample& sample) {
     if (sample.x >= 2) return;
@@ -201,7 +201,7 @@ TEST(Gate, FindsASamplerThatDrawsAnotherLawThanItsTwin) {
 // errors at 2^20 samples and 6.3 at 2^22. So the first stage, with 2^20, finds it below the
 // screening level (3.3 standard errors) in 45 % of all runs, and the second, with 2^22, rejects it
 // (5.2) in 87 % of those: of 40 runs one does, but for a probability of 3e-9.
-TEST(Gate, LooksAgainAtWhatIsSuspiciousWithFourTimesTheSamples) {
+TEST(Gate, ConfirmsWhatFallsBelowTheScreeningLevelWithFourTimesTheSamples) {
   const EnvironmentMap map = make_synthetic_map("constant", kExtent);
   const SamplerUnderTest under_test =
       changed([](TexelSample& sample) { sample.pdf.value /= 1.004; });
@@ -240,7 +240,7 @@ TEST(Gate, SaysWhereTheResolutionOfTheSamplerIsTheLimit) {
 }
 
 // A sampler is bound once for each stage: this one loses samples in the second only.
-TEST(Gate, FailsForStraysOfTheSecondStageToo) {
+TEST(Gate, FailsForOutOfDomainSamplesOfTheSecondStageToo) {
   const EnvironmentMap map = make_synthetic_map("gradient", kExtent);
   SamplerUnderTest under_test =
       sampler_under_test(sampler_by_name("binary_search"), DensitySpace::solid_angle);
@@ -332,7 +332,7 @@ TEST(Gate, TooFewSamplesAreInconclusive) {
   EXPECT_EQ(overall_outcome(result, true), Outcome::inconclusive);
 }
 
-TEST(Gate, PValuesOfASoundSamplerAreUniform) {
+TEST(Gate, PValuesOfACorrectSamplerAreUniform) {
   // 200 seeds; by DKW the largest deviation of their distribution from uniform exceeds
   // sqrt(ln(2/1e-6) / 400) = 0.191 with probability 1e-6 at most, for each of the tests.
   const EnvironmentMap map = make_synthetic_map("gradient", {32, 16});

@@ -46,7 +46,7 @@ TEST(SequentialGate, RejectsWhatTheExactChecksFind) {
   EXPECT_EQ(overall_outcome(result, true), Outcome::reject);
 }
 
-TEST(SequentialGate, AcceptsSoundSamplersAfterAllSamples) {
+TEST(SequentialGate, AcceptsCorrectSamplersAfterAllSamples) {
   std::vector<EnvironmentMap> maps;
   for (const SyntheticMap& entry : synthetic_maps()) maps.push_back(entry.make(kExtent));
   const std::vector<SamplerUnderTest> samplers_under_test = correct_samplers();

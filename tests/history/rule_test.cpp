@@ -16,21 +16,22 @@ using Values = std::vector<double>;
 
 /// The distribution of the time of a process: log-normal; of a busy machine, one process in ten is
 /// late by up to a half.
-struct Law {
+struct TimeDistribution {
   double spread = 0.01;  ///< standard deviation of log time
   bool busy = false;
 
-  friend void PrintTo(const Law& law, std::ostream* out) {
-    *out << law.spread << (law.busy ? ", busy" : "");
+  friend void PrintTo(const TimeDistribution& distribution, std::ostream* out) {
+    *out << distribution.spread << (distribution.busy ? ", busy" : "");
   }
 };
 
-Values times(const RandomStream& stream, std::size_t count, double level, const Law& law) {
+Values times(const RandomStream& stream, std::size_t count, double level,
+             const TimeDistribution& distribution) {
   Values values;
   for (std::size_t i = 0; i < count; ++i) {
     const SquarePoint u = stream.point(i);
-    const double late = law.busy && u.t < 0.1 ? 1.0 + 5.0 * u.t : 1.0;
-    values.push_back(level * late * std::exp(law.spread * normal_quantile(u.s + 0x1p-54)));
+    const double late = distribution.busy && u.t < 0.1 ? 1.0 + 5.0 * u.t : 1.0;
+    values.push_back(level * late * std::exp(distribution.spread * normal_quantile(u.s + 0x1p-54)));
   }
   return values;
 }
@@ -41,31 +42,32 @@ struct Pair {
 };
 
 /// 15 runs of both.
-Pair pair_of(std::uint64_t number, double ratio, const Law& law) {
+Pair pair_of(std::uint64_t number, double ratio, const TimeDistribution& distribution) {
   const RandomStream stream("history/rule", 1);
-  return {times(stream.substream(2 * number), 15, 100.0, law),
-          times(stream.substream(2 * number + 1), 15, 100.0 * ratio, law)};
+  return {times(stream.substream(2 * number), 15, 100.0, distribution),
+          times(stream.substream(2 * number + 1), 15, 100.0 * ratio, distribution)};
 }
 
 /// Of this many pairs, how many the rule finds slower.
-int found(double ratio, const Law& law, std::uint64_t pairs) {
+int found(double ratio, const TimeDistribution& distribution, std::uint64_t pairs) {
   int count = 0;
   for (std::uint64_t i = 0; i < pairs; ++i) {
-    const auto [base, head] = pair_of(i, ratio, law);
+    const auto [base, head] = pair_of(i, ratio, distribution);
     count += judge(Metric::nanoseconds, base, head, {}).change == Change::slower ? 1 : 0;
   }
   return count;
 }
 
-class FalseAlarms : public testing::TestWithParam<Law> {};
+class FalseAlarms : public testing::TestWithParam<TimeDistribution> {};
 
 // In one session p is at most .001; the confirmation squares it. Poisson: more than 18 alarms of
 // 4000 have a probability of 1e-7 at that rate.
 TEST_P(FalseAlarms, AreRarerThanAlpha) { EXPECT_LE(found(1.0, GetParam(), 4000), 18); }
 
 INSTANTIATE_TEST_SUITE_P(Distributions, FalseAlarms,
-                         testing::Values(Law{0.002}, Law{0.01}, Law{0.03}, Law{0.1},
-                                         Law{0.01, true}, Law{0.1, true}),
+                         testing::Values(TimeDistribution{0.002}, TimeDistribution{0.01},
+                                         TimeDistribution{0.03}, TimeDistribution{0.1},
+                                         TimeDistribution{0.01, true}, TimeDistribution{0.1, true}),
                          [](const auto& test) {
                            return "PerMille" +
                                   std::to_string(std::lround(1000.0 * test.param.spread)) +
@@ -108,25 +110,25 @@ TEST(RuleOfTimes, LimitGrowsWithTheNoiseOfBase) {
   EXPECT_GT(judgement.limit, 1.15);
 }
 
-/// The root mean square of the noise that is told, over that of the logarithm of the ratio of the
+/// The root mean square of the noise that is stated, over that of the logarithm of the ratio of the
 /// medians of equal programs.
-double told_over_seen(const Law& law) {
-  double seen = 0.0;
-  double told = 0.0;
+double stated_over_measured_noise(const TimeDistribution& distribution) {
+  double measured = 0.0;
+  double stated = 0.0;
   for (std::uint64_t i = 0; i < 4000; ++i) {
-    const auto [base, head] = pair_of(i, 1.0, law);
+    const auto [base, head] = pair_of(i, 1.0, distribution);
     const Judgement judgement = judge(Metric::nanoseconds, base, head, {});
-    seen += std::log(judgement.ratio) * std::log(judgement.ratio);
-    told += judgement.noise * judgement.noise;
+    measured += std::log(judgement.ratio) * std::log(judgement.ratio);
+    stated += judgement.noise * judgement.noise;
   }
-  return std::sqrt(told / seen);
+  return std::sqrt(stated / measured);
 }
 
 // 4000 pairs know a standard deviation to 1.1 %; the rest is Maritz and Jarrett's bias at 15
 // values, upwards, and more so with late runs: on the side of fewer alarms.
 TEST(RuleOfTimes, NoiseIsWhatComparingBaseWithItselfShows) {
-  EXPECT_NEAR(told_over_seen({0.03}), 1.0, 0.15);
-  const double busy = told_over_seen({0.03, true});
+  EXPECT_NEAR(stated_over_measured_noise({0.03}), 1.0, 0.15);
+  const double busy = stated_over_measured_noise({0.03, true});
   EXPECT_GE(busy, 1.0);
   EXPECT_LE(busy, 1.5);
 }

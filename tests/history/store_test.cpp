@@ -179,11 +179,11 @@ std::string values_of(const std::vector<BenchmarkRun>& runs) {
 // Wherever damage falls: refused, or in bytes that hold nothing; never other numbers.
 TEST_F(History, RefusesADamagedFile) {
   fill(20);
-  const std::string sound = bytes_of(file());
+  const std::string intact = bytes_of(file());
   const std::string values = values_of(HistoryStore::open_to_read(file()).runs());
   int refused = 0;
-  for (std::size_t at = 100; at + 8 < sound.size(); at += 321) {
-    std::string bytes = sound;
+  for (std::size_t at = 100; at + 8 < intact.size(); at += 321) {
+    std::string bytes = intact;
     for (std::size_t i = at; i < at + 8; ++i) bytes[i] = static_cast<char>(bytes[i] ^ 0x5a);
     std::ofstream(file(), std::ios::binary) << bytes;
     try {

@@ -267,25 +267,25 @@ TEST_F(Radiance, SaysThatTheFormatIsMissing) {
 
 // --- orders ---
 
-struct Place {
+struct Pixel {
   int column;
   int row;
 };
 
-struct Order {
+struct PixelOrder {
   const char* name;
   const char* resolution;
-  /// Place in the picture of the pixel that is stored first, second, and first in scanline 1.
-  Place first, second, next_scanline;
+  /// Position in the picture of the pixel that is stored first, second, and first in scanline 1.
+  Pixel first, second, next_scanline;
 
-  friend void PrintTo(const Order& order, std::ostream* out) { *out << order.resolution; }
+  friend void PrintTo(const PixelOrder& order, std::ostream* out) { *out << order.resolution; }
 };
 
-class RadianceOrder : public testing::TestWithParam<Order> {};
+class RadianceOrder : public testing::TestWithParam<PixelOrder> {};
 
 TEST_P(RadianceOrder, PutsPixelsWhereTheResolutionSays) {
   const TemporaryFolder folder;
-  const Order& order = GetParam();
+  const PixelOrder& order = GetParam();
   const std::vector<Rgbe> pixels = numbered_pixels({64, 32});
   test::write_hdr_file(folder / "a.hdr", order.resolution, pixels);
   const EnvironmentMap map = read_environment_map(folder / "a.hdr");
@@ -304,14 +304,14 @@ TEST_P(RadianceOrder, PutsPixelsWhereTheResolutionSays) {
 
 INSTANTIATE_TEST_SUITE_P(
     AllEight, RadianceOrder,
-    testing::Values(Order{"YdownXright", "-Y 32 +X 64", {0, 0}, {1, 0}, {0, 1}},
-                    Order{"YdownXleft", "-Y 32 -X 64", {63, 0}, {62, 0}, {63, 1}},
-                    Order{"YupXright", "+Y 32 +X 64", {0, 31}, {1, 31}, {0, 30}},
-                    Order{"YupXleft", "+Y 32 -X 64", {63, 31}, {62, 31}, {63, 30}},
-                    Order{"XrightYdown", "+X 64 -Y 32", {0, 0}, {0, 1}, {1, 0}},
-                    Order{"XrightYup", "+X 64 +Y 32", {0, 31}, {0, 30}, {1, 31}},
-                    Order{"XleftYdown", "-X 64 -Y 32", {63, 0}, {63, 1}, {62, 0}},
-                    Order{"XleftYup", "-X 64 +Y 32", {63, 31}, {63, 30}, {62, 31}}),
+    testing::Values(PixelOrder{"YdownXright", "-Y 32 +X 64", {0, 0}, {1, 0}, {0, 1}},
+                    PixelOrder{"YdownXleft", "-Y 32 -X 64", {63, 0}, {62, 0}, {63, 1}},
+                    PixelOrder{"YupXright", "+Y 32 +X 64", {0, 31}, {1, 31}, {0, 30}},
+                    PixelOrder{"YupXleft", "+Y 32 -X 64", {63, 31}, {62, 31}, {63, 30}},
+                    PixelOrder{"XrightYdown", "+X 64 -Y 32", {0, 0}, {0, 1}, {1, 0}},
+                    PixelOrder{"XrightYup", "+X 64 +Y 32", {0, 31}, {0, 30}, {1, 31}},
+                    PixelOrder{"XleftYdown", "-X 64 -Y 32", {63, 0}, {63, 1}, {62, 0}},
+                    PixelOrder{"XleftYup", "-X 64 +Y 32", {63, 31}, {63, 30}, {62, 31}}),
     [](const auto& test) { return test.param.name; });
 
 // --- notes ---

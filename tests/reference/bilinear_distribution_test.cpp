@@ -27,7 +27,7 @@ Grid<double> masses_of(Extent extent, const std::vector<float>& values,
 // Sums of a few terms.
 constexpr double kRounding = 1e-15;
 
-TEST(BilinearLaw, ATexelKeepsThreeQuartersInEachDirection) {
+TEST(BilinearDistribution, ATexelKeepsThreeQuartersInEachDirection) {
   const auto masses = masses_of({5, 5}, {0, 0, 0, 0, 0,  //
                                          0, 0, 0, 0, 0,  //
                                          0, 0, 1, 0, 0,  //
@@ -41,13 +41,13 @@ TEST(BilinearLaw, ATexelKeepsThreeQuartersInEachDirection) {
   EXPECT_EQ(masses(2, 4), 0.0);
 }
 
-TEST(BilinearLaw, WrapsAroundTheSeam) {
+TEST(BilinearDistribution, WrapsAroundTheSeam) {
   const auto masses = masses_of({4, 1}, {1, 0, 0, 0});
   const double share[] = {0.75, 0.125, 0.0, 0.125};
   for (int x = 0; x < 4; ++x) EXPECT_NEAR(masses(x, 0), share[x], kRounding);
 }
 
-TEST(BilinearLaw, IsClampedAtThePoles) {
+TEST(BilinearDistribution, IsClampedAtThePoles) {
   const auto masses = masses_of({1, 4}, {1, 0, 0, 0});
   const double share[] = {0.875, 0.125, 0.0, 0.0};
   for (int y = 0; y < 4; ++y) EXPECT_NEAR(masses(0, y), share[y], kRounding);
@@ -55,14 +55,14 @@ TEST(BilinearLaw, IsClampedAtThePoles) {
 
 // ∫ of sin(pi t) up to 1/4, and of (3/2 - 2t) sin(pi t) from there to 1/2, over ∫ of both halves,
 // which is 1/pi by symmetry. The rule's error is below 1e-14.
-TEST(BilinearLaw, TwoRowsUnderB) {
+TEST(BilinearDistribution, TwoRowsUnderB) {
   const auto masses = masses_of({1, 2}, {1, 0}, DensitySpace::solid_angle);
   const double upper = 2.0 / kPi * (1.0 - std::sqrt(0.5));
   EXPECT_NEAR(masses(0, 0), 1.0 - upper, 1e-14);
   EXPECT_NEAR(masses(0, 1), upper, 1e-14);
 }
 
-TEST(BilinearLaw, OfAConstantMapIsThatOfWholeTexels) {
+TEST(BilinearDistribution, OfAConstantMapIsThatOfWholeTexels) {
   for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
     for (const Extent extent : kExtents) {
       const EnvironmentMap map = make_synthetic_map("constant", extent);
@@ -77,7 +77,7 @@ TEST(BilinearLaw, OfAConstantMapIsThatOfWholeTexels) {
 
 // A cell's mass by the middle rule over 64 x 64 points: in a quarter of a texel or less, cut at
 // every centre and edge, its error is h^2/24 of the curvature, 1e-4 of sin(pi t) at most.
-TEST(BilinearLaw, CellsAreIntegralsOfTheLookUp) {
+TEST(BilinearDistribution, CellsAreIntegralsOfTheLookUp) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {6, 4});
   const Grid<double> luminance = luminance_of(map);
   for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
@@ -103,7 +103,7 @@ TEST(BilinearLaw, CellsAreIntegralsOfTheLookUp) {
 }
 
 // However cells lie to texels, those of a finer grid add up.
-TEST(BilinearLaw, BinsAreSumsOfFinerBins) {
+TEST(BilinearDistribution, BinsAreSumsOfFinerBins) {
   for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
     for (const Extent extent : kExtents) {
       const EnvironmentMap map = make_synthetic_map("gradient", extent);
@@ -120,7 +120,9 @@ TEST(BilinearLaw, BinsAreSumsOfFinerBins) {
   }
 }
 
-TEST(BilinearLaw, BlackMapIsRefused) { EXPECT_THROW(masses_of({2, 2}, {0, 0, 0, 0}), InputError); }
+TEST(BilinearDistribution, BlackMapIsRefused) {
+  EXPECT_THROW(masses_of({2, 2}, {0, 0, 0, 0}), InputError);
+}
 
 // Sums of up to 2000 masses.
 TEST(BilinearTransform, IsTheMassBelowAtTheTexelsEdges) {
@@ -151,7 +153,7 @@ TEST(BilinearTransform, IsTheMassBelowAtTheTexelsEdges) {
 }
 
 // At one t the look-up is linear between half texels: sums of its middles are exact.
-TEST(BilinearTransform, AcrossIsTheShareToTheLeftAtTheSameHeight) {
+TEST(BilinearTransform, ConditionalIsTheShareToTheLeftAtTheSameHeight) {
   const Extent extent = {7, 5};
   const EnvironmentMap map = make_synthetic_map("sun-sky", extent);
   const Grid<double> luminance = luminance_of(map);

@@ -75,7 +75,7 @@ TEST(BinMasses, OfAsManyBinsAreTheTexelMasses) {
   }
 }
 
-TEST(BinMasses, ShareATexelAcrossInProportionToWidth) {
+TEST(BinMasses, ShareATexelOverSInProportionToWidth) {
   for (const DensitySpace density_space : kDensitySpaces) {
     const auto bins = masses_of(grey_map({2, 1}, {1, 3}), density_space, {3, 1});
     EXPECT_NEAR(bins(0, 0), 1.0 / 6.0, 1e-15);
@@ -84,7 +84,7 @@ TEST(BinMasses, ShareATexelAcrossInProportionToWidth) {
   }
 }
 
-TEST(BinMasses, ShareATexelAlongInProportionToItsMeasure) {
+TEST(BinMasses, ShareATexelOverTInProportionToItsMeasure) {
   // Two hemispheres of masses 1/4 and 3/4 in three bands of 60 degrees. Under A an equator texel
   // gives a third to the middle band; under B, whose bands are 1/4, 1/2, 1/4 of the sphere, half.
   const EnvironmentMap map = grey_map({1, 2}, {1, 3});

@@ -65,14 +65,14 @@ inline Grid<double> lattice_masses(const Grid<double>& luminance, Value value, b
 
 /// Of all four estimators E[X^m], X = L k / p, and the largest X.
 struct EstimatorSums {
-  struct Of {
+  struct RawMoments {
     std::array<double, 4> raw = {};
     double largest = 0.0;
   };
-  Of uniform;
-  Of material;
-  Of environment_a;
-  Of environment_b;
+  RawMoments uniform;
+  RawMoments material;
+  RawMoments environment_a;
+  RawMoments environment_b;
 };
 
 /// The integrand's other factor at a unit vector, and the density that a material draws it with.
@@ -98,7 +98,7 @@ inline EstimatorSums estimator_sums(const Grid<double>& luminance, Value value,
         at(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
     const double light = value(luminance, s, t);
     const double jacobian = 2.0 * kPi * kPi * std::sin(theta);
-    const auto add = [&](EstimatorSums::Of& of, double density) {
+    const auto add = [&](EstimatorSums::RawMoments& of, double density) {
       if (!(density > 0.0)) return;
       const double x = light * k / density;
       for (std::size_t m = 0; m < 4; ++m) {

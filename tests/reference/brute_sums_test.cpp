@@ -1,4 +1,4 @@
-// The formulas of reference/ against sums over very many places, in which nothing is clever.
+// The formulas of reference/ against sums over very many positions, in which nothing is clever.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,8 +48,8 @@ Kernel smooth_kernel() {
 
 /// The midpoint rule is of second order: of twice as fine a lattice a third of the change is its
 /// error, and the change itself three times that. No change is larger than 1e-3 of the value.
-void expect_moments(const EstimatorMoments& exact, const test::EstimatorSums::Of& coarse,
-                    const test::EstimatorSums::Of& fine) {
+void expect_moments(const EstimatorMoments& exact, const test::EstimatorSums::RawMoments& coarse,
+                    const test::EstimatorSums::RawMoments& fine) {
   for (std::size_t m = 0; m < 4; ++m) {
     const double change = std::abs(fine.raw[m] - coarse.raw[m]);
     ASSERT_LT(change, 1e-3 * fine.raw[m]);
@@ -93,14 +93,14 @@ TEST(BilinearMoments, AreThoseOfABruteSum) {
 }
 
 /// E[1/p], E[1/p^2] and the largest 1/p where the texel's own value is 1 and more.
-test::EstimatorSums::Of inverse_pdf(bool over_directions, Extent cells) {
+test::EstimatorSums::RawMoments inverse_pdf(bool over_directions, Extent cells) {
   const Grid<double> luminance = uneven_luminance();
   double total = 0.0;
   test::visit_middles(cells, [&](double s, double t, double area) {
     const double jacobian = 2.0 * kPi * kPi * std::sin(kPi * t);
     total += test::interpolated_value(luminance, s, t) * (over_directions ? jacobian : 1.0) * area;
   });
-  test::EstimatorSums::Of moments;
+  test::EstimatorSums::RawMoments moments;
   test::visit_middles(cells, [&](double s, double t, double area) {
     if (test::nearest_value(luminance, s, t) < 0.9) return;
     const double jacobian = 2.0 * kPi * kPi * std::sin(kPi * t);
@@ -173,8 +173,8 @@ TEST(BinMasses, AreThoseOfABruteSumHoweverBinsLie) {
 }
 
 /// The mass below t, and the mass to the left of s.
-struct Below {
-  explicit Below(const Grid<double>& masses)
+struct CumulativeMasses {
+  explicit CumulativeMasses(const Grid<double>& masses)
       : marginal(static_cast<std::size_t>(masses.extent().height) + 1),
         column_marginal(static_cast<std::size_t>(masses.extent().width) + 1) {
     for (int y = 0; y < masses.extent().height; ++y) {
@@ -205,26 +205,26 @@ double share_to_the_left(const Grid<double>& luminance, test::Value value, doubl
   return left / whole;
 }
 
-constexpr Extent kPlaces = {20, 24};  ///< no edges of texels alone
+constexpr Extent kPositions = {20, 24};  ///< no edges of texels alone
 constexpr Extent kLatticeOfPositions = {320, 384};
 
-/// transform({s, t}) at all places but the ends.
+/// transform({s, t}) at all positions but the ends.
 template <class Transform>
 void expect_transform(test::Value value, DensitySpace density_space, const Transform& transform) {
   const Grid<double> luminance = uneven_luminance();
-  const Below below(test::lattice_masses(
+  const CumulativeMasses below(test::lattice_masses(
       luminance, value, density_space == DensitySpace::solid_angle, kLatticeOfPositions));
-  for (int j = 1; j < kPlaces.height; ++j) {
-    for (int i = 1; i < kPlaces.width; ++i) {
+  for (int j = 1; j < kPositions.height; ++j) {
+    for (int i = 1; i < kPositions.width; ++i) {
       // Inside of a texel: its edges belong to either side.
-      const SquarePoint at = {static_cast<double>(i) / kPlaces.width,
-                              static_cast<double>(j) / kPlaces.height};
+      const SquarePoint at = {static_cast<double>(i) / kPositions.width,
+                              static_cast<double>(j) / kPositions.height};
       const RosenblattPoint point = transform(at);
       const auto row = static_cast<std::size_t>(16 * j);
       const auto column = static_cast<std::size_t>(16 * i);
       EXPECT_NEAR(point.marginal, below.marginal[row], kLattice) << at.t;
       EXPECT_NEAR(point.column_marginal, below.column_marginal[column], kLattice) << at.s;
-      if (j * kExtent.height % kPlaces.height == 0) continue;  // two rows meet
+      if (j * kExtent.height % kPositions.height == 0) continue;  // two rows meet
       EXPECT_NEAR(point.conditional, share_to_the_left(luminance, value, at.s, at.t), 1e-12)
           << at.s << ", " << at.t;
     }

@@ -107,7 +107,7 @@ TEST(TexelMasses, OfThreeRowsDifferBetweenTheWeightings) {
   }
 }
 
-TEST(TexelMasses, UseTheDeclaredGrey) {
+TEST(TexelMasses, UseTheDeclaredLuminance) {
   EnvironmentMap map{"colours", Grid<Rgb>({3, 1}), {}};
   map.radiance(0, 0) = {1, 0, 0};
   map.radiance(1, 0) = {0, 1, 0};

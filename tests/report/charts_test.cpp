@@ -130,7 +130,7 @@ std::vector<std::string> framed(const json& chart, const std::string& name) {
   return points;
 }
 
-TEST(ThroughputChart, FramesThePointsBeyondACacheAndTheKnees) {
+TEST(ThroughputChart, FramesThePointsBeyondACacheAndTheBreakpoints) {
   const json chart = json::parse(throughput_chart(testing::synthetic_study()));
   EXPECT_EQ(framed(chart, "first table beyond L2 (1\u00a0MiB)"),
             (std::vector<std::string>{"1024\u00d7512 binary_search",

@@ -45,7 +45,7 @@ TEST(Csv, LetsNoNameBeAFormula) {
   }
 }
 
-TEST(Csv, LeavesAFieldEmptyWhereThereIsNoKneeAndNoCache) {
+TEST(Csv, LeavesAFieldEmptyWhereThereIsNoBreakpointAndNoCache) {
   std::vector<GrowthFit> growth = testing::synthetic_study().growth;
   EXPECT_NE(growth_csv(growth).find("binary_search,log2 S + log2 T,0.161,0.004,1,0.012,1024x512,"
                                     "4096x2048,0.02,512x256; 1024x512,0.31; 0.12,0.0021\n"),

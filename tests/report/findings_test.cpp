@@ -29,7 +29,7 @@ ConvergenceRecord estimator(double slope, double ratio) {
   return r;
 }
 
-TEST(Headline, CountsTheTestsOfSoundSamplers) {
+TEST(Headline, CountsTheTestsOfCorrectSamplers) {
   TestRecord other = testing::accepted_test("linear_scan_published", "city");
   other.outcome = Outcome::reject;
   other.known_defect = true;
@@ -220,7 +220,7 @@ TEST(CachesFinding, NamesTheFirstTableAndTheLastToOutgrowACache) {
   EXPECT_EQ(caches_finding({small}, {}), "The sizes of the caches are not known. ");
 }
 
-TEST(KneesFinding, NamesTheSamplersThatHaveOne) {
+TEST(BreakpointsFinding, NamesTheSamplersThatHaveOne) {
   GrowthFit straight;
   GrowthFit bent;
   bent.sampler = "bent";

@@ -130,7 +130,7 @@ TEST(StudyJson, HoldsEverythingButThePixels) {
   EXPECT_EQ(document["renders"][1]["reference"], "city-sphere-GGX__roughness_0.3-reference.exr");
 }
 
-TEST(StudyJson, HasCachesAndKneesOrNull) {
+TEST(StudyJson, HasCachesAndBreakpointsOrNull) {
   StudyResult study = testing::synthetic_study();
   study.caches.l3.reset();
   const json document = json::parse(study_json(study, {}));

@@ -200,7 +200,7 @@ struct Directions {
 };
 
 // Directions are off by the rounding of the place, and so are densities over them near a pole.
-TEST_P(Batch, OfDirectionsLieAtTheSamplesPlaces) {
+TEST_P(Batch, OfDirectionsLieAtTheSamplesPositions) {
   if (GetParam().known_defects) return;  // may leave the map
   const RandomStream stream("batch of directions", 4);
   for (const Extent extent : {Extent{64, 32}, Extent{37, 19}, Extent{1, 1}}) {

@@ -23,7 +23,7 @@ class InversionOnMaps : public testing::TestWithParam<std::tuple<std::string_vie
   static constexpr Extent kSizes[] = {{1, 1}, {2, 1}, {1, 5}, {31, 15}, {33, 65}, {64, 32}};
 };
 
-TEST_P(InversionOnMaps, EverySearchReturnsTheSameTexelAndPlace) {
+TEST_P(InversionOnMaps, EverySearchReturnsTheSameTexelAndPosition) {
   const auto [name, density_space] = GetParam();
   for (const Extent extent : kSizes) {
     const EnvironmentMap map = make_synthetic_map(name, extent);
@@ -46,7 +46,7 @@ TEST_P(InversionOnMaps, EverySearchReturnsTheSameTexelAndPlace) {
   }
 }
 
-TEST_P(InversionOnMaps, SamplesOfEverySoundSamplerStayInsideATexelWithLight) {
+TEST_P(InversionOnMaps, SamplesOfEveryCorrectSamplerStayInsideATexelWithLight) {
   const auto [name, density_space] = GetParam();
   for (const Extent extent : kSizes) {
     const EnvironmentMap map = make_synthetic_map(name, extent);

@@ -19,7 +19,7 @@ EnvironmentMap rarely_lit_map() {
   return map;
 }
 
-TEST(CleanRuns, NoneOfTwoHundredSeedsRejectsASoundSampler) {
+TEST(CleanRuns, NoneOfTwoHundredSeedsRejectsACorrectSampler) {
   std::vector<EnvironmentMap> maps;
   for (const char* name : {"sun-sky", "black-first-row", "one-texel"}) {
     maps.push_back(make_synthetic_map(name, {32, 16}));

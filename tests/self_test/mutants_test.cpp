@@ -395,7 +395,7 @@ TEST(Mutants, HaveNamesOfTheirOwn) {
 
 // The discrete sampler that all of them start from. What the gate tests of it is what must have
 // a kill.
-TEST(Mutants, TheirSoundParentIsAcceptedByTestsThatEachHaveAKill) {
+TEST(Mutants, TheirCorrectParentIsAcceptedByTestsThatEachHaveAKill) {
   const EnvironmentMap map = mutant_map();
   const Mutant correct = {"correct", "none", "", Oracle::reference};
   const std::vector<SamplerUnderTest> samplers_under_test = {

@@ -49,12 +49,12 @@ class TwoSteps {
 };
 
 std::vector<double> p_values(const char* name, std::size_t cells, std::uint64_t samples) {
-  const TwoSteps law(cells, 0.0);
+  const TwoSteps distribution(cells, 0.0);
   const RandomStream stream(name, 1);
   std::vector<double> log10_p;
   for (std::uint64_t replicate = 0; replicate < 2000; ++replicate) {
-    const auto counts = law.counts(stream, replicate, samples);
-    log10_p.push_back(cressie_read(counts, law.probability(), samples).log10_p);
+    const auto counts = distribution.counts(stream, replicate, samples);
+    log10_p.push_back(cressie_read(counts, distribution.probability(), samples).log10_p);
   }
   return log10_p;
 }
@@ -77,14 +77,14 @@ TEST(CressieReadCalibration, PValuesOfPooledCellsAreUniform) {
 
 // 64 cells, expected 32 times and more in the smaller sample.
 TEST(TwoSamplesCalibration, PValuesAreUniform) {
-  const TwoSteps law(64, 0.0);
+  const TwoSteps distribution(64, 0.0);
   const RandomStream first("TwoSamplesCalibration.first", 1);
   const RandomStream second("TwoSamplesCalibration.second", 1);
   std::vector<double> log10_p;
   for (std::uint64_t replicate = 0; replicate < 2000; ++replicate) {
-    log10_p.push_back(
-        two_sample_fit(law.counts(first, replicate, 16384), law.counts(second, replicate, 4096))
-            .log10_p);
+    log10_p.push_back(two_sample_fit(distribution.counts(first, replicate, 16384),
+                                     distribution.counts(second, replicate, 4096))
+                          .log10_p);
   }
   expect_uniform(log10_p);
 }
@@ -94,14 +94,14 @@ TEST(TwoSamplesPower, IsThatOfTheHarmonicSize) {
   constexpr double kAlpha = 1e-3;
   constexpr std::uint64_t kFirst = 16384;
   const double w = minimum_detectable_w(63.0, kAlpha, 0.5, kFirst / 5.0);
-  const TwoSteps law(64, 0.0);
+  const TwoSteps distribution(64, 0.0);
   const TwoSteps defect(64, w);
   const RandomStream first("TwoSamplesPower.first", 1);
   const RandomStream second("TwoSamplesPower.second", 1);
   int rejected = 0;
   for (std::uint64_t replicate = 0; replicate < 1000; ++replicate) {
     const GoodnessOfFit fit = two_sample_fit(defect.counts(first, replicate, kFirst),
-                                             law.counts(second, replicate, kFirst / 4));
+                                             distribution.counts(second, replicate, kFirst / 4));
     rejected += fit.log10_p < std::log10(kAlpha) ? 1 : 0;
   }
   // Half of 1000 within five standard deviations of 16 (one in a million), and 2 % for the
@@ -119,12 +119,12 @@ class InjectedDefect {
   double w() const { return std::sqrt(noncentrality_ / static_cast<double>(kSamples)); }
 
   int rejections(const char* name, int replicates) {
-    const TwoSteps law(kCells, w());
+    const TwoSteps distribution(kCells, w());
     const RandomStream stream(name, 1);
     int rejected = 0;
     for (int i = 0; i < replicates; ++i) {
-      const auto counts = law.counts(stream, static_cast<std::uint64_t>(i), kSamples);
-      const auto fit = cressie_read(counts, law.probability(), kSamples);
+      const auto counts = distribution.counts(stream, static_cast<std::uint64_t>(i), kSamples);
+      const auto fit = cressie_read(counts, distribution.probability(), kSamples);
       if (fit.log10_p < std::log10(kAlpha)) ++rejected;
       mean_square_effect_ += fit.effect * fit.effect / replicates;
     }

@@ -125,7 +125,7 @@ TEST(MannWhitney, OfSeparateSetsHasTheLeastPValue) {
   EXPECT_NEAR(log10_least_mann_whitney(7, 7), -std::log10(3432.0), 1e-13);
 }
 
-TEST(MannWhitney, GoesOverToTheNormalLawWithoutAStep) {
+TEST(MannWhitney, GoesOverToTheNormalDistributionWithoutAStep) {
   for (const double steps : {0.0, 6.0}) {
     Values first = draws(1000, 32, steps);
     Values second = draws(1001, 32, steps);
@@ -171,7 +171,7 @@ double recurrence_p(std::size_t n, std::size_t m, std::size_t u) {
   return tail;
 }
 
-TEST(MannWhitney, NormalLawIsCloseToTheExactOneAndOnTheSafeSide) {
+TEST(MannWhitney, NormalDistributionIsCloseToTheExactOneAndOnTheSafeSide) {
   for (const std::size_t u : {800U, 900U, 1000U, 1100U, 1150U}) {
     Values first;
     Values second;

@@ -93,36 +93,36 @@ TEST(WelchTest, OfTwoConstantsSeesOnlyWhetherTheyDiffer) {
 // single hit among 1000 is 10 standard errors, and happens once in a hundred runs.
 TEST(TailsOfMean, DoNotTakeARareBrightSampleForADefect) {
   const double s = 1e-5;
-  const ExactMoments law = {1.0, 1.0 / s - 1.0, 1.0 / s};
-  const double z = (100.0 - 1.0) / std::sqrt(law.variance / 1000.0);
+  const ExactMoments moments = {1.0, 1.0 / s - 1.0, 1.0 / s};
+  const double z = (100.0 - 1.0) / std::sqrt(moments.variance / 1000.0);
   EXPECT_GT(z, 9.0);
   EXPECT_LT(log10_normal_tails(z), -18.0);
-  EXPECT_GT(log10_tails_of_mean(z, 1000.0, law), -2.0);
+  EXPECT_GT(log10_tails_of_mean(z, 1000.0, moments), -2.0);
 }
 
 TEST(TailsOfMean, FallWithTheDeviation) {
-  const ExactMoments law = {1.0, 1e5 - 1.0, 1e5};
+  const ExactMoments moments = {1.0, 1e5 - 1.0, 1e5};
   for (const double samples : {1e5, 1e7, 1e8, 1e10}) {
     double last = 0.0;
     for (int i = 1; i < 2000; ++i) {
-      const double tail = log10_tails_of_mean(0.01 * i, samples, law);
+      const double tail = log10_tails_of_mean(0.01 * i, samples, moments);
       ASSERT_LE(tail, last) << samples << ", z = " << 0.01 * i;
       last = tail;
     }
   }
 }
 
-TEST(DetectableFactor, IsSeenWithTheStatedPowerHoweverSkewedTheLaw) {
+TEST(DetectableFactor, IsSeenWithTheStatedPowerHoweverSkewedTheDistribution) {
   // Rare samples of 1/s, else 0: their number is Poisson, near enough.
   const double s = 1e-5;
-  const ExactMoments law = {1.0, 1.0 / s - 1.0, 1.0 / s};
+  const ExactMoments moments = {1.0, 1.0 / s - 1.0, 1.0 / s};
   for (const double samples : {2e6, 1e7, 1e8, 1e10}) {
-    const double factor = minimum_detectable_factor(1e-6, 0.99, samples, law, 1.0);
+    const double factor = minimum_detectable_factor(1e-6, 0.99, samples, moments, 1.0);
     ASSERT_TRUE(std::isfinite(factor)) << samples;
     const double mean = samples * s;
     const auto is_rejected = [&](double count) {
-      const double z = (factor * count / mean - 1.0) / std::sqrt(law.variance / samples);
-      return log10_tails_of_mean(z, samples, law) < -6.0;
+      const double z = (factor * count / mean - 1.0) / std::sqrt(moments.variance / samples);
+      return log10_tails_of_mean(z, samples, moments) < -6.0;
     };
     // The fewest that are rejected as too many: all from there on are.
     double fewest = std::floor(mean);
@@ -132,15 +132,15 @@ TEST(DetectableFactor, IsSeenWithTheStatedPowerHoweverSkewedTheLaw) {
     EXPECT_LT(missed, 0.01 * 1.1) << samples << " samples, factor " << factor;
     EXPECT_GT(missed, 0.001) << samples << " samples, factor " << factor;
   }
-  EXPECT_TRUE(std::isinf(minimum_detectable_factor(1e-6, 0.99, 1e5, law, 1.0)));
+  EXPECT_TRUE(std::isinf(minimum_detectable_factor(1e-6, 0.99, 1e5, moments, 1.0)));
 }
 
 // What everything passes is passed without any deviation.
 TEST(DetectableFactor, OfALevelOfOneHoldsPowerAlone) {
-  const ExactMoments law = {1.0, 1.0, 5.0};
+  const ExactMoments moments = {1.0, 1.0, 5.0};
   const double error = 1e-2;
-  EXPECT_NEAR(minimum_detectable_factor(1.0, 0.5, 1e4, law, 1.0), 1.0, 1e-9);
-  EXPECT_NEAR(minimum_detectable_factor(1.0, 0.99, 1e4, law, 1.0), 1.0 / (1.0 - 2.3263 * error),
+  EXPECT_NEAR(minimum_detectable_factor(1.0, 0.5, 1e4, moments, 1.0), 1.0, 1e-9);
+  EXPECT_NEAR(minimum_detectable_factor(1.0, 0.99, 1e4, moments, 1.0), 1.0 / (1.0 - 2.3263 * error),
               1e-6);
 }
 
@@ -148,13 +148,13 @@ TEST(DetectableFactor, OfALevelOfOneHoldsPowerAlone) {
 // And no farther above it than a bound by exponents must be.
 TEST(TailsOfMean, BoundTheExactTailFromAbove) {
   const double s = 1e-5;
-  const ExactMoments law = {1.0, 1.0 / s - 1.0, 1.0 / s};
+  const ExactMoments moments = {1.0, 1.0 / s - 1.0, 1.0 / s};
   for (const double samples : {1e3, 1e5, 1e6, 1e7}) {
     const double mean = samples * s;
     for (double count = std::ceil(mean) + 1.0; count < 4.0 * mean + 20.0;
          count += 1.0 + std::floor(mean / 4.0)) {
-      const double z = (count / mean - 1.0) / std::sqrt(law.variance / samples);
-      const double tail = log10_tails_of_mean(z, samples, law);
+      const double z = (count / mean - 1.0) / std::sqrt(moments.variance / samples);
+      const double tail = log10_tails_of_mean(z, samples, moments);
       const double exact = log10_poisson_upper(count, mean);
       EXPECT_GE(tail, exact - 0.31) << samples << ", " << count;  // a factor of two
       // Chernoff's bound on a Poisson tail, over the probability of the count itself (Stirling).
@@ -165,8 +165,8 @@ TEST(TailsOfMean, BoundTheExactTailFromAbove) {
 }
 
 TEST(TailsOfMean, AreNormalWhereSkewnessDoesNotMatter) {
-  const ExactMoments law = {1.0, 1.0, 3.0};
-  EXPECT_EQ(log10_tails_of_mean(6.0, 1e6, law), log10_normal_tails(6.0));
+  const ExactMoments moments = {1.0, 1.0, 3.0};
+  EXPECT_EQ(log10_tails_of_mean(6.0, 1e6, moments), log10_normal_tails(6.0));
   EXPECT_EQ(log10_tails_of_mean(6.0, 10.0, {1.0, 1.0}), log10_normal_tails(6.0));
 }
 

@@ -31,9 +31,9 @@ inline void expect_power_at_most(double power, int rejected, int replicates) {
 }
 
 /// A distribution over cells, which are drawn from by inversion.
-class CellLaw {
+class CellDistribution {
  public:
-  explicit CellLaw(std::span<const double> probability) {
+  explicit CellDistribution(std::span<const double> probability) {
     double sum = 0.0;
     for (const double p : probability) sums_.push_back(sum += p);
   }

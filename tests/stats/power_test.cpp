@@ -46,16 +46,16 @@ double tent(double u, double d) { return u + 2.0 * d * std::min(u, 1.0 - u); }
 double parabola(double u, double d) { return u + std::sqrt(6.0) * d * u * (1.0 - u); }
 
 int kuiper_rejections(double distance) {
-  const CellLaw law(cells_of(tent, distance));
+  const CellDistribution distribution(cells_of(tent, distance));
   return count_rejections("KuiperPower", kReplicates, [&](const RandomStream& stream) {
-    return kuiper_test(law.counts(stream, kSamples)).log10_p < kLog10Level;
+    return kuiper_test(distribution.counts(stream, kSamples)).log10_p < kLog10Level;
   });
 }
 
 int anderson_darling_rejections(double distance) {
-  const CellLaw law(cells_of(parabola, distance));
+  const CellDistribution distribution(cells_of(parabola, distance));
   return count_rejections("AndersonDarlingPower", kReplicates, [&](const RandomStream& stream) {
-    return anderson_darling_test(law.counts(stream, kSamples)).log10_p < kLog10Level;
+    return anderson_darling_test(distribution.counts(stream, kSamples)).log10_p < kLog10Level;
   });
 }
 
@@ -121,7 +121,7 @@ TEST(AndersonDarlingPower, IsTheInverseOfTheDetectableDistance) {
 }
 
 // The distances are those of the expected counts.
-TEST(UniformityDistance, IsThatOfTheLaw) {
+TEST(UniformityDistance, IsThatOfTheDistribution) {
   for (const double d : {0.01, 0.1}) {
     std::vector<std::uint64_t> of_tent;
     std::vector<std::uint64_t> of_parabola;
@@ -164,9 +164,10 @@ void expect_power(double power, int rejected, int replicates) {
 }
 
 int fit_rejections(const PairedCells& cells, std::uint64_t samples) {
-  const CellLaw law(cells.actual);
+  const CellDistribution distribution(cells.actual);
   return count_rejections("FitPower", kReplicates, [&](const RandomStream& stream) {
-    return cressie_read(law.counts(stream, samples), cells.expected, samples).log10_p < kLog10Level;
+    return cressie_read(distribution.counts(stream, samples), cells.expected, samples).log10_p <
+           kLog10Level;
   });
 }
 
@@ -182,7 +183,7 @@ TEST(FitPower, OfTheDetectableEffectIsAsStated) {
   }
 }
 
-TEST(FitPower, OfTwoLawsIsAsStated) {
+TEST(FitPower, OfTwoDistributionsIsAsStated) {
   for (const double w : {0.1, 0.12}) {
     const PairedCells cells(64, w);
     const double power = fit_power(cells.expected, cells.actual, kLevel, 4096);
@@ -212,8 +213,8 @@ TEST(TwoSamplesPower, OfTheDetectableEffectIsAsStated) {
     SCOPED_TRACE(power);
     const double w = minimum_detectable_w(63.0, kLevel, power, 16384.0 * kShare);
     const PairedCells cells(64, w);
-    const CellLaw first(cells.actual);
-    const CellLaw second(cells.expected);
+    const CellDistribution first(cells.actual);
+    const CellDistribution second(cells.expected);
     const int rejected =
         count_rejections("TwoSamplesPower", kSome, [&](const RandomStream& stream) {
           const RandomStream other = stream.substream(kSome + stream.number());
@@ -262,10 +263,10 @@ TEST(DetectableFactor, IsSeenWithTheStatedPower) {
 
 int sequential_rejections(double w, int replicates) {
   const PairedCells cells(64, w);
-  const CellLaw law(cells.actual);
+  const CellDistribution distribution(cells.actual);
   const SequentialTest test(cells.expected);
   return count_rejections("SequentialPower", replicates, [&](const RandomStream& stream) {
-    const double log10_e = test.log10_e(law.counts(stream, 4096));
+    const double log10_e = test.log10_e(distribution.counts(stream, 4096));
     return SequentialTest::rejects(log10_e, kLevel);
   });
 }

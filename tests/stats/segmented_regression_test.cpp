@@ -19,17 +19,17 @@ double normal(const RandomStream& stream, std::uint64_t index) {
   return std::sqrt(-2.0 * std::log(1.0 - u.s)) * std::cos(2.0 * std::numbers::pi * u.t);
 }
 
-struct Bend {
+struct SlopeChange {
   double x;
   double change;  ///< of the slope
 };
 
 /// Points at x = 0, 1, … on a line of slope 0.1 that bends.
-std::vector<LinePoint> bent(int count, const std::vector<Bend>& breaks) {
+std::vector<LinePoint> bent(int count, const std::vector<SlopeChange>& breaks) {
   std::vector<LinePoint> points;
   for (int i = 0; i < count; ++i) {
     double y = 2.0 + 0.1 * i;
-    for (const Bend& segment_change : breaks)
+    for (const SlopeChange& segment_change : breaks)
       y += segment_change.change * std::max(i - segment_change.x, 0.0);
     points.push_back({1.0 * i, y});
   }
@@ -105,7 +105,7 @@ TEST(SegmentedLine, IsNoneOfFourPointsAndOfALastOneThatIsOff) {
   }
 }
 
-TEST(SegmentedLine, HasItsBreakpointAmongRepeatedPlaces) {
+TEST(SegmentedLine, HasItsBreakpointAmongRepeatedX) {
   std::vector<LinePoint> twice;
   for (const LinePoint& point : bent(6, {{2.0, 1.0}})) twice.insert(twice.end(), 2, point);
   const auto line = line_of(twice, kLevel);
@@ -139,7 +139,7 @@ std::vector<std::vector<LinePoint>> straight_lines(std::size_t count, const Rand
 }
 
 // At this level each, one of eleven lines would bend on nine pages of ten.
-TEST(BrokenLines, OfAPageAreCalledAsOftenAsItsLevelSays) {
+TEST(SegmentedLines, OfAPageAreCalledAsOftenAsItsLevelSays) {
   constexpr int kPages = 100;
   constexpr std::size_t kLines = 11;
   constexpr double kFifth = 0.2;
@@ -156,7 +156,7 @@ TEST(BrokenLines, OfAPageAreCalledAsOftenAsItsLevelSays) {
   EXPECT_GT(pages, 0);
 }
 
-TEST(BrokenLines, AreFoundAmongStraightOnes) {
+TEST(SegmentedLines, AreFoundAmongStraightOnes) {
   auto lines = straight_lines(10, RandomStream("straight among", 1));
   lines.push_back(with_noise(bent(11, {{5.0, 0.9}}), 0.05, RandomStream("bent among", 1)));
   const auto found = segmented_lines(lines, kLevel);

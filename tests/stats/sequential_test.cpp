@@ -57,9 +57,9 @@ double multinomial(const Probabilities& p, const Counts& counts) {
 }
 
 const std::vector<Probabilities>& small_distributions() {
-  static const std::vector<Probabilities> laws = {
+  static const std::vector<Probabilities> distributions = {
       {0.5, 0.5}, {0.999, 0.001}, {0.2, 0.3, 0.5}, {0.1, 0.2, 0.3, 0.4}, {0.97, 0.01, 0.01, 0.01}};
-  return laws;
+  return distributions;
 }
 
 TEST(SequentialTest, HasAnExpectationOfOneUnderTheNull) {
@@ -218,12 +218,12 @@ class EvenCells {
 
 /// The number of samples at which the test stops, looking every `stride`; `most` + 1 if it has not
 /// by then.
-std::uint64_t samples_to_stop(const EvenCells& law, const SequentialTest& test,
+std::uint64_t samples_to_stop(const EvenCells& distribution, const SequentialTest& test,
                               const RandomStream& stream, double alpha, std::uint64_t stride,
                               std::uint64_t most) {
-  Counts counts(law.probability().size());
+  Counts counts(distribution.probability().size());
   for (std::uint64_t n = 1; n <= most; ++n) {
-    ++counts[law.draw(stream, n)];
+    ++counts[distribution.draw(stream, n)];
     const bool looks = n % stride == 0 || (n & (n - 1)) == 0;
     if (looks && SequentialTest::rejects(test.log10_e(counts), alpha)) return n;
   }
@@ -234,13 +234,13 @@ TEST(SequentialCalibration, WatchedAllTheTimeItSeldomEverRejectsTheNull) {
   constexpr int kReplicates = 2000;
   constexpr double kAlpha = 0.05;
   constexpr std::uint64_t kMost = 16384;
-  const EvenCells law(4);
-  const SequentialTest test(law.probability());
+  const EvenCells distribution(4);
+  const SequentialTest test(distribution.probability());
   const RandomStream all("SequentialCalibration.WatchedAllTheTimeItSeldomEverRejectsTheNull", 1);
   int rejected = 0;
   for (std::uint64_t replicate = 0; replicate < kReplicates; ++replicate) {
     const RandomStream stream = all.substream(replicate);
-    if (samples_to_stop(law, test, stream, kAlpha, 64, kMost) <= kMost) ++rejected;
+    if (samples_to_stop(distribution, test, stream, kAlpha, 64, kMost) <= kMost) ++rejected;
   }
   // Ville: each replicate is a false alarm with a probability of at most alpha, so that their
   // number exceeds this quantile with at most 1e-6.
@@ -249,13 +249,14 @@ TEST(SequentialCalibration, WatchedAllTheTimeItSeldomEverRejectsTheNull) {
 }
 
 /// How many of `replicates` stop within `most` samples.
-int stopped_within(const char* name, const EvenCells& law, double alpha, std::uint64_t stride,
-                   std::uint64_t most, std::uint64_t replicates) {
-  const SequentialTest test(law.probability());
+int stopped_within(const char* name, const EvenCells& distribution, double alpha,
+                   std::uint64_t stride, std::uint64_t most, std::uint64_t replicates) {
+  const SequentialTest test(distribution.probability());
   const RandomStream all(name, 1);
   int stopped = 0;
   for (std::uint64_t i = 0; i < replicates; ++i) {
-    if (samples_to_stop(law, test, all.substream(i), alpha, stride, most) <= most) ++stopped;
+    if (samples_to_stop(distribution, test, all.substream(i), alpha, stride, most) <= most)
+      ++stopped;
   }
   return stopped;
 }

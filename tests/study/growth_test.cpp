@@ -49,7 +49,7 @@ TEST(Growth, ExponentsOfALineAndALogarithm) {
   }
 }
 
-TEST(Growth, HasAKneeWhereStepsSlowDown) {
+TEST(Growth, HasABreakpointWhereStepsSlowDown) {
   std::vector<ThroughputRecord> records;
   for (const int width : {8192, 256, 4096, 512, 2048, 1024}) {  // the order does not matter
     records.push_back(record("alias", width, 5.0 * std::pow(std::max(1.0, width / 1024.0), 0.5)));

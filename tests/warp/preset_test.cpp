@@ -110,14 +110,14 @@ std::string test_name(const testing::TestParamInfo<Preset>& parameter) {
 
 INSTANTIATE_TEST_SUITE_P(Presets, EveryPreset, testing::ValuesIn(all_presets()), test_name);
 
-struct Known {
+struct KnownDirection {
   Preset preset;
   Direction direction;
   SquarePoint image;  ///< t from the bottom
 };
 
 // By hand from the renderers' documentation; directions in the world with z up.
-const Known kKnown[] = {
+const KnownDirection kKnown[] = {
     {Preset::z_up, {1, 0, 0}, {0.5, 0.5}},
     {Preset::z_up, {0, 1, 0}, {0.25, 0.5}},
     {Preset::z_up, {-1, 0, 0}, {0.0, 0.5}},
@@ -147,7 +147,7 @@ const Known kKnown[] = {
 };
 
 TEST(Preset, PlacesTheKnownDirections) {
-  for (const Known& known : kKnown) {
+  for (const KnownDirection& known : kKnown) {
     const SquarePoint at = image_from_direction(known.preset, known.direction);
     // One rounding of atan2 over pi, or pulled below 1.
     EXPECT_NEAR(at.s, known.image.s, 2e-16) << info(known.preset).name;

@@ -15,7 +15,7 @@ namespace {
 using Numbers = std::vector<double>;
 
 // Where the arc cosine is steep, near the poles, what rounding does to z moves t by its root.
-TEST(UniformDirections, LieAtTheirPlacesOnTheMap) {
+TEST(UniformDirections, LieAtTheirPositionsOnTheMap) {
   for (const std::size_t size : {0U, 1U, 7U, 8U, 9U, 1001U}) {
     std::vector<double> s(size);
     std::vector<double> u(size);
@@ -45,7 +45,7 @@ TEST(UniformDirections, LieAtTheirPlacesOnTheMap) {
   }
 }
 
-TEST(DirectionsOfPlaces, AreThoseOfOnePlaceEach) {
+TEST(DirectionsOfPositions, AreThoseOfOnePositionEach) {
   for (const std::size_t size : {0U, 1U, 7U, 8U, 9U, 1001U}) {
     Numbers s(size);
     Numbers t(size);
@@ -100,7 +100,7 @@ TEST(UniformDirections, AreDrawnByVectors) {
   });
 }
 
-TEST(ApproximatePlaces, AreThoseOfOneDirectionAtATime) {
+TEST(ApproximatePositions, AreThoseOfOneDirectionAtATime) {
   constexpr std::size_t kSize = 203;
   std::vector<double> x;
   std::vector<double> y;

@@ -12,10 +12,10 @@ namespace lightproof::cli {
 /// The program's name and its arguments.
 using CommandLine = std::vector<std::string>;
 
-/// Quoted for a shell.
+/// A command line as text, quoted for a shell.
 std::string text_of(const CommandLine& line);
 
-/// The same with `flags` at the end of its options: before a "--", if there is one.
+/// A command line with `flags` at the end of its options: before a "--", if there is one.
 CommandLine with_flags(CommandLine line, const std::vector<std::string>& flags);
 
 /// Input that is refused, although another command line accepts it.

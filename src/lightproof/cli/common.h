@@ -37,7 +37,7 @@ struct CommonOptions : InputOptions {
   int threads = 0;
   std::uint64_t seed = 1;
   std::uint64_t progress_seconds = 30;  ///< between lines of progress, where no bar is drawn
-  CommandLine command_line = {};        ///< that these options are from; may be empty
+  CommandLine command_line = {};        ///< the command line of these options; may be empty
 };
 
 /// Adds the positional MAP… and the options above; `size_option` is the name of the one for the

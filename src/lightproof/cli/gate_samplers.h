@@ -10,9 +10,9 @@
 namespace lightproof::cli {
 
 struct SamplerChoice {
-  std::vector<std::string> names;  ///< of samplers or mutants; empty: all that are correct
+  std::vector<std::string> names;  ///< names of samplers or mutants; empty: all that are correct
   std::string density_space;       ///< "A", "B" or both (empty)
-  bool with_published = false;     ///< those that are kept with known defects as well
+  bool with_published = false;     ///< whether those with known defects are included
   bool has_maps = false;           ///< some were named
 };
 

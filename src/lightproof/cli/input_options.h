@@ -23,7 +23,7 @@ void add_input_options(CLI::App& command, InputOptions& options);
 /// Throws InputError if --channels names neither one channel nor three.
 void apply(const InputOptions& options, ReadOptions& read);
 
-/// Those that differ from the defaults as words of a command line, each option after a space.
+/// The options that differ from the defaults as words of a command line, each after a space.
 std::string words_of(const InputOptions& options);
 
 }  // namespace lightproof::cli

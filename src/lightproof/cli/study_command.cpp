@@ -124,9 +124,9 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
                     "leave out the test of the gate itself (mutants, calibration, power)");
   command->footer(
       "Writes report.html, results.json, CSV, EXR and PNG files, and manifest.json, which lists\n"
-      "them.\nExit codes: 0 done, 2 usage or input,\n70 internal error, 71 not enough memory, 128 "
-      "+ "
-      "N ended by signal N.");
+      "them.\n"
+      "Exit codes: 0 done, 2 usage or input,\n"
+      "70 internal error, 71 not enough memory, 128 + N ended by signal N.");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

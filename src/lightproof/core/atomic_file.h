@@ -16,9 +16,11 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Beside the target, with the same extension (image writers choose the format by it).
+  /// The file to write to: beside the target, with the same extension (image writers choose the
+  /// format by it).
   const std::filesystem::path& temporary() const { return temporary_; }
-  /// Flushes to the disk and renames. Throws InputError if either fails.
+  /// Flushes the temporary file to the disk and renames it to the target. Throws InputError if
+  /// either fails.
   void commit();
 
  private:
@@ -38,7 +40,7 @@ class AtomicFolder {
   AtomicFolder(const AtomicFolder&) = delete;
   AtomicFolder& operator=(const AtomicFolder&) = delete;
 
-  /// Inside the target, so that files move by renaming.
+  /// The folder to write into: inside the target, so that files move by renaming.
   const std::filesystem::path& temporary() const { return temporary_; }
   /// Moves the files to the target, over what stood there under their names.
   void commit();

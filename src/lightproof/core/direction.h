@@ -28,7 +28,7 @@ struct Frame {
   Direction bitangent;
   Direction normal;
 
-  /// From local coordinates (z along the normal) to the world.
+  /// The world direction of one in local coordinates, whose z runs along the normal.
   Direction to_world(Direction local) const {
     return local.x * tangent + local.y * bitangent + local.z * normal;
   }

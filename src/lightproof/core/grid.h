@@ -26,7 +26,7 @@ class Grid {
  public:
   Grid() = default;
   explicit Grid(Extent extent, T value = T{}) : extent_(extent), values_(extent.count(), value) {}
-  /// For whoever writes every cell.
+  /// A grid whose cells hold no value yet, for whoever writes every one of them before reading.
   static Grid without_values(Extent extent) {
     Grid grid;
     grid.extent_ = extent;

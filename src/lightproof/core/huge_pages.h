@@ -28,10 +28,13 @@ class NoMemoryForTable : public std::bad_alloc {
   std::size_t bytes_;
 };
 
-/// At least 64-byte aligned. Throws NoMemoryForTable.
+/// Memory for a table, at least 64-byte aligned, on huge pages where the system gives them. Throws
+/// NoMemoryForTable.
 void* allocate_table(std::size_t bytes);
+/// Gives back what allocate_table() gave for so many bytes.
 void free_table(void* memory, std::size_t bytes) noexcept;
 
+/// An allocator of standard containers whose memory comes from allocate_table().
 template <class T>
 struct HugePageAllocator {
   using value_type = T;

@@ -5,7 +5,7 @@
 
 namespace lightproof {
 
-/// Model of the processor and number of cores.
+/// Model of the machine's processor and the number of its cores, as text.
 std::string machine_name();
 
 }  // namespace lightproof

@@ -50,7 +50,8 @@ inline PerSteradian to_solid_angle(PerSquare p, SquarePoint at) {
   return {p.value / solid_angle_per_square(at.t)};
 }
 
-/// The inverse of to_solid_angle. Zero at a pole.
+/// Converts a density over directions to one over the square at `at`, the inverse of
+/// to_solid_angle. Zero at a pole.
 inline PerSquare to_square(PerSteradian p, SquarePoint at) {
   return {p.value * solid_angle_per_square(at.t)};
 }

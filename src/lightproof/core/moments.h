@@ -28,8 +28,8 @@ class Moments {
     m2_ += term;
   }
 
-  /// Many at once, several times as fast as one by one: their moments about their own mean, in two
-  /// passes, then merged. The same bits for the same division into spans.
+  /// Adds many values, several times as fast as one by one: their moments about their own mean, in
+  /// two passes, then merged. The same division into spans gives the same bits.
   void add(std::span<const double> values) {
     if (values.empty()) return;
     Moments block;
@@ -94,7 +94,7 @@ class Moments {
   }
 
  private:
-  /// In lanes of their own, which become vectors.
+  /// The sum of term(value), in lanes of their own, which become vectors.
   template <class Term>
   static double sum(std::span<const double> values, Term term) {
     constexpr std::size_t kLanes = 8;

@@ -17,7 +17,7 @@ inline Progress named(const Progress& whole, std::string_view step) {
   return [whole, step](std::string_view /*inner*/, double fraction) { whole(step, fraction); };
 }
 
-/// The part [from, to] of a larger progress.
+/// A progress that reports its whole as the part [from, to] of another one.
 inline Progress part_of(const Progress& whole, double from, double to) {
   if (!whole) return {};
   return [whole, from, to](std::string_view step, double fraction) {

@@ -22,7 +22,7 @@ constexpr std::uint64_t hash_text(std::string_view text) {
   return hash;
 }
 
-/// 53 random bits as a number in [0, 1); never 1.
+/// A number in [0, 1), never 1, of the upper 53 of 64 random bits.
 constexpr double unit_interval(std::uint32_t low, std::uint32_t high) {
   const std::uint64_t bits = (std::uint64_t{high} << 32U) | low;
   return static_cast<double>(bits >> 11U) * 0x1p-53;
@@ -41,10 +41,12 @@ class RandomStream {
     return other;
   }
 
-  /// What addresses the stream.
+  /// The key of the stream's generator, made of its name and the base seed.
   std::uint64_t key() const { return key_; }
+  /// Which of the independent streams of its key this one is.
   std::uint64_t number() const { return substream_; }
 
+  /// The point of this index, of 53 random bits a coordinate.
   SquarePoint point(std::uint64_t index) const {
     const r123::Philox4x32::ctr_type counter = {
         {low(index), high(index), low(substream_), high(substream_)}};

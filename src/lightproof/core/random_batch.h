@@ -9,12 +9,13 @@
 
 namespace lightproof {
 
-/// Writes the points first, first + 1, … of the stream: s[i] and t[i]. Both spans are of one size.
-/// Returns how many points vectors drew: 0 on a processor without vectors.
+/// Writes the points first, first + 1, … of the stream as two arrays of one size: s[i] and t[i].
+/// Returns how many of them vectors drew: 0 on a processor without vectors.
 std::size_t fill_points(const RandomStream& stream, std::uint64_t first, std::span<double> s,
                         std::span<double> t);
 
-/// The same, point by point.
+/// Writes the points first, first + 1, … of the stream. Returns how many of them vectors drew: 0 on
+/// a processor without vectors.
 std::size_t fill_points(const RandomStream& stream, std::uint64_t first,
                         std::span<SquarePoint> points);
 

@@ -13,7 +13,7 @@
 
 namespace lightproof {
 
-/// Appends values to bytes. A type takes part by `void write(ByteWriter&) const`.
+/// Appends values to a string of bytes. A type takes part by `void write(ByteWriter&) const`.
 class ByteWriter {
  public:
   void add(std::uint64_t value) {
@@ -39,8 +39,9 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads them in the same order. A type takes part by `static Value read(ByteReader&)`. Throws
-/// std::out_of_range where the bytes end too early.
+/// Reads values from the bytes of a ByteWriter, in the order in which they were added. A type takes
+/// part by `static Value read(ByteReader&)`. Throws std::out_of_range where the bytes end too
+/// early.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}

@@ -22,11 +22,11 @@ namespace lightproof {
 /// whose points are its own, `samples` says how many it may use.
 struct Budget {
   std::uint64_t first = 0;
-  std::uint64_t samples = 1;  ///< at least 1
+  std::uint64_t samples = 1;  ///< how many, at least 1
 };
 
-/// Is shown the independent estimates of one distribution whose mean an estimate is, in order, some
-/// at a time.
+/// A callback that is shown the independent estimates of one distribution whose mean an estimate
+/// is, in order, some at a time.
 using EachEstimate = std::function<void(std::span<const Rgb> estimates)>;
 
 /// An estimator that is ready for a map, a scene and a material, which must outlive it. Many
@@ -44,7 +44,7 @@ struct BoundEstimator {
 /// The time that it takes to make is the estimator's set-up time.
 struct PreparedEstimator {
   std::function<BoundEstimator(const Scene& scene, const Material& material)> bind;
-  std::size_t bytes = 0;  ///< beside the map itself
+  std::size_t bytes = 0;  ///< memory that it takes beside the map itself
 };
 
 /// How an estimate comes about.
@@ -56,10 +56,10 @@ enum class EstimatorKind {
   precomputed,    ///< a look-up in what was computed beforehand
 };
 
-/// "one-sample", "multi-sample", "point-set", "deterministic", "precomputed".
+/// The name of a kind: "one-sample", "multi-sample", "point-set", "deterministic", "precomputed".
 std::string_view to_string(EstimatorKind kind);
 
-/// A row of the registry.
+/// A row of the registry of estimators.
 struct EstimatorInfo {
   std::string_view name;         ///< "environment B"
   std::string_view description;  ///< how its directions come about

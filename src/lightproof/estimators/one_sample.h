@@ -7,8 +7,8 @@
 
 namespace lightproof {
 
-/// Draws from this source. Of a map it keeps the table of one sampler, the fastest monotone one, so
-/// that stratified points stay stratified.
+/// Prepares the estimator that draws directions from this source. Of a map it keeps the table of
+/// one sampler, the fastest monotone one, so that stratified points stay stratified.
 PreparedEstimator prepare_one_sample(const EnvironmentMap& map, DirectionSource source);
 
 }  // namespace lightproof

@@ -8,9 +8,10 @@
 
 namespace lightproof {
 
+/// All estimators, in the order in which they are shown.
 std::span<const EstimatorInfo> estimators();
 
-/// Throws InputError, which lists the names, if there is none of this name.
+/// The estimator of this name. Throws InputError, which lists the names, if there is none.
 const EstimatorInfo& estimator_by_name(std::string_view name);
 
 }  // namespace lightproof

@@ -17,21 +17,23 @@ struct DeclaredDistribution {
   TargetDensity target = {DensitySpace::solid_angle};
 };
 
+/// A distribution over texels that samplers draw by mistake, whatever the map.
 struct AlternativeDistribution {
   std::string_view name;       ///< "no-sine"
   std::string_view diagnosis;  ///< "a missing sin(theta)"
   /// Masses of the texels that are drawn instead; they sum to 1. Inside a texel the position
   /// follows the declared density.
   Grid<double> (*masses)(const DeclaredDistribution& declared);
-  bool reads_map = true;  ///< has no meaning without one
+  bool reads_map = true;  ///< whether it has no meaning without a map
   /// Whether its masses are only an example of the defect, whose counts may be any of many: such a
   /// defect is known by other evidence.
   bool is_example = false;
 };
 
+/// All alternative distributions, in the order in which they are shown.
 std::span<const AlternativeDistribution> alternative_distributions();
 
-/// The row of this name, which must exist.
+/// The alternative distribution of this name, which must exist.
 const AlternativeDistribution& alternative_distribution(std::string_view name);
 
 }  // namespace lightproof

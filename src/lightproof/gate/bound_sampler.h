@@ -33,6 +33,7 @@ struct BoundSampler {
   bool has_pdf() const { return static_cast<bool>(pdf); }
 };
 
+/// A sampler as a source of samples at given points, with pdf and weights.
 template <EnvSampler Sampler>
 BoundSampler bound(Sampler sampler) {
   auto shared = std::make_shared<const Sampler>(std::move(sampler));

@@ -16,11 +16,11 @@ namespace lightproof {
 
 /// The pdf and the declared density at the centre of one cell, over the square.
 struct ComparedCell {
-  int x = 0;  ///< texel
-  int y = 0;
-  SquarePoint at;
-  double pdf = 0.0;
-  double declared = 0.0;
+  int x = 0;              ///< column of the texel that the cell lies in
+  int y = 0;              ///< row of that texel
+  SquarePoint at;         ///< the cell's centre
+  double pdf = 0.0;       ///< the sampler's density, per unit square
+  double declared = 0.0;  ///< the declared density, per unit square
 };
 
 /// The least and the largest of some ratios.
@@ -30,33 +30,35 @@ struct RatioRange {
 
   void add(double ratio);
   void merge(const RatioRange& other);
-  /// All alike, to the rounding of floats, and not 0.
+  /// Whether the ratios are all alike, to the rounding of floats, and not 0.
   bool is_constant() const;
 };
 
-/// At the centres of all cells in which the declared density is smooth.
+/// What a comparison of the pdf with the declared density found at the centres of all cells in
+/// which the latter is smooth.
 struct DensityComparison {
-  std::size_t unreachable_cells = 0;  ///< declared above 0, pdf 0
-  double unreachable_mass = 0.0;      ///< of all light, in these
+  std::size_t unreachable_cells = 0;  ///< cells with a declared density above 0 and a pdf of 0
+  double unreachable_mass = 0.0;      ///< share of all light that lies in unreachable cells
   std::optional<ComparedCell> first_unreachable;
-  /// Unreachable beyond what the sampler's rounding is declared to make.
+  /// Unreachable cells with more light than the sampler declares that its rounding may lose.
   std::size_t lost_cells = 0;
   std::optional<ComparedCell> first_lost;
-  std::size_t unlit_cells = 0;  ///< declared 0, pdf above 0 or not a number
+  std::size_t unlit_cells = 0;  ///< cells with a declared density of 0 and a pdf above 0 or NaN
   std::optional<ComparedCell> first_unlit;
-  double largest_error = 0.0;         ///< relative, of cells that the declaration lets be reached
-  std::size_t cells_off = 0;          ///< beyond what the sampler's rounding is declared to make
-  std::optional<ComparedCell> worst;  ///< farthest beyond
+  double largest_error = 0.0;         ///< largest relative error of a cell with declared density
+  std::size_t cells_off = 0;          ///< cells off by more than the sampler's declared rounding
+  std::optional<ComparedCell> worst;  ///< the cell that is off by most beyond that rounding
   /// What the sampler's rounding does to an estimator of one value everywhere: the variance of
   /// declared density over pdf, relative to their square, and the largest deviation.
   double rounding_variance = 0.0;
   double largest_weight_error = 0.0;
-  RatioRange ratio;           ///< pdf over declared density, of lit cells
-  RatioRange times_jacobian;  ///< the same times 2 pi^2 sin(theta), and divided by it
-  RatioRange over_jacobian;
+  RatioRange ratio;           ///< pdf over declared density, in lit cells
+  RatioRange times_jacobian;  ///< that ratio times 2 pi^2 sin(theta)
+  RatioRange over_jacobian;   ///< that ratio over 2 pi^2 sin(theta)
 };
 
-/// Compares them, given the rounding that the sampler declares.
+/// Compares a sampler's pdf with the declared density, given the rounding that the sampler
+/// declares.
 DensityComparison compare_density(const BoundSampler& sampler, const Expectation& expectation,
                                   const MassRounding& rounding);
 

@@ -11,8 +11,8 @@
 #include "lightproof/gate/distribution_fit.h"
 #include "lightproof/gate/random_number_defects.h"
 #include "lightproof/gate/records.h"
-#include "lightproof/stats/goodness_of_fit.h"
-#include "reference/texel_masses.h"
+#include "lightproof/gate/residuals.h"
+#include "lightproof/gate/single_texel_defects.h"
 
 namespace lightproof {
 namespace {
@@ -114,68 +114,6 @@ bool fits_declared(const Expectation& expectation, const Draws& draws) {
   return log10_fit_of_declared(draws, expectation) >= std::log10(kFitLevel);
 }
 
-/// Counts of texels and their probabilities, some texels being left out of both.
-class RemainingTexels {
- public:
-  RemainingTexels(const Expectation& expectation, const Draws& draws)
-      : counts_(draws.texels),
-        masses_(expectation.masses),
-        samples_(draws.samples - draws.out_of_domain.count) {}
-
-  WorstCell worst() const { return worst_cell(counts_.values(), masses_.values(), samples_); }
-
-  /// False, and nothing is left out, if no other texel has light.
-  bool leave_out(std::size_t texel) {
-    const double left = 1.0 - masses_.values()[texel];
-    if (!(left > 0.0)) return false;
-    samples_ -= counts_.values()[texel];
-    counts_.values()[texel] = 0;
-    masses_.values()[texel] = 0.0;
-    for (double& mass : masses_.values()) mass /= left;
-    return true;
-  }
-
-  /// Counts of texels, rows and columns.
-  bool fit() const {
-    return log10_fit_of_counts(counts_, masses_, samples_) >= std::log10(kFitLevel);
-  }
-
- private:
-  Grid<std::uint64_t> counts_;
-  Grid<double> masses_;
-  std::uint64_t samples_;
-};
-
-/// Whether the farthest texel is no chance, and counts of texels, rows and columns fit once it and
-/// the next are left out of them.
-bool is_in_one_texel(const Expectation& expectation, const Draws& draws) {
-  /// Level at which a texel is known to be off: that of a whole run.
-  constexpr double kKnown = 1e-6;
-  RemainingTexels texels(expectation, draws);
-  for (int i = 0; i < 2; ++i) {
-    const WorstCell worst = texels.worst();
-    if (worst.cells < 3) return false;
-    if (i == 0 && worst.log10_p > std::log10(kKnown)) return false;
-    if (!texels.leave_out(worst.cell)) return false;
-  }
-  return texels.fit();
-}
-
-/// Whether the pdf is 0 in one texel alone that should be reached, no sample lies there though some
-/// were to be expected, and all others fit.
-bool is_one_texel_missing(const Expectation& expectation, const Evidence& evidence) {
-  const DensityComparison& density = evidence.inspection->density;
-  if (density.lost_cells != 1 || expectation.lookup != Lookup::nearest) return false;
-  const ComparedCell& cell = *density.first_lost;
-  const double expected =
-      static_cast<double>(evidence.draws->samples) * expectation.masses(cell.x, cell.y);
-  if (evidence.draws->texels(cell.x, cell.y) > 0 || std::exp(-expected) > kFitLevel) return false;
-  RemainingTexels texels(expectation, *evidence.draws);
-  const auto width = static_cast<std::size_t>(expectation.masses.extent().width);
-  const auto texel = static_cast<std::size_t>(cell.y) * width + static_cast<std::size_t>(cell.x);
-  return texels.leave_out(texel) && texels.fit();
-}
-
 /// A name, and how sure it is.
 struct Name {
   std::string_view defect;
@@ -185,8 +123,7 @@ struct Name {
 std::string confidence_of(const DistributionFit& fit) {
   return fmt::format(
       "the samples are 10^{:.3g} times as likely under it as under the next distribution ({}), and "
-      "fit it "
-      "with p = {:.2g}",
+      "fit it with p = {:.2g}",
       fit.log10_odds, fit.next.empty() ? "the declared one" : fit.next,
       std::pow(10.0, fit.log10_p));
 }
@@ -300,7 +237,7 @@ Name name_of(const ScoredAlternatives& distributions, const Expectation& expecta
     return {verdicts.leaves_map() ? "off-the-map" : "wrong-at-cdf-entries",
             "certain: the random numbers that do it are named"};
   }
-  if (is_one_texel_missing(expectation, evidence)) {
+  if (is_one_texel_missing(expectation, draws, evidence.inspection->density)) {
     return {"one-texel-missing",
             "pdf() is 0 there, none of the samples to be expected lies there, and all others fit"};
   }
@@ -337,33 +274,6 @@ std::string words_of(const ScoredAlternatives& distributions, const Name& name,
   }
   const Alternative* distribution = distributions.find(name.defect);
   return distribution != nullptr ? std::string(distribution->diagnosis) : std::string();
-}
-
-Grid<double> residuals(const Expectation& expectation, const Draws& draws) {
-  Grid<double> residual(kGateBins);
-  const double n = static_cast<double>(draws.samples);
-  for (std::size_t i = 0; i < residual.values().size(); ++i) {
-    const double expected = n * expectation.bins.values()[i];
-    const double observed = static_cast<double>(draws.bins.values()[i]);
-    residual.values()[i] = expected > 0.0 ? (observed - expected) / std::sqrt(expected) : observed;
-  }
-  return residual;
-}
-
-/// Pearson's divergence of the marginal of rows 0..y.
-std::vector<double> cumulative_divergence(const Expectation& expectation, const Draws& draws) {
-  std::vector<double> sums;
-  double sum = 0.0;
-  const double n = static_cast<double>(draws.samples);
-  for (int y = 0; y < draws.texels.extent().height; ++y) {
-    const double expected = n * expectation.rows[static_cast<std::size_t>(y)];
-    double observed = 0.0;
-    for (const std::uint64_t count : draws.texels.row(y)) observed += static_cast<double>(count);
-    const double d = observed - expected;
-    sum += expected > 0.0 ? d * d / expected : observed;
-    sums.push_back(sum);
-  }
-  return sums;
 }
 
 Rejection rejection_of(const ScoredAlternatives& distributions, const Expectation& expectation,

@@ -19,6 +19,7 @@ struct Signature {
   std::string_view diagnosis;
 };
 
+/// All kinds of defects that are no other distribution over the texels.
 std::span<const Signature> signatures();
 
 /// What was seen of a run, some of whose judged records are rejected.

@@ -17,8 +17,8 @@
 
 namespace lightproof {
 
-/// Integer counts over kGateBins. One thread adds to one histogram; `merge` in any order gives the
-/// same counts.
+/// Integer counts of directions over kGateBins. One thread adds to one histogram; `merge` in any
+/// order gives the same counts.
 ///
 /// The bin is cell_of(square_from_direction(d)), unless s or t is within 1e-15 of an edge of it:
 /// then it may be the neighbour's, which for s is taken around the seam. At a pole every column is
@@ -29,9 +29,9 @@ class DirectionHistogram {
   void merge(const DirectionHistogram& other);
 
   Grid<std::uint64_t> bins() const;
-  /// What is not a direction: not finite, or a squared length beside (1/2, 3/2).
+  /// How many vectors were no directions: not finite, or of a squared length beside (1/2, 3/2).
   std::uint64_t invalid() const { return counts_[kInvalid]; }
-  /// All that were added, the invalid ones among them.
+  /// How many vectors were added, the invalid ones among them.
   std::uint64_t samples() const;
 
  private:

@@ -20,6 +20,7 @@ struct DrawnDirection {
   PerSteradian pdf;
 };
 
+/// A sampler of directions, and the distribution that it claims to draw.
 struct DirectionSampler {
   std::string name;
   std::string description;
@@ -32,14 +33,14 @@ struct DirectionSampler {
 /// the angle. The normal is +z.
 std::vector<DirectionSampler> direction_samplers();
 
-/// As points of the square, in cells of this grid. A direction that is a pole is moved off it by
-/// less than any cell: there the square has no density.
+/// A sampler of directions as a source of samples over the square, which name cells of a grid. A
+/// direction that is a pole is moved off it by less than any cell: there the square has no density.
 BoundSampler bound_directions(const DirectionSampler& sampler, Extent cells);
 
-/// One test case for each sampler.
+/// The test cases of samplers of directions, one for each of them.
 std::vector<TestCase> test_cases_of(std::span<const DirectionSampler> samplers);
 
-/// Those of the maps, then those of directions.
+/// The test cases of all samplers under test on all maps, then those of samplers of directions.
 std::vector<TestCase> test_cases_of(std::span<const EnvironmentMap> maps,
                                     std::span<const SamplerUnderTest> samplers_under_test,
                                     std::span<const DirectionSampler> samplers);

@@ -28,9 +28,11 @@ class ShareGuide {
   std::vector<std::uint32_t> first_;
 };
 
+/// A sampler of texels whose masses are given.
 class DiscreteSampler {
  public:
-  /// Texels of these masses, which sum to 1; inside one the position follows the density.
+  /// Samples texels of these masses, which sum to 1; inside a texel the position follows the
+  /// density space.
   DiscreteSampler(Grid<double> masses, DensitySpace density_space);
 
   TexelSample sample(SquarePoint u) const;
@@ -42,9 +44,9 @@ class DiscreteSampler {
   const Grid<double>& masses() const { return masses_; }
   /// What u = (1/2, 1/2) gives: a texel with light.
   const TexelSample& median() const { return median_; }
-  /// Mass below every row's upper edge; the last is 1.
+  /// The mass below every row's upper edge; the last is 1.
   const std::vector<double>& rows() const { return rows_; }
-  /// Inside each row, mass below every texel's upper edge, over the row's; 0 in a row without
+  /// For each row the share of its mass to the left of every texel's right edge; 0 in a row without
   /// light.
   const Grid<double>& columns() const { return columns_; }
 

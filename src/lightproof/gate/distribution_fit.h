@@ -28,8 +28,9 @@ struct DistributionFit {
   std::string_view distribution;  ///< empty: none is likelier than the declared one
   double log10_odds = 0.0;        ///< against the next, the declared distribution among them
   std::string_view next;          ///< empty: the declared one
-  double log10_p = 0.0;  ///< of goodness of fit, over bins, texels, rows, columns, worst texel
-  bool named() const;    ///< likelier than the next by the odds, and not rejected
+  double log10_p = 0.0;           ///< log10_fit() of this distribution
+  /// Whether it is likelier than the next one by kNamingOdds, and not rejected at kFitLevel.
+  bool named() const;
 };
 
 /// What separates one sampler under test from the alternatives of its test case.
@@ -54,27 +55,28 @@ void for_each_holding_grids(std::size_t count, const Expectation& expectation,
                             const std::function<void(std::size_t)>& body);
 
 /// The scores of several samplers of one test case. The masses of every alternative are computed
-/// once, whatever their number, and not kept. The same bits for any number of threads.
+/// once, whatever their number, and not kept. The number of threads changes no bit.
 std::vector<DistributionScores> score_distributions(std::span<const Alternative> alternatives,
                                                     const Expectation& expectation,
                                                     std::span<const Scored> scored);
 
-/// The sum of the differences of all cells.
+/// The sum over all cells of the absolute differences of two grids of one extent.
 double distance(const Grid<double>& a, const Grid<double>& b);
 
+/// The distribution that the samples make likeliest, by the scores of their sampler.
 DistributionFit likeliest_distribution(std::span<const Alternative> alternatives,
                                        const DistributionScores& scores,
                                        const Expectation& expectation, const Draws& draws);
 
-/// The smallest p-value of goodness of fit over bins, texels, rows, columns and the worst texel,
-/// times their number.
+/// log10 of how well masses of texels fit what was drawn: the smallest p-value of goodness of fit
+/// over bins, texels, rows, columns and the worst texel, times their number.
 double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectation& expectation);
 
 /// log10_fit() of the declared distribution.
 double log10_fit_of_declared(const Draws& draws, const Expectation& expectation);
 
-/// The smallest p-value (log10) of goodness of fit of texels, rows, columns and the worst texel,
-/// times their number, for counts of texels in `samples` samples against their probabilities.
+/// log10 of how well probabilities of texels fit their counts among `samples` samples: the smallest
+/// p-value of goodness of fit over texels, rows, columns and the worst texel, times their number.
 double log10_fit_of_counts(const Grid<std::uint64_t>& texels, const Grid<double>& masses,
                            std::uint64_t samples);
 

@@ -46,20 +46,19 @@ struct Draws {
   /// Counts over kUniformCells of the coordinates of reference::RosenblattPoint.
   std::vector<std::uint64_t> marginal;
   std::vector<std::uint64_t> column_marginal;
-  Grid<std::uint64_t> pairs;  ///< of (conditional, marginal) over kPairBins
+  Grid<std::uint64_t> pairs;  ///< counts of (conditional, marginal) over kPairBins
   SuccessiveCounts successive;
   std::uint64_t repeats = 0;  ///< samples at exactly the position of the one before
   /// Counts of positions within the texel, by the shares of row and cell that
-  /// reference::RosenblattPoint names, a row of counts for every
-  /// band of the expectation.
+  /// reference::RosenblattPoint names: a row of counts for every band of the expectation.
   Grid<std::uint64_t> positions;
   /// Samples whose marginal, or conditional, coordinate is all but a multiple of 2^-20.
   std::uint64_t marginal_on_lattice = 0;
   std::uint64_t conditional_on_lattice = 0;
   std::array<Moments, kMeanCaseCount> estimators;
   Moments inverse_pdf;
-  InvalidSamples out_of_domain;  ///< beside the map, or without a density
-  InvalidSamples zero_density;   ///< in a texel without light
+  InvalidSamples out_of_domain;  ///< samples beside the map, or without a density
+  InvalidSamples zero_density;   ///< samples in a texel without light
 
   void merge(const Draws& other);
 };
@@ -70,12 +69,12 @@ inline constexpr Extent kPairBins = {32, 32};
 /// Whether a sample lies on the map and names a texel of it, with a positive, finite density.
 bool is_on_map(const TexelSample& sample, Extent map);
 
-/// The same integrals, estimated from directions drawn uniformly.
+/// The integrals of kMeanCases, estimated from directions drawn uniformly over the sphere.
 using UniformEstimates = std::array<Moments, kMeanCaseCount>;
 UniformEstimates draw_uniformly(const Expectation& expectation, const RandomStream& stream,
                                 std::uint64_t count);
 
-/// Points of a stream.
+/// The points first, first + 1, …, `count` of them, of a stream.
 struct PointRange {
   std::uint64_t first;
   std::uint64_t count;
@@ -96,12 +95,14 @@ struct DirectedPoints {
   std::uint64_t count;
 };
 
-/// Adds the positions of samples at such points. What lands in another band is left out: given the
-/// row, its share below the sample is uniform all the same.
+/// Adds the positions of samples at points that lead to one band of rows. What lands in another
+/// band is left out: given the row, its share below the sample is uniform all the same.
 void add_directed_positions(Draws& draws, const BoundSampler& sampler,
                             const Expectation& expectation, const DirectedPoints& directed);
 
+/// Counts of the rows of a grid of counts.
 std::vector<std::uint64_t> row_counts(const Grid<std::uint64_t>& texels);
+/// Counts of the columns of a grid of counts.
 std::vector<std::uint64_t> column_counts(const Grid<std::uint64_t>& texels);
 
 }  // namespace lightproof

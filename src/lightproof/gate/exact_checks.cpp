@@ -8,21 +8,16 @@
 #include <numeric>
 
 #include "lightproof/gate/draws.h"
+#include "reference/gauss_rule.h"
 
 namespace lightproof {
 namespace {
 
-/// Nodes and weights of Gauss-Legendre rules on [0,1].
-struct Node {
-  double at;
-  double weight;
-};
-/// Across a cell, where a density is constant or linear.
-constexpr std::array<Node, 2> kAcross = {{{0.21132486540518712, 0.5}, {0.78867513459481288, 0.5}}};
-/// Along it, where it may be a linear function times sin(pi t).
-constexpr std::array<Node, 3> kAlong = {
-    {{0.11270166537925831, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.88729833462074169, 5.0 / 18.0}}};
-/// Pieces along are at most 1/64 high. Three nodes leave h^7/2016000 |f^(6)| of a piece of height h
+/// Over s inside a cell, where a density is constant or linear.
+const reference::GaussRule<2> kRuleOverS;
+/// Over t inside a cell, where it may be a linear function times sin(pi t).
+const reference::GaussRule<3> kRuleOverT;
+/// Pieces are at most 1/64 high in t. Three nodes leave h^7/2016000 |f^(6)| of a piece of height h
 /// in theta (Abramowitz and Stegun 25.4.29 and 30). Of f = (a + b theta) sin(theta) the worst case
 /// is a = 0 at a pole, f^(6) = 6 b: of its integral b h^3/3 that is 9 h^4/10^6 = 5e-11 at
 /// h = pi/64, whatever the height of the map and wherever its light is.
@@ -151,21 +146,20 @@ std::optional<std::string_view> position_of_returned_pdf(const BoundSampler& sam
 
 /// A rectangle of the square.
 struct Piece {
-  double s;
-  double t;
-  double width;
-  double height;
+  double left;
+  double right;
+  double bottom;
+  double top;
+
+  SquarePoint centre() const { return {0.5 * (left + right), 0.5 * (bottom + top)}; }
 };
 
 double integral_over(const Piece& piece, const BoundSampler& sampler) {
-  double mean = 0.0;
-  for (const Node& t : kAlong) {
-    for (const Node& s : kAcross) {
-      const SquarePoint at = {piece.s + s.at * piece.width, piece.t + t.at * piece.height};
-      mean += s.weight * t.weight * sampler.pdf(at).value;
-    }
-  }
-  return mean * piece.width * piece.height;
+  return kRuleOverT.integrate(piece.bottom, piece.top, [&](double t) {
+    return kRuleOverS.integrate(piece.left, piece.right, [&](double s) {
+      return sampler.pdf({s, t}).value;
+    });
+  });
 }
 
 }  // namespace
@@ -177,11 +171,11 @@ OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells) {
   OwnDensity own{0.0, Grid<double>(kGateBins)};
   for (std::size_t j = 0; j + 1 < along.size(); ++j) {
     for (std::size_t i = 0; i + 1 < across.size(); ++i) {
-      const Piece piece = {across[i], along[j], across[i + 1] - across[i], along[j + 1] - along[j]};
+      const Piece piece = {across[i], across[i + 1], along[j], along[j + 1]};
       const double mass = integral_over(piece, sampler);
       own.integral += mass;
-      own.bins(cell_of(piece.s + 0.5 * piece.width, kGateBins.width),
-               cell_of(piece.t + 0.5 * piece.height, kGateBins.height)) += mass;
+      const auto [s, t] = piece.centre();
+      own.bins(cell_of(s, kGateBins.width), cell_of(t, kGateBins.height)) += mass;
     }
   }
   for (double& mass : own.bins.values()) mass /= own.integral;

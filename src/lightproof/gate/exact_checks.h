@@ -25,40 +25,43 @@ struct CheckResult {
 
 /// What a sampler's own pdf says that it draws.
 struct OwnDensity {
-  double integral = 0.0;  ///< over the square
-  Grid<double> bins;      ///< masses of kGateBins, over the integral
+  double integral = 0.0;  ///< ∫ of the pdf over the square
+  Grid<double> bins;      ///< masses of kGateBins by the pdf, over that integral
 };
 
-/// Integrates pdf() by 2 x 3 Gauss-Legendre nodes in every cell, split where bins begin and along t
-/// into pieces of at most 1/64. A density that is linear across a cell, and linear times sin(pi t)
-/// along it, is integrated to a relative 1e-10 whatever the grid; another one as well as it is
-/// smooth inside a cell.
+/// Integrates pdf() by 2 x 3 Gauss-Legendre nodes (s x t) in every cell, which is split where bins
+/// begin and over t into pieces of at most 1/64. A density that inside a cell is linear over s, and
+/// linear times sin(pi t) over t, is integrated to a relative 1e-10 whatever the grid; another one
+/// as well as it is smooth inside a cell.
 OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells);
 
-/// |∫ pdf ds dt - 1| <= 1e-6.
+/// Checks that a pdf integrates to 1: |∫ pdf ds dt - 1| <= 1e-6.
 CheckResult check_pdf_integral(const OwnDensity& own);
 
-/// Random points of a check beside the draws: as many, but no more than this.
+/// A check draws as many random points as the run has samples, but no more than this.
 inline constexpr std::uint64_t kMostCheckPoints = std::uint64_t{1} << 16U;
 
-/// pdf(sample(u).at) equals the pdf that sample(u) returned, to 1e-5, at so many points.
+/// Checks at `count` random points that pdf(sample(u).at) is what sample(u) returned, to 1e-5.
 CheckResult check_returned_pdf(const BoundSampler& sampler, const RandomStream& stream,
                                std::uint64_t count);
 
-/// At edge_points(): the sample stays on the map, inside its texel, and that texel has light. The
-/// points next to 1 are a check of their own: where sums end too early, they run off.
+/// Checks at edge_points() that the sample stays on the map and inside its texel, and that the
+/// texel has light. The points next to 1 are a check of their own, the first of the two: where sums
+/// end too early, they run off.
 std::array<CheckResult, 2> check_edges(const BoundSampler& sampler, const Expectation& expectation);
 
-/// pdf() is positive where the declared density is, or the sampler declares that its rounding may
-/// lose so little light; and 0 where that is 0. The deviation is the share of all light that the
-/// pdf calls unreachable.
+/// Checks that pdf() is positive where the declared density is, or the sampler declares that its
+/// rounding may lose so little light; and 0 where the declared density is 0. The deviation is the
+/// share of all light that the pdf calls unreachable.
 CheckResult check_support(const DensityComparison& density);
 
-/// pdf() is the declared density at every cell's centre, to 1e-5 and what the sampler declares of
-/// its rounding. The deviation is the largest relative one, of cells that can be reached.
+/// Checks that pdf() is the declared density at every cell's centre, to 1e-5 and what the sampler
+/// declares of its rounding. The deviation is the largest relative one, of cells that can be
+/// reached.
 CheckResult check_declared_density(const DensityComparison& density);
 
-/// What can be said of a sampler whatever the seed. What its source cannot do is left as it is.
+/// What can be said of a sampler whatever the seed. What its source cannot serve keeps its initial
+/// value.
 struct Inspection {
   OwnDensity own;
   DensityComparison density;
@@ -66,14 +69,16 @@ struct Inspection {
   /// "one column to the right": where pdf() is what sample() returns, at every point where that is
   /// not the pdf of the sample's own position; none if there is no such point or position.
   std::optional<std::string_view> returned_pdf_of;
-  bool has_pdf = true;       ///< as the BoundSampler
-  bool has_weights = true;   ///< as the BoundSampler
-  bool takes_points = true;  ///< as the BoundSampler
+  bool has_pdf = true;       ///< BoundSampler::has_pdf() of the sampler
+  bool has_weights = true;   ///< BoundSampler::has_weights of the sampler
+  bool takes_points = true;  ///< BoundSampler::takes_points() of the sampler
 };
+/// Inspects a sampler, given the rounding that it declares.
 Inspection inspect(const BoundSampler& sampler, const Expectation& expectation,
                    const MassRounding& rounding);
 
-/// The same texel as another sampler for the same point: edge_points(), and so many random ones.
+/// Checks that a sampler returns the same texel as another one at the same point: at edge_points(),
+/// and at `count` random ones.
 CheckResult check_same_texel(const BoundSampler& sampler, const BoundSampler& other,
                              const Expectation& expectation, const RandomStream& stream,
                              std::uint64_t count);

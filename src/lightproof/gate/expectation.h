@@ -18,7 +18,7 @@
 
 namespace lightproof {
 
-/// Bins over (phi, theta).
+/// The bins over (phi, theta) in which the gate counts directions.
 inline constexpr Extent kGateBins = {32, 16};
 
 /// The integrals that the estimator is tested on: irradiance for two normals. One looks at a pole,
@@ -30,14 +30,15 @@ struct MeanCase {
 inline constexpr std::size_t kMeanCaseCount = 2;
 extern const std::array<MeanCase, kMeanCaseCount> kMeanCases;
 
+/// The exact side of one test case.
 struct Expectation {
   DensitySpace density_space = DensitySpace::solid_angle;  ///< how the mass lies inside a texel
   Lookup lookup = Lookup::nearest;  ///< how the estimators look `luminance` up
   Grid<double> luminance;           ///< radiance that the estimators gather
-  Grid<double> masses;              ///< of texels
-  Grid<double> bins;                ///< of kGateBins
-  std::vector<double> rows;         ///< marginal
-  std::vector<double> columns;      ///< marginal
+  Grid<double> masses;              ///< probabilities of texels
+  Grid<double> bins;                ///< probabilities of kGateBins
+  std::vector<double> rows;         ///< probabilities of the rows of texels
+  std::vector<double> columns;      ///< probabilities of the columns of texels
   /// Writes the transformed coordinates of samples, cos(theta) of whose positions are known; all
   /// spans are of one size. Empty where the distribution inside a texel is not known in closed
   /// form.
@@ -47,14 +48,16 @@ struct Expectation {
   /// Probability of every row that `transform` names, of texels or of bilinear patches; empty if it
   /// names none.
   std::vector<double> smooth_rows;
-  std::vector<RowBand> bands;  ///< of these rows
-  std::vector<std::uint8_t> band_of_row;
+  std::vector<RowBand> bands;             ///< bands of `smooth_rows`
+  std::vector<std::uint8_t> band_of_row;  ///< for each of `smooth_rows` the index of its band
   /// Declared density over the square where it is not `masses` spread inside the texels as
   /// `density_space` says; see declared_density().
   std::function<double(SquarePoint at)> density;
+  /// Moments of the estimators of kMeanCases that draw from the declared density.
   std::array<reference::EstimatorMoments, kMeanCaseCount> estimators;
-  std::array<reference::EstimatorMoments, kMeanCaseCount> uniform;  ///< drawn over the sphere
-  /// 1/p(omega) over the texels at least a tenth as bright as the mean.
+  /// Moments of the estimators of kMeanCases that draw uniformly over the sphere.
+  std::array<reference::EstimatorMoments, kMeanCaseCount> uniform;
+  /// Moments of 1/p(omega) over the texels at least a tenth as bright as the mean, 0 elsewhere.
   reference::EstimatorMoments inverse_pdf;
 
   /// What is looked up of a sample's texel besides its radiance, in a byte: it stays in the cache.
@@ -62,7 +65,7 @@ struct Expectation {
     has_mass = 1,
     counts_as_bright = 2,  ///< see is_bright
   };
-  Grid<std::uint8_t> flags;  ///< of texels: sums of TexelFlag
+  Grid<std::uint8_t> flags;  ///< for each texel the sum of its TexelFlag values
   /// Sets the flags, once masses, luminance and mean_luminance are known.
   void set_flags();
 
@@ -78,22 +81,22 @@ struct Expectation {
   bool is_summed = false;
 };
 
-/// The effect w that rounding of all sums to steps of 1 would have on average: it grows in
-/// proportion to the step. Cells are pooled until `samples` expect 25 of each. Of an interpolated
-/// map the sums are of patches, of which a texel has a quarter of four: where it is smooth, the
-/// effect is half as large.
+/// The effect w that rounding of all sums of masses to steps of 1 would have on average: it grows
+/// in proportion to the step. Cells are pooled until `samples` expect 25 of each. Of an
+/// interpolated map the sums are of patches, of which a texel has a quarter of four: where it is
+/// smooth, the effect is half as large.
 struct RoundingEffect {
-  double texels = 0.0;
-  double rows = 0.0;
+  double texels = 0.0;  ///< effect on the counts of texels
+  double rows = 0.0;    ///< effect on the counts of rows
 };
 
-/// Sets the rows that the transform names, and their bands.
+/// Sets the probabilities of the rows that the transform names, and the bands of these rows.
 void set_smooth_rows(Expectation& expectation, std::vector<double> masses);
 
-/// 0 where nothing is summed.
+/// The effect of rounding on a distribution, 0 where its masses are not summed.
 RoundingEffect rounding_effect(const Expectation& expectation, std::uint64_t samples);
 
-/// Throws InputError if the map is black.
+/// The exact side of a target density on a map. Throws InputError if the map is black.
 Expectation expectation_of(const EnvironmentMap& map, TargetDensity target);
 
 }  // namespace lightproof

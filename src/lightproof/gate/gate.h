@@ -12,13 +12,15 @@
 
 namespace lightproof {
 
+/// How the gate is run.
 struct GateOptions {
-  std::uint64_t samples = std::uint64_t{1} << 22U;  ///< per instance
+  std::uint64_t samples = std::uint64_t{1} << 22U;  ///< samples of each instance
   std::uint64_t seed = 1;
   /// Probability that a run over correct samplers rejects anything.
   double family_alpha = 1e-6;
-  /// Below this p-value a test is run again; below `immediate_level` it is rejected without.
+  /// The p-value below which a test is run again.
   double screening_level = 1e-3;
+  /// The p-value below which a test is rejected without being run again.
   double immediate_level = 1e-10;
   /// The p-values (with run_sequential_gate: instances) that share family_alpha, if they are more
   /// than this run has: the part of a run that is done again then judges as the whole did.
@@ -29,9 +31,9 @@ struct GateOptions {
   double must_detect = kMustDetect;
 };
 
-/// Runs in two stages. After the first, a test whose p-value is below `immediate_level` (or half of
-/// family_alpha shared out among all tests, if that is less) is rejected immediately. One below
-/// `screening_level` runs again with four times the samples and other random numbers, and
+/// Runs the gate in two stages. After the first, a test whose p-value is below `immediate_level`
+/// (or half of family_alpha shared out among all tests, if that is less) is rejected immediately.
+/// One below `screening_level` runs again with four times the samples and other random numbers, and
 /// Holm's procedure over all tests of the family judges those at the other half; tests that did not
 /// run again count as not rejected. Either way a correct sampler is rejected with at most
 /// family_alpha; a small defect must fall below the screening level first and show with four times
@@ -39,7 +41,7 @@ struct GateOptions {
 GateResult run_gate(std::span<const TestCase> test_cases, const GateOptions& options,
                     const Progress& progress = {});
 
-/// Every sampler under test on every map.
+/// Runs the gate on every sampler under test on every map.
 GateResult run_gate(std::span<const EnvironmentMap> maps,
                     std::span<const SamplerUnderTest> samplers_under_test,
                     const GateOptions& options, const Progress& progress = {});

@@ -10,7 +10,7 @@
 
 namespace lightproof {
 
-/// The p-values of the screening stage that the confirmation stage looks at: in [from, to).
+/// The p-values of the screening stage that lead to the confirmation stage: those in [from, to).
 struct ConfirmationRange {
   double from;
   double to;
@@ -21,9 +21,10 @@ struct ConfirmationRange {
 /// Judges the tests of a family: see run_gate().
 class Judge {
  public:
-  /// `family`: the p-values that share the error probability.
+  /// Judges by these options; `family` p-values share the error probability.
   Judge(const GateOptions& options, std::size_t family);
 
+  /// The p-values that lead to the confirmation stage.
   ConfirmationRange confirmation() const { return {immediate_level_, screening_level_}; }
 
   /// Sets the outcome and the minimum detectable effect of every test that has a p-value. Those of
@@ -36,7 +37,7 @@ class Judge {
   double screening_level_;
   double immediate_level_;
   double second_alpha_;
-  double second_level_;  ///< of Holm's strictest test
+  double second_level_;  ///< the level of Holm's strictest test
   std::size_t family_;
   double must_detect_;
 };

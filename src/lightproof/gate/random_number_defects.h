@@ -9,8 +9,8 @@
 
 namespace lightproof {
 
-/// "coarse-numbers", "same-number", "repeated-numbers" or "stratified"; empty if none of these
-/// explains the samples.
+/// The defect of the random numbers that explains the samples: "coarse-numbers", "same-number",
+/// "repeated-numbers" or "stratified"; empty if none of these explains the samples.
 std::string_view name_of_number_defect(const Expectation& expectation, const Draws& draws);
 
 }  // namespace lightproof

@@ -17,8 +17,8 @@
 
 namespace lightproof {
 
-/// Runs a computation; says why if a numerics library ends it with an exception. Interrupts, bad
-/// input and lack of memory are passed on: they end the run.
+/// Runs a computation, and returns why it failed if a numerics library ended it with an exception.
+/// Interrupts, bad input and lack of memory are passed on: they end the run.
 std::optional<std::string> failure_of(const std::function<void()>& computation);
 
 /// Collects the records of one run, all of as many samples.
@@ -26,42 +26,48 @@ class Records {
  public:
   Records(const TestRun& run, std::uint64_t samples) : run_(&run), samples_(samples) {}
 
+  /// Adds a record of nothing yet, to be filled in.
   Measured& add(TestId test);
 
-  /// Adds what `run` adds; where that cannot be computed, an inconclusive test of this name.
+  /// Adds what `run` adds; where that cannot be computed, this test as an inconclusive one.
   void attempt(TestId test, const std::function<void()>& run);
 
-  /// Counts of all samples against probabilities.
+  /// Adds the goodness of fit of counts of all samples to probabilities.
   void add_fit(TestId test, std::span<const std::uint64_t> observed,
                std::span<const double> probability);
 
-  /// A statistic of `fit_samples` of the samples or of what is made of them, judged already.
+  /// Adds a fit, judged already, of `fit_samples` of the samples or of what is made of them.
   void add_partial_fit(TestId test, const GoodnessOfFit& fit, std::uint64_t fit_samples);
 
-  /// A test that this sampler, or these samples, cannot serve, and why.
+  /// Adds a test that this sampler, or these samples, cannot serve, and why.
   void add_not_run(TestId test, std::string why);
 
-  /// `share`: of the other sample, of both.
+  /// Adds the fit of two sets of samples to each other; `share` is the other set's share of both.
   void add_two_samples(TestId test, const GoodnessOfFit& fit, double share);
 
-  /// `minimum_detectable`: the distance that is found at a level, with a power, by so many samples.
+  /// Adds a test of uniformity; `minimum_detectable` is the distance that it finds at a level, with
+  /// a power, by so many samples.
   void add_uniformity(TestId test, const UniformityTest& uniformity,
                       double (*minimum_detectable)(double level, double power, double samples));
 
+  /// Adds the test of the cell that is farthest from its expectation, of counts of all samples.
   void add_worst(TestId test, std::span<const std::uint64_t> observed,
                  std::span<const double> probability);
 
-  /// `moments`: of one sample of what is estimated; `exact`: the value of the estimate.
+  /// Adds a test of an estimate whose exact value is `exact`; `moments` are those of one sample.
   void add_z(TestId test, const ZTest& z, const ExactMoments& moments, double exact);
 
+  /// Adds an exact check.
   void add_check(const CheckResult& result);
 
+  /// Adds the test that no sample is invalid in this way; `what` says it of a sample.
   void add_invalid(TestId test, std::string_view what, const InvalidSamples& invalid_samples);
 
-  /// The step of the sampler's sums makes an effect of this size by itself.
+  /// Sets, in the record that was added last, the effect that the step of the sampler's sums makes
+  /// by itself.
   void set_resolution_floor(double effect);
 
-  /// Says why, in words, of the record that was added last.
+  /// Sets the words that explain the record that was added last.
   void set_detail(std::string detail);
 
   std::vector<Measured> take() { return std::move(records_); }

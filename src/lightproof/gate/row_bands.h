@@ -11,17 +11,20 @@
 
 namespace lightproof {
 
+/// Neighbouring rows.
 struct RowBand {
-  int first;     ///< row
-  int last;      ///< likewise, at least the first
-  double below;  ///< mass of all rows before the first
-  double mass;
+  int first;     ///< first row
+  int last;      ///< last row, at least the first
+  double below;  ///< probability of all rows before the first
+  double mass;   ///< probability of the band
 };
 
-/// The first row, the last one, and up to three bands of as many rows as possible between them.
+/// The bands of rows of these probabilities: the first row, the last one, and up to three bands, of
+/// numbers of rows as equal as possible, between them.
 std::vector<RowBand> row_bands(std::span<const double> row_masses);
 
-/// Equal cells of the share of the row's mass, and of the share of the cell's.
+/// The equal cells in which positions are counted: of the share of the cell's mass to the left
+/// (across) and of the share of the row's mass below (along).
 inline constexpr Extent kPositionCells = {8, 8};
 
 }  // namespace lightproof

@@ -12,29 +12,30 @@
 
 namespace lightproof {
 
+/// A sampler of environment maps that the gate tests, before there is a map.
 struct SamplerUnderTest {
   std::string name;
   TargetDensity target;  ///< what it claims to draw; on a map, on_map() of it
   bool known_defects = false;
-  /// Claims to return the texel of LinearScan for every point.
+  /// Whether it claims to return the texel of LinearScan for every point.
   bool inverts_shared_cdf = false;
-  /// The map outlives what is bound to it. Throws InputError if the map is black.
+  /// Builds the sampler of a map, which must outlive it. Throws InputError if the map is black.
   std::function<BoundSampler(const EnvironmentMap&)> bind;
-  double resolution = 0x1p-24;  ///< as a SamplerInstance's
-  bool inverts_rows = false;    ///< as a SamplerInstance's
+  double resolution = 0x1p-24;  ///< SamplerInstance::resolution
+  bool inverts_rows = false;    ///< SamplerInstance::inverts_rows
   /// The rounding of its probabilities on a map of this size; null: it claims the declared density
   /// exactly.
   MassRounding (*rounding)(Extent map) = nullptr;
 };
 
-/// A row of the registry under one density (A or B).
+/// A sampler of the registry as one under test, under one density (A or B).
 SamplerUnderTest sampler_under_test(const SamplerInfo& sampler, DensitySpace density_space);
 
 /// Every sampler of the registry under both densities.
 std::vector<SamplerUnderTest> all_samplers_under_test();
 
-/// Every sampler under test on every map: a test case for each map and target density. The maps
-/// outlive them.
+/// The test cases of every sampler under test on every map, one for each map and target density.
+/// The maps must outlive them.
 std::vector<TestCase> test_cases_of(std::span<const EnvironmentMap> maps,
                                     std::span<const SamplerUnderTest> samplers_under_test);
 

@@ -8,13 +8,13 @@
 
 namespace lightproof {
 
-/// Draws until the counts are beyond doubt, and `options.samples` at the most; an instance that
-/// lasts so long is accepted. The evidence is the average of the e-processes (stats/sequential.h)
-/// of the bins, the rows, the columns and, where they are not too many, the texels; looked at
-/// whenever the samples have grown by half. An instance is rejected when it reaches
-/// instances/family_alpha: over the whole run a correct sampler is rejected with at most
-/// family_alpha, whenever one stops. One record an instance, of the samples that it took, and the
-/// exact checks; means and variances are not tested.
+/// Runs the gate sequentially: draws until the counts are beyond doubt, and `options.samples` at
+/// the most; an instance that lasts so long is accepted. The evidence is the average of the
+/// e-processes (stats/sequential.h) of the bins, the rows, the columns and, where they are not too
+/// many, the texels; looked at whenever the samples have grown by half. An instance is rejected
+/// when it reaches instances/family_alpha: over the whole run a correct sampler is rejected with at
+/// most family_alpha, whenever one stops. One record an instance, of the samples that it took, and
+/// the exact checks; means and variances are not tested.
 GateResult run_sequential_gate(std::span<const TestCase> test_cases, const GateOptions& options,
                                const Progress& progress = {});
 

@@ -19,10 +19,10 @@ namespace lightproof {
 struct SamplerInstance {
   std::string name;
   bool known_defects = false;
-  /// Builds it.
+  /// Builds the sampler.
   std::function<BoundSampler()> bind;
-  /// Step of its sums and random numbers: a float's below 1 unless it is known to be finer, 0 if it
-  /// searches no sums of rows and columns.
+  /// Step of the sampler's sums and random numbers: a float's below 1 unless it is known to be
+  /// finer, 0 if it searches no sums of rows and columns.
   double resolution = 0x1p-24;
   /// How far its probabilities of texels may be from the declared ones.
   MassRounding rounding = {};
@@ -31,12 +31,12 @@ struct SamplerInstance {
   /// Whether it claims to return the texels of the test case's reference implementation, point for
   /// point.
   bool claims_reference_texels = false;
-  /// What is found does not depend on the seed.
+  /// Inspects the sampler; what is found does not depend on the seed.
   std::function<Inspection(const BoundSampler&, const Expectation&, const MassRounding&)> inspect =
       lightproof::inspect;
 };
 
-/// What could be drawn by mistake.
+/// A distribution that could be drawn by mistake in one test case.
 struct Alternative {
   std::string_view name;       ///< "no-sine"
   std::string_view diagnosis;  ///< "a missing sin(theta)"
@@ -48,7 +48,7 @@ struct Alternative {
 struct TestCase {
   std::string map;            ///< name of the map, or kDirections
   std::string density_space;  ///< "A", "B"; empty for distributions over directions
-  std::string source;         ///< of the map, as it was given
+  std::string source;         ///< what the user called the map: a path or a built-in name
   std::function<std::shared_ptr<const Expectation>()> expectation;
   std::function<std::vector<Alternative>()> alternatives;
   std::vector<SamplerInstance> instances;
@@ -56,12 +56,12 @@ struct TestCase {
   std::function<BoundSampler()> reference_implementation = {};
 };
 
-/// The same test case for many runs: the inspection of each instance, which no seed changes, is
-/// made by the first run that asks for it, and kept.
+/// A test case for many runs: the inspection of each instance, which no seed changes, is made by
+/// the first run that asks for it, and kept.
 TestCase inspected_once(TestCase test_case);
 
-/// The same test case for many runs: the exact side, the samplers and their inspections are made
-/// now, and kept.
+/// A test case for many runs: its exact side, its samplers and their inspections are made now, and
+/// kept.
 TestCase made_once(TestCase test_case);
 
 }  // namespace lightproof

@@ -19,13 +19,13 @@ struct TestRun {
   const SamplerInstance* instance;
   std::uint64_t seed;
 
-  /// "binary_search/B/city".
+  /// The name of the run: "binary_search/B/city".
   std::string name() const;
-  /// A stream of its own for every purpose.
+  /// The run's own stream of random numbers for a purpose.
   RandomStream stream(std::string_view purpose) const;
 };
 
-/// A record of nothing yet.
+/// The record of a test of so many samples, in which nothing is said yet of what it found.
 TestRecord record_of(const TestRun& run, TestId test, std::uint64_t samples);
 
 /// Makes an accepting test of the bins (or of all counts, if sequential) inconclusive if it could
@@ -35,7 +35,7 @@ void require_power(TestRecord& record, double must_detect);
 /// How many samples a test gets in each stage of the gate.
 struct StageSamples {
   std::uint64_t screening = 0;
-  std::uint64_t confirmation = 0;  ///< should it come to that; 0: the source has none left
+  std::uint64_t confirmation = 0;  ///< 0: the source has none left
 };
 
 /// What a test found, and what it would find.
@@ -58,24 +58,25 @@ std::vector<Measured> test_draws(const TestRun& run, const Expectation& expectat
                                  const Inspection& inspection, const Draws& draws,
                                  const UniformEstimates& uniform);
 
-/// The sampler that others of the same distribution claim to equal, and the bins of what it drew.
+/// A reference implementation, which other samplers claim to equal, and the bins of what it drew.
 struct ReferenceDraws {
   BoundSampler sampler;
   std::uint64_t samples;
   Grid<std::uint64_t> bins;
 };
 
-/// It draws a quarter of so many samples.
+/// Draws a quarter of so many samples from a reference implementation.
 ReferenceDraws draw_reference(BoundSampler sampler, const Expectation& expectation,
                               const RandomStream& stream, std::uint64_t samples);
 
-/// Both drew numbers of their own: are they of one distribution? None for an instance without a
-/// reference implementation.
+/// Tests whether what an instance drew and what its reference implementation drew, by random
+/// numbers of their own, are of one distribution. Nothing for an instance without a reference
+/// implementation.
 std::vector<Measured> test_against_reference(
     const TestRun& run, const Draws& draws,
     const std::optional<ReferenceDraws>& reference_implementation);
 
-/// Two tests of all samples drawn: is any out of the domain, or of zero density?
+/// Tests whether any of the samples drawn is out of the domain, and whether any is of zero density.
 std::vector<Measured> test_validity(const TestRun& run, const Draws& draws);
 
 /// The checks that need no statistics; `reference_implementation` is null if the test case has

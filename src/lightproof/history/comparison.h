@@ -16,6 +16,7 @@
 
 namespace lightproof {
 
+/// What became of a benchmark from base to head.
 enum class RowVerdict {
   same,
   regressed,
@@ -26,35 +27,38 @@ enum class RowVerdict {
   only_in_head
 };
 
-/// "regressed", "suspected", …
+/// The name of a verdict: "regressed", "suspected", …
 const char* to_string(RowVerdict verdict);
 
+/// One benchmark by two commits.
 struct ComparisonRow {
   std::string benchmark;
   Metric metric = Metric::nanoseconds;
   RowVerdict verdict = RowVerdict::same;
   std::optional<Judgement> latest;   ///< none if only one commit has the benchmark
-  std::optional<Judgement> earlier;  ///< of the session before
+  std::optional<Judgement> earlier;  ///< what the session before says; none if there is none
 };
 
+/// Two commits, benchmark by benchmark.
 struct Comparison {
-  std::string base;  ///< commits
-  std::string head;
+  std::string base;  ///< the commit that head is compared with
+  std::string head;  ///< the commit that may be slower
   std::string machine;
   std::string compiler;
   std::string flags;
   RegressionRule rule;
-  std::vector<std::string> sessions;  ///< that hold both commits, the latest last
+  std::vector<std::string> sessions;  ///< sessions that hold both commits, the latest last
   std::vector<ComparisonRow> rows;
 };
 
-/// `base` and `head` are commits or beginnings of them. Sessions on another machine, or by another
-/// compiler or with other flags, than those of the latest one do not count. Throws InputError if a
-/// commit is unknown or not unique, if no session holds both, if the runs of a session differ in
-/// machine, compiler or flags, were not interleaved, or are too few for the rule.
+/// Compares two commits, which may be given by their beginnings. Sessions on another machine, or by
+/// another compiler or with other flags, than those of the latest one do not count. Throws
+/// InputError if a commit is unknown or not unique, if no session holds both, if the runs of a
+/// session differ in machine, compiler or flags, were not interleaved, or are too few for the rule.
 Comparison compare(std::span<const BenchmarkRun> runs, const std::string& base,
                    const std::string& head, const RegressionRule& rule = {});
 
+/// How many benchmarks have this verdict.
 std::size_t count_of(const Comparison& comparison, RowVerdict verdict);
 
 }  // namespace lightproof

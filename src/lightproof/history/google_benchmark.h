@@ -8,9 +8,10 @@
 
 namespace lightproof {
 
-/// The run in the file; its session is left empty. Machine, compiler, flags and commit come from
-/// the context (lightproof_bench puts them there); without a machine, host name and number of CPUs
-/// stand for it. A `commit` that is not empty takes the place of the file's.
+/// Reads the run in a file of Google Benchmark; its session is left empty. Machine, compiler, flags
+/// and commit come from the context (lightproof_bench puts them there); without a machine, host
+/// name and number of CPUs stand for it. A `commit` that is not empty takes the place of the
+/// file's.
 ///
 /// Values are CPU times, because waiting for a core is no property of the code; wall-clock times
 /// where the benchmark's name ends in /real_time or /manual_time. A benchmark with a counter called

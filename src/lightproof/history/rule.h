@@ -26,28 +26,31 @@
 
 namespace lightproof {
 
+/// The limits of the rule.
 struct RegressionRule {
-  double alpha = 0.001;
-  double least_effect = 0.05;
-  double noise_factor = 3.0;
-  double instruction_effect = 0.01;
+  double alpha = 0.001;              ///< level of the one-sided Mann-Whitney test
+  double least_effect = 0.05;        ///< least relative difference of times that counts
+  double noise_factor = 3.0;         ///< least difference of times over the A/A noise
+  double instruction_effect = 0.01;  ///< least relative difference of instruction counts
 };
 
+/// How head does against base.
 enum class Change { none, slower, faster };
 
+/// What one session says of one benchmark.
 struct Judgement {
   std::size_t base_runs = 0;
   std::size_t head_runs = 0;
-  double base = 0.0;  ///< medians over runs
-  double head = 0.0;
+  double base = 0.0;              ///< median over the runs of base
+  double head = 0.0;              ///< median over the runs of head
   double ratio = 1.0;             ///< head / base
-  double limit = 1.0;             ///< beyond which the ratio, or its inverse, is an effect
+  double limit = 1.0;             ///< the ratio, or its inverse, is an effect beyond this
   double noise = 0.0;             ///< A/A noise, relative; 0 for instructions
-  std::optional<double> log10_p;  ///< that head is not slower; none for instructions
+  std::optional<double> log10_p;  ///< log10 p of the Mann-Whitney test; none for instructions
   Change change = Change::none;
 };
 
-/// One value a run, neither side empty.
+/// Judges one benchmark by one value a run; neither side is empty.
 Judgement judge(Metric metric, std::span<const double> base, std::span<const double> head,
                 const RegressionRule& rule);
 

@@ -7,12 +7,13 @@
 
 namespace lightproof {
 
+/// What is measured.
 enum class Metric {
   nanoseconds,   ///< CPU time of one iteration
-  instructions,  ///< executed by a kernel of fixed work
+  instructions,  ///< instructions that a kernel of fixed work executes
 };
 
-/// "ns", "instructions".
+/// The unit of a metric: "ns", "instructions".
 const char* to_string(Metric metric);
 
 /// One value of one repetition.
@@ -23,8 +24,8 @@ struct Measurement {
   double value = 0.0;  ///< positive
 };
 
-/// The repetitions in a process share its memory layout and its moment, so they are no independent
-/// values: whoever compares takes the process as one.
+/// What one process measured. The repetitions in a process share its memory layout and its moment,
+/// so they are no independent values: whoever compares takes the process as one.
 struct BenchmarkRun {
   std::string session;       ///< runs of a session are interleaved, and may be compared
   std::int64_t started = 0;  ///< seconds since 1970, UTC
@@ -32,7 +33,7 @@ struct BenchmarkRun {
   std::string compiler;
   std::string flags;
   std::string commit;
-  std::uint64_t digest = 0;  ///< of the file that it came from
+  std::uint64_t digest = 0;  ///< digest of the file that the run came from
   std::vector<Measurement> measurements;
 };
 

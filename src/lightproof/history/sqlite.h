@@ -13,32 +13,35 @@ struct sqlite3_stmt;
 
 namespace lightproof::sqlite {
 
-/// What SQLite reports, in its words.
+/// An error that SQLite reports, in its words.
 class Error : public std::runtime_error {
  public:
   Error(int code, const std::string& message);
-  /// The file is at fault, and not its access.
+  /// Whether the file is at fault, and not the access to it.
   bool damaged() const { return damaged_; }
 
  private:
   bool damaged_ = false;
 };
 
+/// Whether a file must exist or is made.
 enum class Mode { existing, create };
 
-/// A connection. Other processes may hold others to the same file: whoever finds it locked waits.
+/// A connection to a database. Other processes may hold others to the same file: whoever finds it
+/// locked waits.
 class Database {
  public:
   Database(const std::filesystem::path& file, Mode mode);
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
-  /// Leaves the other one without a connection.
+  /// Takes over a connection, and leaves the other one without.
   Database(Database&& other) noexcept;
   Database& operator=(Database&&) = delete;
 
-  /// One or more statements without parameters or results.
+  /// Runs one or more statements without parameters or results.
   void execute(const char* statements);
+  /// The number of the row that was inserted last.
   std::int64_t last_row() const;
   sqlite3* handle() const { return handle_; }
 
@@ -58,7 +61,7 @@ class Statement {
   Statement& bind(int parameter, std::int64_t number);
   Statement& bind(int parameter, double number);
 
-  /// To the next row; false at the end, after which the statement may be run again.
+  /// Goes to the next row; false at the end, after which the statement may be run again.
   bool step();
   /// Runs a statement without results.
   void run();
@@ -74,8 +77,8 @@ class Statement {
   sqlite3_stmt* handle_ = nullptr;
 };
 
-/// All or nothing: what was not committed is rolled back. Takes the lock for writing at once, so
-/// that two writers wait for each other rather than fail.
+/// A transaction, all or nothing: what was not committed is rolled back. Takes the lock for writing
+/// at once, so that two writers wait for each other rather than fail.
 class Transaction {
  public:
   explicit Transaction(Database& database);

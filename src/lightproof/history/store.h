@@ -16,12 +16,15 @@
 
 namespace lightproof {
 
+/// A history that is open.
 class HistoryStore {
  public:
-  /// The history in the file. Throws InputError, which names the file, if there is none, or if the
-  /// file is something else, of another version, damaged or not accessible.
+  /// Opens the history in a file for reading. Throws InputError, which names the file, if there is
+  /// none, or if the file is something else, of another version, damaged or not accessible.
   static HistoryStore open_to_read(const std::filesystem::path& file);
-  /// The same for writing; makes an empty history where nothing is.
+  /// Opens the history in a file for reading and writing; makes an empty one where nothing is.
+  /// Throws InputError, which names the file, if it is something else, of another version, damaged
+  /// or not accessible.
   static HistoryStore open_to_write(const std::filesystem::path& file);
 
   ~HistoryStore();
@@ -30,8 +33,8 @@ class HistoryStore {
   HistoryStore(const HistoryStore&) = delete;
   HistoryStore& operator=(const HistoryStore&) = delete;
 
-  /// The number of the new run; none if a run of the same file (digest) is there already. On the
-  /// disk once it returns.
+  /// Adds a run, which is on the disk once this returns. Returns the run's number; none if a run of
+  /// the same file (digest) is there already.
   std::optional<std::int64_t> add(const BenchmarkRun& run);
 
   /// Every run, the earliest first.

@@ -10,13 +10,14 @@
 
 namespace lightproof {
 
+/// One commit's value of a benchmark.
 struct TrendPoint {
   std::string commit;
   double value = 0.0;  ///< median over sessions of the medians over runs
   std::size_t runs = 0;
 };
 
-/// One benchmark on one machine, by one compiler with one set of flags.
+/// The values of one benchmark over commits, on one machine, by one compiler with one set of flags.
 struct TrendLine {
   std::string machine;
   std::string compiler;
@@ -27,11 +28,12 @@ struct TrendLine {
   std::vector<ChangePoint> changes;
 };
 
-/// Changes of times are found by change_points(), of all lines together, with a commit as one
-/// value: what runs of one session share, the state of the machine, would pass for a change if runs
-/// were the values. That the machine's state lasts from session to session is reckoned with.
-/// Instruction counts change where a commit differs from the one before by more than the limit of
-/// the regression rule. Runs come in the order of their start.
+/// The lines of all benchmarks, and their changes. Changes of times are found by change_points(),
+/// of all lines together, with a commit as one value: what runs of one session share, the state of
+/// the machine, would pass for a change if runs were the values. That the machine's state lasts
+/// from session to session is reckoned with. Instruction counts change where a commit differs from
+/// the one before by more than the limit of the regression rule. Runs come in the order of their
+/// start.
 std::vector<TrendLine> trend_lines(std::span<const BenchmarkRun> runs, const ChangeRule& rule = {});
 
 }  // namespace lightproof

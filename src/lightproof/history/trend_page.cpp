@@ -17,15 +17,12 @@ constexpr std::string_view kHowToRead =
     "A point is one commit: the median over sessions of the medians over runs. Black lines are the "
     "levels, dashed red lines the changes between them. Time is compared across sessions here, so "
     "a change may be the machine's; whether a commit is to blame is for `lightproof history "
-    "compare` to say, on interleaved runs. A change of time is marked where two levels of "
-    "at least five commits differ by more than 5\u00a0%, and more clearly than those of commits "
-    "that "
-    "all perform alike would seem to, even if a slow or fast state of the machine lasts for many "
+    "compare` to say, on interleaved runs. A change of time is marked where two levels of at least "
+    "five commits differ by more than 5\u00a0%, and more clearly than those of commits that all "
+    "perform alike would seem to, even if a slow or fast state of the machine lasts for many "
     "sessions (correlations of neighbours of up to 0.9). Over all lines of time of this page "
-    "(Holm's "
-    "procedure), commits that all perform alike get any mark once in twenty pages at most. "
-    "Instruction counts have no noise: every "
-    "step beyond 1\u00a0% is marked.";
+    "(Holm's procedure), commits that all perform alike get any mark once in twenty pages at most. "
+    "Instruction counts have no noise: every step beyond 1\u00a0% is marked.";
 
 std::string short_commit(const std::string& commit) { return commit.substr(0, 12); }
 

@@ -15,7 +15,7 @@ class ByteReader {
   /// Throws InputError if the file cannot be opened.
   explicit ByteReader(const std::filesystem::path& file);
 
-  /// None at the end of the file.
+  /// The next byte; none at the end of the file.
   std::optional<std::uint8_t> next() {
     if (at_ == block_.size() && !fill()) return std::nullopt;
     return block_[at_++];
@@ -23,9 +23,9 @@ class ByteReader {
   /// Fills the span. False, with the rest of the file passed over, if that is shorter.
   bool read(std::span<std::uint8_t> bytes);
 
-  /// Of the byte that comes next, counted from 0.
+  /// Position in the file of the byte that comes next, counted from 0.
   std::uint64_t position() const { return start_ + at_; }
-  /// Of the whole file.
+  /// Bytes of the whole file.
   std::uint64_t size() const { return size_; }
   const std::filesystem::path& file() const { return file_; }
 

@@ -7,12 +7,13 @@
 
 namespace lightproof {
 
-/// Throws InputError if the file has no part of this number.
+/// The number of the part that the selection names, the first one if it names none. Throws
+/// InputError if the file has no part of this number.
 int chosen_part(const std::filesystem::path& file, std::size_t parts,
                 const ChannelSelection& selection);
 
-/// Names of three channels of the header, or of one. Throws InputError that lists the channels, and
-/// says how to choose, if one is missing.
+/// The full names of the channels that are read: three of the header, or one. Throws InputError
+/// that lists the channels, and says how to choose, if one is missing.
 std::vector<std::string> chosen_channels(const std::filesystem::path& file,
                                          const PictureHeader& header,
                                          const ChannelSelection& selection);

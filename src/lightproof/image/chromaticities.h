@@ -9,7 +9,7 @@
 
 namespace lightproof {
 
-/// CIE 1931 x and y of each.
+/// The primaries and the white of an RGB space, each as its CIE 1931 x and y.
 struct Chromaticities {
   std::array<double, 2> red;
   std::array<double, 2> green;
@@ -17,13 +17,14 @@ struct Chromaticities {
   std::array<double, 2> white;
 };
 
-/// Of Rec. 709 and sRGB, what RGB means where a file says nothing; "… adapted to D50" is the same.
+/// The name of the space of Rec. 709 and sRGB, which RGB means where a file says nothing; also the
+/// first words of "Rec. 709 adapted to D50".
 inline constexpr std::string_view kRec709Name = "Rec. 709";
-/// What RGB means in Radiance where a file says nothing.
+/// The name of the space that RGB means in a Radiance file that says nothing.
 inline constexpr std::string_view kRadianceName = "Radiance";
 
-/// "Rec. 2020", "ACEScg", …; empty if no space that has a name is within 0.0015 in every
-/// coordinate.
+/// The name of an RGB space, "Rec. 2020", "ACEScg", …; empty if no space that has a name is within
+/// 0.0015 in every coordinate.
 std::string_view name_of(const Chromaticities& chromaticities);
 
 /// Whether the primaries span a triangle and the white has a luminance.
@@ -34,10 +35,10 @@ bool is_colour_space(const Chromaticities& chromaticities);
 /// visible colours. Undefined unless is_colour_space().
 LuminanceWeights luminance_weights(const Chromaticities& chromaticities);
 
-/// The name, or "R (0.68, 0.32), G (…), B (…), white (…)".
+/// An RGB space in words: its name, or "R (0.68, 0.32), G (…), B (…), white (…)".
 std::string describe(const Chromaticities& chromaticities);
 
-/// "0.2126, 0.7152, 0.0722".
+/// Weights of a luminance in words: "0.2126, 0.7152, 0.0722".
 std::string describe(LuminanceWeights weights);
 
 }  // namespace lightproof

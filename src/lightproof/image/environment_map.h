@@ -19,17 +19,17 @@ struct EnvironmentMap {
   Grid<Rgb> radiance;
   /// What the reader changed or assumed, one sentence each ("3 negative texels set to 0: …").
   std::vector<std::string> notes = {};
-  /// What the user called it: a path, or the name of a built-in map. Empty: the name.
+  /// What the user called the map: a path, or the name of a built-in one. Empty: the name.
   std::string source = {};
-  /// Of red, green and blue in the map's luminance: densities that are declared by Rec. 709 follow
-  /// them.
+  /// Weights of red, green and blue in the map's luminance. Densities that are declared by Rec. 709
+  /// follow them.
   LuminanceWeights weights = kRec709;
   MapOrigin origin = {};
 };
 
-/// The luminance of every texel by the map's own weights, same shape as the map.
+/// The luminance of every texel by the map's own weights, a grid of the map's extent.
 Grid<double> luminance_of(const EnvironmentMap& map);
-/// The same by other weights.
+/// The luminance of every texel by these weights, a grid of the map's extent.
 Grid<double> luminance_of(const EnvironmentMap& map, LuminanceWeights weights);
 
 }  // namespace lightproof

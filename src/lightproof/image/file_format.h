@@ -7,7 +7,7 @@
 
 namespace lightproof {
 
-/// Throws InputError: "FILE: REASON".
+/// Refuses a file: throws InputError "FILE: REASON".
 [[noreturn]] void refuse(const std::filesystem::path& file, std::string_view reason);
 
 /// A kind of file by its first bytes.
@@ -19,16 +19,16 @@ struct FileFormat {
 
 inline constexpr std::string_view kRadianceFormat = "Radiance .hdr";
 
-/// Throws InputError if the path is missing, a folder, empty, unreadable, cut off (JPEG, PNG), or
-/// neither OpenEXR, Radiance .hdr, PNG nor JPEG.
+/// The format of a file by its first bytes. Throws InputError if the path is missing, a folder,
+/// empty, unreadable, cut off (JPEG, PNG), or neither OpenEXR, Radiance .hdr, PNG nor JPEG.
 const FileFormat& recognise_file(const std::filesystem::path& file);
 
-/// Throws InputError unless both sides are at least 1 and no larger than kLargestPicture, in either
-/// order.
+/// Refuses a picture of impossible size: throws InputError unless both sides are at least 1 and no
+/// larger than those of kLargestPicture, in either order.
 void check_size(const std::filesystem::path& file, std::int64_t width, std::int64_t height);
 
-/// Throws InputError unless the file has the bytes without which `what` ("8192 scanlines") cannot
-/// be: looked at before memory is taken for the pixels.
+/// Refuses a file that is too short, before memory is taken for its pixels: throws InputError
+/// unless it has the bytes without which `what` ("8192 scanlines") cannot be.
 void check_length(const std::filesystem::path& file, std::uint64_t bytes, std::uint64_t least_bytes,
                   std::string_view what);
 

@@ -19,11 +19,11 @@ class ImageFile {
   ImageFile(const ImageFile&) = delete;
   ImageFile& operator=(const ImageFile&) = delete;
 
-  /// Reading the pixels may add to the notes.
+  /// What the file says of itself; reading the pixels may add to the notes.
   const PictureHeader& header() const;
 
-  /// Linear RGB, row 0 at the top, flips of the header undone. Values are not checked. Throws
-  /// InputError. Call it once.
+  /// The pixels as linear RGB, row 0 at the top, flips of the header undone. Their values are not
+  /// checked. Throws InputError if they cannot be read. Call it once.
   Grid<Rgb> read_pixels();
 
  private:

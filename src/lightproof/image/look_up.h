@@ -10,8 +10,8 @@
 
 namespace lightproof {
 
-/// Interpolates between the centres of texels: s wraps around, t is clamped, so that the half rows
-/// at the poles are constant in t. `at` in [0,1]^2.
+/// The map's value at a point of [0,1]^2, interpolated between the centres of texels: s wraps
+/// around, t is clamped, so that the half rows at the poles are constant in t.
 inline double look_up_bilinear(const Grid<double>& luminance, SquarePoint at) {
   const auto [width, height] = luminance.extent();
   const double column = std::floor(at.s * width - 0.5);
@@ -34,6 +34,7 @@ Value look_up_nearest(const Grid<Value>& values, SquarePoint at) {
                 std::clamp(static_cast<int>(at.t * height), 0, height - 1));
 }
 
+/// The map's value at a point of [0,1]^2 by either look-up.
 inline double look_up(const Grid<double>& luminance, Lookup lookup, SquarePoint at) {
   return lookup == Lookup::nearest ? look_up_nearest(luminance, at)
                                    : look_up_bilinear(luminance, at);

@@ -11,26 +11,28 @@
 
 namespace lightproof {
 
+/// What is known of a map and of the picture that it came from.
 struct MapDescription {
   std::string name;
-  std::string file;  ///< as it was given: a path, or the name of a built-in map
+  std::string file;  ///< what the user called it: a path, or the name of a built-in map
   MapOrigin origin;
-  Extent texels;  ///< of the map that the picture became
+  Extent texels;  ///< extent of the map that the picture became
   LuminanceWeights weights = kRec709;
   MapFigures figures;
-  PicturePlace peak;         ///< in the file
-  Direction peak_direction;  ///< world, z up
+  PicturePlace peak;         ///< the brightest texel's column and row in the file
+  Direction peak_direction;  ///< where its centre lies in the world, z up
   std::vector<std::string> notes;
 };
 
+/// The description of a map that was read or made.
 MapDescription describe(const EnvironmentMap& map);
 
-/// One JSON object. Keys: name, file, format, width and height (in pixels of the file), preset,
-/// preset_reason, parts, part, channels, layers, read, left_out, orientation, primaries, exposure,
-/// luminance_weights, mean_luminance (over solid angle), peak_luminance, peak_texel (column and row
-/// of the file), peak_direction, effective_fraction (null if black), faults: [kind, count, column,
-/// row, message], refused (null, or why other commands refuse the file), notes. Text that is not
-/// UTF-8 has its bad bytes replaced by U+FFFD.
+/// A description as one JSON object. Keys: name, file, format, width and height (in pixels of the
+/// file), preset, preset_reason, parts, part, channels, layers, read, left_out, orientation,
+/// primaries, exposure, luminance_weights, mean_luminance (over solid angle), peak_luminance,
+/// peak_texel (column and row of the file), peak_direction, effective_fraction (null if black),
+/// faults: [kind, count, column, row, message], refused (null, or why other commands refuse the
+/// file), notes. Text that is not UTF-8 has its bad bytes replaced by U+FFFD.
 std::string json_of(const MapDescription& description);
 
 /// The objects that json_of() writes, each with format_version and, of `run`, version, commit and
@@ -41,7 +43,7 @@ std::string info_json(const std::vector<MapDescription>& descriptions, const Run
 /// Version of the format of info_json() (docs/schema/info.schema.json).
 inline constexpr int kInfoFormatVersion = 1;
 
-/// Some lines for a terminal, the file's name first.
+/// A description as some lines for a terminal, the file's name first.
 std::string text_of(const MapDescription& description);
 
 }  // namespace lightproof

@@ -12,17 +12,20 @@
 
 namespace lightproof {
 
-/// Throws InputError unless the picture is flat, of sane size, and fills its display window.
+/// Refuses headers that cannot be read as a map: throws InputError unless the picture is flat, of
+/// sane size, and fills its display window.
 void check_header(const std::filesystem::path& file, const OIIO::ImageSpec& spec);
 
-/// Throws InputError if the file is too short for the picture: `spec` as check_header() passes it.
+/// Refuses a file that is too short for its picture, whose `spec` check_header() has passed: throws
+/// InputError.
 void check_file_length(const std::filesystem::path& file, const OIIO::ImageSpec& spec);
 
-/// Index of each channel. Throws InputError if one is not of a type that holds radiance.
+/// The index in the file of each of the named channels. Throws InputError if one is not of a type
+/// that holds radiance.
 std::vector<int> channel_indices(const std::filesystem::path& file, const OIIO::ImageSpec& spec,
                                  const std::vector<std::string>& names);
 
-/// None if the header says nothing, or what makes no colour space.
+/// The chromaticities that a header names; none if it names none, or such as make no colour space.
 std::optional<Chromaticities> chromaticities_of(const OIIO::ImageSpec& spec);
 
 }  // namespace lightproof

@@ -21,7 +21,7 @@ class OpenImageIoFile {
   OpenImageIoFile& operator=(const OpenImageIoFile&) = delete;
 
   const PictureHeader& header() const;
-  /// Linear, row 0 at the top. Throws InputError, or whatever the decoder throws.
+  /// The pixels as linear RGB, row 0 at the top. Throws InputError, or whatever the decoder throws.
   Grid<Rgb> read_pixels();
 
  private:

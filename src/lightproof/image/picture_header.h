@@ -17,38 +17,39 @@ inline constexpr Extent kLargestPicture = {32768, 16384};
 struct ChannelSelection {
   /// Three names for red, green and blue, or one that is read as grey. Empty: R, G and B.
   std::vector<std::string> channels = {};
-  /// Stands before each name, with a point between them: "diffuse" for diffuse.R.
+  /// The layer that stands before each name, with a point between them: "diffuse" for diffuse.R.
   std::string layer = {};
-  /// Of an OpenEXR file, counted from 0. None: the first.
+  /// The part of an OpenEXR file, counted from 0. None: the first.
   std::optional<int> part = std::nullopt;
 
-  /// The names in full, layer and all: three, or one.
+  /// The full names of the channels, layer and all: three, or one.
   std::vector<std::string> names() const;
 };
 
+/// What a picture file says of itself, and what of it is read.
 struct PictureHeader {
   std::string format;                 ///< "OpenEXR"
   Extent extent;                      ///< in pixels, as shown
-  std::vector<std::string> parts;     ///< their names, one at least; empty where a part has none
-  int part = 0;                       ///< the one that is read
-  std::vector<std::string> channels;  ///< of that part
-  std::vector<std::string> layers;    ///< of those channels: "diffuse" for diffuse.R
-  std::vector<std::string> read;      ///< red, green and blue, or the one that is read as grey
+  std::vector<std::string> parts;     ///< names of its parts, one at least; "" of one without
+  int part = 0;                       ///< the part that is read, counted from 0
+  std::vector<std::string> channels;  ///< channels of the part that is read
+  std::vector<std::string> layers;    ///< layers of these channels: "diffuse" for diffuse.R
+  std::vector<std::string> read;      ///< channels read as red, green and blue, or one as grey
   std::string orientation;            ///< "-Y 32 +X 64" or "3" (Exif); empty: rows from the top
   bool says_lat_long = false;         ///< the envmap attribute of an OpenEXR file
   std::optional<Chromaticities> chromaticities = {};
-  double exposure = 1.0;  ///< that the values were multiplied by (EXPOSURE lines of Radiance)
+  double exposure = 1.0;  ///< what the values were multiplied by (EXPOSURE lines of Radiance)
   /// What was assumed or is left out, one sentence each.
   std::vector<std::string> notes = {};
 
-  /// The channels that are not read.
+  /// The channels of the part that are not read.
   std::vector<std::string> left_out() const;
 };
 
 /// The layers of these channels, each once, in their order.
 std::vector<std::string> layers_of(const std::vector<std::string>& channels);
 
-/// "R, G, B, A"; a header may name thousands, so the list ends somewhere.
+/// Names as a list in words, "R, G, B, A"; a header may name thousands, so the list ends somewhere.
 std::string listed(const std::vector<std::string>& names);
 
 }  // namespace lightproof

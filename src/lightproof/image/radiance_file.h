@@ -16,8 +16,8 @@ class RadianceFile {
   RadianceFile(const std::filesystem::path& file, const ChannelSelection& selection);
 
   const PictureHeader& header() const { return header_; }
-  /// Linear, as stored: exposure and colour correction are left in. Row 0 at the top. Notes what
-  /// follows the pixels. Throws InputError with scanline and byte.
+  /// The pixels as linear RGB, as they are stored: exposure and colour correction are left in. Row
+  /// 0 at the top. Notes what follows the pixels. Throws InputError with scanline and byte.
   Grid<Rgb> read_pixels();
 
  private:

@@ -15,41 +15,42 @@
 
 namespace lightproof {
 
-/// The resolution line. "-Y 32 +X 64": 32 scanlines from the top down, each of 64 pixels from left
-/// to right. X grows to the right and Y upwards; the first axis is that of the scanlines, which
-/// are columns where it is X.
+/// The resolution line of a Radiance picture. "-Y 32 +X 64": 32 scanlines from the top down, each
+/// of 64 pixels from left to right. X grows to the right and Y upwards; the first axis is that of
+/// the scanlines, which are columns where it is X.
 struct RadianceResolution {
   bool columns = false;              ///< scanlines are columns
   bool scanlines_backwards = false;  ///< +Y first, or -X first: from the bottom, or from the right
   bool pixels_backwards = false;     ///< within a scanline: from the right, or from the bottom
   int scanlines = 0;
-  int pixels = 0;  ///< of a scanline
+  int pixels = 0;  ///< pixels of a scanline
 
-  /// As shown.
+  /// Width and height of the picture as it is shown, in pixels.
   Extent extent() const;
-  /// "-Y 32 +X 64".
+  /// The line itself: "-Y 32 +X 64".
   std::string text() const;
 };
 
+/// What the header of a Radiance picture says.
 struct RadianceHeader {
   RadianceResolution resolution;
   bool says_format = false;
   double exposure = 1.0;                                      ///< product of all EXPOSURE lines
   std::array<double, 3> colour_correction = {1.0, 1.0, 1.0};  ///< product of all COLORCORR lines
   double pixel_aspect = 1.0;                                  ///< product of all PIXASPECT lines
-  double gamma = 1.0;                                         ///< of the last GAMMA line
-  std::optional<Chromaticities> primaries;                    ///< of the last PRIMARIES line
+  double gamma = 1.0;                                         ///< what the last GAMMA line says
+  std::optional<Chromaticities> primaries;                    ///< what the last PRIMARIES line says
   bool has_view = false;
   std::vector<std::string> unreadable;  ///< lines of those names whose values are no numbers
 };
 
-/// Reads up to the first byte of the pixels. Lines end with LF or CR LF and may be of any length;
-/// indented ones are copies from the pictures that this one was made of, and do not count. Throws
-/// InputError with the line or byte: a format other than 32-bit_rle_rgbe (CIE XYZ is named), no
-/// empty line, no resolution, a size beyond kLargestPicture.
+/// Reads the header of a Radiance picture, up to the first byte of the pixels. Lines end with LF or
+/// CR LF and may be of any length; indented ones are copies from the pictures that this one was
+/// made of, and do not count. Throws InputError with the line or byte: a format other than
+/// 32-bit_rle_rgbe (CIE XYZ is named), no empty line, no resolution, a size beyond kLargestPicture.
 RadianceHeader read_radiance_header(ByteReader& bytes);
 
-/// What a reader of the picture should know: one sentence each.
+/// What a reader of the picture should know of its header: one sentence each.
 std::vector<std::string> notes_of(const RadianceHeader& header);
 
 }  // namespace lightproof

@@ -19,19 +19,21 @@ namespace lightproof {
 inline constexpr std::size_t kLeastPlane = 8;
 inline constexpr std::size_t kLongestPlane = 32767;
 
-/// Mantissas and the common exponent.
+/// A pixel as it is stored: three mantissas and their common exponent.
 struct RgbePixel {
   std::array<std::uint8_t, 3> mantissas;
   std::uint8_t exponent;
 };
 
-/// mantissa / 256 * 2^(exponent - 128), exactly; black for an exponent of 0. This is what
-/// OpenImageIO and most renderers read; Radiance itself adds half a step to the mantissas.
+/// The value of a stored pixel: mantissa / 256 * 2^(exponent - 128), exactly; black for an exponent
+/// of 0. This is what OpenImageIO and most renderers read; Radiance itself adds half a step to the
+/// mantissas.
 Rgb rgb_of(RgbePixel pixel);
 
-/// The bytes without which no coding can store the picture.
+/// How many bytes the pixels take at least, in whichever coding.
 std::uint64_t least_bytes(const RadianceResolution& resolution);
 
+/// Decodes a picture's scanlines, one after the other.
 class RadianceScanlines {
  public:
   /// `bytes` stand at the first scanline, and outlive this.
@@ -45,10 +47,10 @@ class RadianceScanlines {
   [[noreturn]] void fail(std::string_view reason) const;
   std::uint8_t next_byte();
   RgbePixel next_pixel();
-  /// The newer coding, of all four planes.
+  /// Decodes a scanline of the newer coding, all four planes of it.
   void read_planes();
   void read_plane(std::span<std::uint8_t> plane);
-  /// The older coding and plain pixels, of which the first is read already.
+  /// Decodes a scanline of the older coding or of plain pixels, whose first pixel is read already.
   void read_pixels(RgbePixel first);
 
   ByteReader* bytes_;

@@ -13,16 +13,17 @@ namespace lightproof {
 /// How much red, green and blue count in a map's luminance.
 enum class LuminanceChoice {
   rec709,
-  published,  ///< the lecture's
-  average,
-  file,  ///< as the chromaticities in the file's header imply; Rec. 709 where it has none
+  published,  ///< the weights that the lecture prints
+  average,    ///< a third each
+  file,       ///< what the chromaticities in the file's header imply; Rec. 709 where it has none
 };
 
+/// How a file is read.
 struct ReadOptions {
   /// How file pixels map to directions; without it the file's own `envmap` attribute decides
   /// (`openexr`), and `z-up` is taken where there is none.
   std::optional<Preset> preset = std::nullopt;
-  /// Of negative, NaN and infinite values; what was done is said in the notes.
+  /// What becomes of negative, NaN and infinite values; the notes say what was done.
   Repair repair = Repair::refuse;
   /// Accept a lat-long image that is not twice as wide as high.
   bool any_aspect = false;
@@ -40,8 +41,9 @@ struct ReadOptions {
 EnvironmentMap read_environment_map(const std::filesystem::path& file,
                                     const ReadOptions& options = {});
 
-/// The same for a file that is looked at and not sampled: aspect, faulty texels and blackness do
-/// not throw, but stand in the map's origin. Faulty values are then 0.
+/// Reads a file that is looked at and not sampled, in the way of read_environment_map(), but
+/// aspect, faulty texels and blackness do not throw: they stand in the map's origin. Faulty values
+/// become 0.
 EnvironmentMap inspect_environment_map(const std::filesystem::path& file,
                                        const ReadOptions& options = {});
 

@@ -22,7 +22,8 @@ struct PicturePlace {
   int row = 0;
 };
 
-/// The pixel that holds, or for nodes is nearest to, the centre of a texel of the map.
+/// The pixel of a picture that holds, or for nodes is nearest to, the centre of texel
+/// (column, row) of the map that it becomes.
 PicturePlace place_in_picture(Preset preset, Extent picture, int column, int row);
 
 }  // namespace lightproof

@@ -8,6 +8,7 @@
 
 namespace lightproof {
 
+/// A built-in map, of which there is a closed form.
 struct SyntheticMap {
   std::string_view name;
   std::string_view description;
@@ -18,7 +19,8 @@ struct SyntheticMap {
 /// black-first-row.
 std::span<const SyntheticMap> synthetic_maps();
 
-/// Throws InputError listing the names if there is none of this name.
+/// The built-in map of this name at this extent. Throws InputError listing the names if there is
+/// none of this name.
 EnvironmentMap make_synthetic_map(std::string_view name, Extent extent);
 
 }  // namespace lightproof

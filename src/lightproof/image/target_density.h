@@ -15,7 +15,7 @@ enum class DensitySpace {
   solid_angle,
 };
 
-/// The label in tables: "A" or "B".
+/// The label of a density in tables: "A" or "B".
 constexpr const char* to_string(DensitySpace density_space) {
   return density_space == DensitySpace::texture ? "A" : "B";
 }
@@ -26,12 +26,12 @@ enum class Lookup {
   bilinear,  ///< interpolated between the four nearest centres: s wraps around, t is clamped
 };
 
-/// The declared density: every sampler is held against it by the reference. With a bilinear look-up
-/// it is in proportion to the interpolated luminance, at every position: over (s,t) under A, over
-/// directions under B.
+/// The density that is declared, against which the reference holds every sampler. With a bilinear
+/// look-up it is in proportion to the interpolated luminance, at every position: over (s,t) under
+/// A, over directions under B.
 struct TargetDensity {
   DensitySpace density_space;
-  /// Rec. 709 gives way to the map's own weights: see on_map().
+  /// Weights of the luminance; Rec. 709 gives way to the map's own weights, see on_map().
   LuminanceWeights weights = kRec709;
   Lookup lookup = Lookup::nearest;
   friend bool operator==(TargetDensity, TargetDensity) = default;

@@ -11,7 +11,7 @@
 
 namespace lightproof {
 
-/// The kind of +Inf and -Inf.
+/// The kind of fault that +Inf and -Inf are.
 inline constexpr std::string_view kInfiniteValues = "infinite values";
 
 /// Texels with at least one value of a kind; the first in reading order, counted from 0 at the top
@@ -23,6 +23,7 @@ struct TexelFault {
   int row = 0;
 };
 
+/// The texels of a picture that no radiance can have, by kind.
 struct TexelScan {
   std::array<TexelFault, 3> faults;
   /// The largest finite value of any channel; 0 if there is no positive one.
@@ -33,12 +34,13 @@ struct TexelScan {
   std::size_t count_of(std::string_view kind) const;
 };
 
+/// Looks through a picture, row 0 at the top, for values that no radiance can have.
 TexelScan scan_texels(const Grid<Rgb>& picture);
 
-/// "2 texels with negative values (the first at column 5, row 2)".
+/// A fault in words: "2 texels with negative values (the first at column 5, row 2)".
 std::string describe_fault(const TexelFault& fault);
 
-/// All of them: "2 texels with negative values (…), 1 texel with NaN (…)".
+/// All faults of a scan in words: "2 texels with negative values (…), 1 texel with NaN (…)".
 std::string describe_faults(const TexelScan& scan);
 
 /// What becomes of values that no radiance can have.
@@ -52,7 +54,8 @@ enum class Repair {
 /// of the texel stay.
 void repair_texels(Grid<Rgb>& picture, float infinite);
 
-/// 1 in the channels that are +Inf, else 0: what repair_texels() makes bright.
+/// A picture that is 1 in the channels that are +Inf, and else 0: what repair_texels() makes
+/// bright.
 Grid<Rgb> infinite_channels(const Grid<Rgb>& picture);
 
 }  // namespace lightproof

@@ -1,4 +1,5 @@
-// Pictures to files, each complete or not there at all.
+// Pictures to files, each complete or not there at all. Pictures have row 0 at the top, unlike
+// maps.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +11,14 @@
 
 namespace lightproof {
 
-/// Pictures have row 0 at the top, unlike maps.
-/// 32-bit float OpenEXR. Throws InputError if it cannot be written.
+/// Writes a 32-bit float OpenEXR file. Throws InputError if it cannot be written.
 void write_exr(const std::filesystem::path& file, const Grid<Rgb>& picture);
 
-/// 8-bit PNG of values in [0,1] that are sRGB-encoded already; out-of-range values are clamped.
+/// Writes an 8-bit PNG file of values in [0,1] that are sRGB-encoded already; out-of-range values
+/// are clamped. Throws InputError if it cannot be written.
 void write_png(const std::filesystem::path& file, const Grid<Rgb>& picture);
 
-/// The same PNG as bytes in memory, with attributes as texts of its header.
+/// The bytes of the 8-bit PNG file that write_png() writes, with attributes as texts of its header.
 std::string png_bytes(const Grid<Rgb>& picture, const Attributes& attributes = {});
 
 /// The rows of a map or picture in reverse order: map to picture and back.

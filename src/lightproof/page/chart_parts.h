@@ -10,7 +10,7 @@ namespace lightproof {
 
 using Json = nlohmann::ordered_json;
 
-/// The names in order of first appearance, each once.
+/// Names in the order of their first appearance, each once.
 std::vector<std::string> unique_names(const std::vector<std::string>& names);
 
 /// How an estimator or sampler is told apart: by colour and by shape.
@@ -20,13 +20,14 @@ struct SeriesStyle {
   std::string shape;   ///< a Vega symbol: "circle", "square", …
 };
 
-/// Styles in order of first appearance; they repeat after eight names.
+/// The styles of names in the order of their first appearance; they repeat after eight names.
 std::vector<SeriesStyle> series_styles(const std::vector<std::string>& names);
 
 /// Half the length of an error bar, in standard errors.
 inline constexpr double kBarHalfLength = 2.0;
 
-/// Size, background, fonts and colours; `height` in pixels, the width is the container's.
+/// What every chart begins with: size, background, fonts and colours; `height` in pixels, the width
+/// is the container's.
 Json base_chart(int height);
 
 /// An encoding of the field "series" by colour or shape. Both share one legend, because its title
@@ -37,32 +38,32 @@ Json series(const std::vector<SeriesStyle>& styles, std::string SeriesStyle::*pr
 /// A quantitative encoding; `scale` is "log" or "linear", neither starts at zero.
 Json quantity(const std::string& field, const std::string& title, const std::string& scale);
 
-/// Labels for a logarithmic axis from `low` to `high`.
+/// The axis, with its labels, of a logarithmic scale from `low` to `high`.
 Json log_axis(double low, double high);
 
-/// Values on a logarithmic axis: those that are positive and finite.
+/// The range of values on a logarithmic axis: of those that are positive and finite.
 struct LogRange {
   double low = HUGE_VAL;
   double high = 0.0;
   void add(double value);
 };
 
-/// From y, whose field is "low", to the field "high".
+/// A layer of error bars from the channel y, whose field is "low", to the field "high".
 Json error_bars(const Json& y, const Json& colour);
 
-/// Filled symbols.
+/// A layer of points as filled symbols.
 Json points(const Json& y, const Json& colour, const Json& shape);
 
-/// One line of a tooltip; a name if `format` (d3) is empty, else a number.
+/// One line of a tool-tip; a name if `format` (d3) is empty, else a number.
 Json tooltip(const std::string& field, const std::string& title, const std::string& format);
 
-/// Can be shown on a logarithmic axis: positive and finite.
+/// Whether a value can be shown on a logarithmic axis: it is positive and finite.
 bool drawable(double value);
 
-/// Five significant digits: finer than a pixel, and short. Null if it is not finite.
+/// A value to five significant digits: finer than a pixel, and short. Null if it is not finite.
 Json rounded(double value);
 
-/// Compact UTF-8 JSON.
+/// A chart as compact UTF-8 JSON.
 std::string text_of(const Json& chart);
 
 }  // namespace lightproof

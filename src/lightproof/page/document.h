@@ -9,8 +9,9 @@ namespace lightproof {
 /// Whether a page holds a chart_figure().
 enum class Charts { some, none };
 
-/// One document that needs nothing else: the style is inside, and, if there are charts, the chart
-/// libraries and the script that draws them. `title` and `version` are plain text.
+/// An HTML document that needs nothing else: the style is inside and, if there are charts, the
+/// chart libraries and the script that draws every chart_figure(). `title` and `version` are plain
+/// text.
 std::string html_document(std::string_view title, std::string_view navigation_html,
                           std::string_view body_html, std::string_view version,
                           Charts charts = Charts::some);

@@ -8,8 +8,8 @@
 
 namespace lightproof {
 
-/// & < > " ' as entities: safe between tags and inside quoted attributes, in HTML and in XML. What
-/// XML cannot hold becomes U+FFFD.
+/// A text with & < > " ' as entities: safe between tags and inside quoted attributes, in HTML and
+/// in XML. What XML cannot hold becomes U+FFFD.
 std::string escaped(std::string_view text);
 
 /// JSON for a <script type="application/json">: no "<" is left that could end the element.
@@ -18,10 +18,12 @@ std::string script_safe_json(std::string_view json);
 /// JavaScript for a <script>: "</script" and "<!--" broken up inside strings, source maps dropped.
 std::string script_safe_code(std::string_view code);
 
+/// Bytes in base 64.
 std::string base64(std::string_view bytes);
+/// Bytes as a data: URI of this media type.
 std::string data_uri(std::string_view media_type, std::string_view bytes);
 
-/// <p class=…>text</p>
+/// A paragraph, <p class=…>text</p>.
 std::string paragraph(std::string_view text, std::string_view css_class = "");
 
 /// A closed block that opens on a click.
@@ -37,7 +39,9 @@ struct Cell {
   std::string tooltip;
 };
 
+/// A cell of text without a class.
 Cell text_cell(std::string text);
+/// A cell of the class "number", whose text is format_number().
 Cell number_cell(double value, int digits = 3);
 
 /// A table inside its own scrolling frame.
@@ -45,7 +49,7 @@ class Table {
  public:
   /// `caption` names the table for those who cannot see what stands around it.
   Table(std::string caption, std::vector<std::string> columns, std::string css_class = "");
-  /// The first cell is the row's heading.
+  /// Adds a row, whose first cell is its heading.
   void add(const std::vector<Cell>& row);
   std::string html() const;
 
@@ -53,7 +57,7 @@ class Table {
   std::string caption_;
   std::vector<std::string> columns_;
   std::string css_class_;
-  std::vector<std::string> column_classes_;  ///< of the first row
+  std::vector<std::string> column_classes_;  ///< classes of the first row's cells
   std::string body_;
 };
 
@@ -66,7 +70,7 @@ struct Chart {
   std::string spec;         ///< Vega-Lite JSON
 };
 
-/// `extra_html` (tables, downloads) stands below the chart inside the figure.
+/// A chart as a figure of the page; `extra_html` (tables, downloads) stands below the chart.
 std::string chart_figure(const Chart& chart, std::string_view extra_html, bool small = false);
 
 }  // namespace lightproof

@@ -9,32 +9,36 @@
 
 namespace lightproof {
 
-/// ASCII, shortest form with at most `digits` significant digits: "0.0123", "1230", "1.23e-7".
-/// Whole numbers that fit have no decimals. NaN is "nan", infinities are "inf" and "-inf".
+/// A number in ASCII, in its shortest form with at most `digits` significant digits: "0.0123",
+/// "1230", "1.23e-7". Whole numbers that fit have no decimals. NaN is "nan", infinities are "inf"
+/// and "-inf".
 std::string significant(double value, int digits = 3);
 
-/// As `significant`, for a page: a true minus sign, "×10" is not used.
+/// A number for a page, in its shortest form with at most `digits` significant digits and with a
+/// true minus sign: "−0.0123", "1.23e−7"; "n/a" and "∞" for what is no number.
 std::string format_number(double value, int digits = 3);
 
-/// "−0.498 ± 0.004": the value to the decimals that its standard error allows.
+/// A value with its standard error, "−0.498 ± 0.004": the value to the decimals that its standard
+/// error allows.
 std::string with_error(double value, double error);
 
-/// "2.1 %" with a space that does not break; two significant digits.
+/// A fraction in percent, "2.1 %", with a space that does not break; two significant digits.
 std::string percent(double fraction);
 
-/// 4194304 as "4,194,304".
+/// A whole number with its thousands apart: "4,194,304".
 std::string with_thousands(std::uint64_t value);
 
-/// "eight" up to twelve, digits beyond.
+/// A number as a word up to twelve, "eight", and in digits beyond.
 std::string count_word(std::size_t count);
 
-/// "1 map", "2 maps".
+/// A number of things: "1 map", "2 maps".
 std::string counted(std::size_t count, std::string_view noun);
 
-/// "1.5 MiB", in the largest of B, KiB, MiB and GiB that leaves no 0 before the point.
+/// A number of bytes, "1.5 MiB", in the largest of B, KiB, MiB and GiB that leaves no 0 before the
+/// point.
 std::string bytes_text(double bytes);
 
-/// "1024×512".
+/// An extent in words: "1024×512".
 std::string extent_text(Extent extent);
 
 }  // namespace lightproof

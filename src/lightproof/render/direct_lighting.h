@@ -14,31 +14,33 @@
 
 namespace lightproof {
 
-/// What is estimated, and with the light, how. The scene and the light must outlive it.
+/// What light is estimated, and by which directions. The scene and the light must outlive it.
 struct Lighting {
   const Scene* scene;
   const EnvironmentLight* light;
   Material material;
 };
 
-/// Up to kCapacity samples on their way; one per thread, reused.
+/// Up to kCapacity samples on their way through the phases. Each thread has one, and uses it again.
 class LightBatch {
  public:
   static constexpr std::size_t kCapacity = 256;
 
-  /// All four phases over the first `count` of these points, count <= kCapacity. Returns each
-  /// sample's estimate of the outgoing radiance; their mean converges to L_o.
+  /// Goes through all four phases over the first `count` of these points, count <= kCapacity.
+  /// Returns each sample's estimate of the outgoing radiance; their mean converges to L_o.
   std::span<const Rgb> estimate(const Lighting& lighting, const ShadingPoint& at,
                                 const BatchPoints& points, std::size_t count);
 
-  /// Draws directions and their densities.
+  /// The first phase: draws directions and their densities.
   void draw(const Lighting& lighting, const ShadingPoint& at, const BatchPoints& points,
             std::size_t count);
-  /// Weighs them by k / pdf, finds their texels and makes rays of those that matter.
+  /// The second phase: weighs directions by k / pdf, finds their texels and makes rays of those
+  /// that matter.
   void shade(const Lighting& lighting, const ShadingPoint& at);
-  /// Asks the scene which rays are blocked.
+  /// The third phase: asks the scene which rays are blocked.
   void trace(const Scene& scene) { scene.trace({rays_.data(), ray_count_}); }
-  /// Collects the radiance along the rays that nothing blocks.
+  /// The last phase: collects the radiance along the rays that nothing blocks. Returns each
+  /// sample's estimate.
   std::span<const Rgb> resolve();
 
   std::span<const ShadowRay> rays() const { return {rays_.data(), ray_count_}; }
@@ -69,7 +71,7 @@ class LightBatch {
   std::array<double, kCapacity> z_;
   std::array<double, kCapacity> pdf_;  ///< per steradian; 0: no sample
   std::array<double, kCapacity> reflected_cosine_;
-  std::array<std::int32_t, kCapacity> column_;  ///< of the texel
+  std::array<std::int32_t, kCapacity> column_;  ///< column of the texel
   std::array<std::int32_t, kCapacity> row_;
   std::array<Rgb, kCapacity> estimates_;
 

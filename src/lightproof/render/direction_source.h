@@ -7,17 +7,19 @@
 
 namespace lightproof {
 
-/// Uniform over the sphere, with the density 1/(4 pi) per steradian.
+/// Directions uniform over the sphere, with the density 1/(4 pi) per steradian.
 struct UniformSphere {};
 
-/// The material's own lobes, with the density that the material declares per steradian.
+/// Directions of the material's own lobes, with the density that the material declares per
+/// steradian.
 struct MaterialLobes {};
 
-/// The environment map, in proportion to its luminance: see DensitySpace.
+/// Directions of the environment map, in proportion to its luminance as DensitySpace says.
 struct MapDensity {
   DensitySpace density_space;
 };
 
+/// From where directions are drawn.
 using DirectionSource = std::variant<UniformSphere, MaterialLobes, MapDensity>;
 
 }  // namespace lightproof

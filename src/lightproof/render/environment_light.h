@@ -9,8 +9,9 @@
 
 namespace lightproof {
 
-/// The map, and, if directions are drawn from it, a sampler of its luminance: the fastest monotone
-/// one, so that stratified points stay stratified. Refers to the map, which must outlive it.
+/// A map as a light, and, if directions are drawn from it, a sampler of its luminance: the fastest
+/// monotone one, so that stratified points stay stratified. Refers to the map, which must outlive
+/// it.
 class EnvironmentLight {
  public:
   EnvironmentLight(const EnvironmentMap& map, DirectionSource source)
@@ -22,7 +23,7 @@ class EnvironmentLight {
 
   const EnvironmentMap& map() const { return *map_; }
   const DirectionSource& source() const { return source_; }
-  /// There if the source is a MapDensity.
+  /// The sampler of the map's luminance; there if the source is a MapDensity.
   const std::optional<GuideTable>& sampler() const { return sampler_; }
   std::size_t table_bytes() const { return sampler_ ? sampler_->table_bytes() : 0; }
 

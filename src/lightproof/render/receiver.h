@@ -11,17 +11,18 @@
 
 namespace lightproof {
 
+/// A receiver, and what it is made of.
 struct ReceiverInfo {
   std::string_view name;
   std::string_view description;
   SceneContent content;
-  bool occluded;  ///< some of its points do not see their whole hemisphere
+  bool occluded;  ///< whether some of its points do not see their whole hemisphere
 };
 
-/// point, sphere, plane, sphere-on-plane.
+/// All receivers: point, sphere, plane, sphere-on-plane.
 std::span<const ReceiverInfo> receivers();
 
-/// Throws InputError listing the names if there is none of this name.
+/// The receiver of this name. Throws InputError listing the names if there is none.
 const ReceiverInfo& receiver_by_name(std::string_view name);
 
 /// A pixel (column, row from the top) and the point that its centre shows.

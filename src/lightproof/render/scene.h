@@ -37,9 +37,10 @@ inline ShadowRay shadow_ray(glm::dvec3 origin, Direction direction) {
       0U};
 }
 
-/// True after Scene::trace if something blocks the ray.
+/// Whether something blocks a ray that went through Scene::trace().
 inline bool is_blocked(const ShadowRay& ray) { return ray.far < 0.0F; }
 
+/// Where a ray meets a surface.
 struct SurfaceHit {
   glm::dvec3 position;  ///< moved off the surface by kSurfaceOffset along the normal
   Direction normal;
@@ -49,12 +50,13 @@ struct SurfaceHit {
 /// convex surface never shadows itself, too little to see.
 inline constexpr double kSurfaceOffset = 1e-4;
 
-/// The unit sphere sits on the plane z = -1.
+/// What a scene holds: a unit sphere around the origin, and the plane z = -1 on which it stands.
 struct SceneContent {
   bool sphere = false;
   bool plane = false;
 };
 
+/// Surfaces that rays can meet, in an acceleration structure.
 class Scene {
  public:
   explicit Scene(SceneContent content);
@@ -67,6 +69,7 @@ class Scene {
   std::optional<SurfaceHit> intersect(glm::dvec3 origin, Direction direction) const;
   /// Marks the rays that are blocked; safe from many threads.
   void trace(std::span<ShadowRay> rays) const;
+  /// Whether nothing blocks the ray; safe from many threads.
   bool is_visible(glm::dvec3 origin, Direction direction) const;
 
  private:

@@ -11,32 +11,35 @@
 
 namespace lightproof {
 
-/// The estimators of the records, styled.
+/// The styles of the estimators of the records.
 std::vector<SeriesStyle> estimator_styles(const std::vector<ConvergenceRecord>& records);
 
-/// "receiver, material".
+/// The scene of a record in words: "receiver, material".
 std::string scene_name(const ConvergenceRecord& record);
 
-/// RMSE against samples, log-log, with lists to choose map and scene from.
+/// A chart of RMSE against samples, log-log, with lists to choose map and scene from.
 std::string convergence_chart(const std::vector<ConvergenceRecord>& records);
 
-/// The same for one map and scene, small, without a legend; the axes are those of all maps.
+/// A small chart of RMSE against samples, log-log, for one map and scene, without a legend; the
+/// axes are those of all maps.
 std::string small_convergence_chart(const std::vector<ConvergenceRecord>& records,
                                     const std::string& map, const std::string& scene);
 
-/// Measured / predicted variance against predicted variance. Records without a ratio are left out.
+/// A chart of measured / predicted variance against predicted variance. Records without a ratio are
+/// left out.
 std::string variance_chart(const std::vector<ConvergenceRecord>& records);
 
-/// ns per sample against the size of the map, log-log, with the fitted growth in the legend. Points
-/// at which a table leaves a cache, and measured breakpoints, are framed.
+/// A chart of ns per sample against the size of the map, log-log, with the fitted growth in the
+/// legend. Points at which a table leaves a cache, and measured breakpoints, are framed.
 std::string throughput_chart(const StudyResult& study);
 
-/// ms of a build against the number of texels, likewise, without frames: a build reads the map from
-/// end to end, and waits for no cache. Records without such a time are left out.
+/// A chart of the ms of a build against the number of texels, log-log, with the fitted growth in
+/// the legend. No points are framed: a build reads the map from end to end, and waits for no cache.
+/// Records without such a time are left out.
 std::string build_chart(const StudyResult& study);
 
-/// ns per sample against another cost of the tables on the largest map, log-log, with the Pareto
-/// front. Records without such a cost are left out.
+/// A chart of ns per sample against another cost of the tables on the largest map, log-log, with
+/// the Pareto front. Records without such a cost are left out.
 std::string table_chart(const std::vector<TableRecord>& records, TableCost cost,
                         const std::string& cost_name);
 

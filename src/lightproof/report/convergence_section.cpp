@@ -106,8 +106,7 @@ constexpr std::string_view kConvergenceNote =
 constexpr std::string_view kVarianceNote =
     "Every estimator of the convergence study once: its measured variance per sample divided by "
     "the variance that was computed from the map by quadrature. Bars: two standard errors on "
-    "either "
-    "side, so about one in twenty may miss the line at 1.";
+    "either side, so about one in twenty may miss the line at 1.";
 
 }  // namespace
 

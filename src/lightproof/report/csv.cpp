@@ -70,9 +70,8 @@ std::optional<double> dof_of(const TestRecord& test) {
 
 std::string gate_csv(const GateResult& gate) {
   std::string csv =
-      "sampler,density,map,oracle,test,samples,statistic,dof,log10_p,effect,minimum_detectable_"
-      "effect,"
-      "outcome,known_defect,detail\n";
+      "sampler,density,map,oracle,test,samples,statistic,dof,log10_p,effect,"
+      "minimum_detectable_effect,outcome,known_defect,detail\n";
   for (const TestRecord& t : gate.tests) {
     csv += row(t.sampler, t.density_space, t.map, to_string(describe(t.test).oracle),
                describe(t.test).name, t.samples, t.statistic, dof_of(t), t.log10_p, t.effect,

@@ -16,20 +16,26 @@
 
 namespace lightproof {
 
+/// The tests of a gate: one row per test.
 std::string gate_csv(const GateResult& gate);
-/// One row per record and number of samples.
+/// Convergence: one row per record and number of samples.
 std::string convergence_csv(const std::vector<ConvergenceRecord>& records);
-/// One row per record: variance, its prediction, their ratio, and the fitted slope.
+/// Variance: one row per record, with variance, its prediction, their ratio, and the fitted slope.
 std::string variance_csv(const std::vector<ConvergenceRecord>& records);
+/// Throughput: one row per sampler and map size.
 std::string throughput_csv(const std::vector<ThroughputRecord>& records);
-/// One row per sampler: exponents, sizes at which its table outgrows a cache, and its breakpoints.
+/// Growth: one row per sampler, with exponents, sizes at which its table outgrows a cache, and its
+/// breakpoints.
 std::string growth_csv(const std::vector<GrowthFit>& growth);
-/// One row per record: the time to build.
+/// Times to build: one row per sampler and map size.
 std::string build_csv(const std::vector<ThroughputRecord>& records);
+/// Tables: one row per sampler and map size, with time, bytes and error of the worst texel.
 std::string tables_csv(const std::vector<TableRecord>& records);
+/// Renders: one row per picture.
 std::string renders_csv(const std::vector<RenderRecord>& records);
-/// One row per mutant and test that rejects it.
+/// Mutants: one row per mutant and test that rejects it.
 std::string mutants_csv(const std::vector<KillRecord>& mutants);
+/// Maps: one row per map.
 std::string maps_csv(const std::vector<MapRecord>& records);
 
 }  // namespace lightproof

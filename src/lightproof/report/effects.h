@@ -11,11 +11,11 @@ namespace lightproof {
 /// effect is observed / expected - 1 of that cell alone.
 bool is_of_worst_cell(const TestRecord& test);
 
-/// "0.0123"; of a worst cell "13.6x expected" or "never drawn".
+/// The effect of a test in words: "0.0123"; of a worst cell "13.6x expected" or "never drawn".
 std::string effect_text(const TestRecord& test);
 
-/// The same of the minimum detectable effect: "0.0123", of a worst cell "1.2x expected"; "-" if
-/// there is none.
+/// The minimum detectable effect of a test in words: "0.0123", of a worst cell "1.2x expected"; "-"
+/// if there is none.
 std::string minimum_detectable_text(const TestRecord& test);
 
 /// A p-value as a decimal number, also where a double would be 0: "0.2084", "3.16e-401".

@@ -14,13 +14,15 @@ namespace lightproof {
 /// The headline: the verdict on all samplers but those that are kept with known defects.
 std::string headline(const StudyResult& study);
 
+/// What was found of one sampler.
 struct SamplerFinding {
   Outcome outcome = Outcome::inconclusive;
   std::string sentence;
-  bool is_demonstration = false;  ///< kept as published, with its known defects: decides nothing
+  bool is_demonstration = false;  ///< whether it is kept as published and decides nothing
 };
 
-/// One sentence per sampler, with the worst test of those that are not accepted.
+/// What was found of each sampler in one sentence, with the worst test of those that are not
+/// accepted.
 std::vector<SamplerFinding> sampler_findings(const GateResult& gate);
 
 /// Do the errors fall as N^(-1/2)? Judged at 3 standard errors of each fitted slope.
@@ -43,6 +45,7 @@ struct StepRange {
   StepTime fastest;
   StepTime slowest;
 };
+/// The fastest and the slowest step of a sampler over all sizes.
 StepRange step_range(const GrowthFit& fit);
 
 /// How many steps each sampler takes, and whether they stay as fast as the map grows.
@@ -76,14 +79,15 @@ std::string renders_finding(const std::vector<RenderRecord>& renders);
 /// What the effective fraction means for this map, with the variance of uniform sampling.
 std::string map_finding(const MapRecord& map);
 
-/// The variance is so small, measured and predicted (below 1e-8 of mean^2), that rounding and
-/// quadrature decide it: nothing to compare or to draw.
+/// Whether the variance is so small, measured and predicted (below 1e-8 of mean^2), that rounding
+/// and quadrature decide it: nothing to compare or to draw.
 bool is_all_but_exact(const ConvergenceRecord& record);
 
-/// Measured / predicted variance has a standard error, and the estimator is not all but exact.
+/// Whether measured / predicted variance has a standard error, and the estimator is not all but
+/// exact.
 bool has_ratio(const ConvergenceRecord& record);
 
-/// A slope could be fitted, with a standard error.
+/// Whether a slope could be fitted, with a standard error.
 bool has_slope(const ConvergenceRecord& record);
 
 }  // namespace lightproof

@@ -12,18 +12,18 @@ namespace lightproof {
 
 /// All tests of one sampler, density and map.
 struct GateCell {
-  std::string sampler_and_density;  ///< see sampler_and_density()
+  std::string sampler_and_density;  ///< sampler_and_density() of its tests
   std::string sampler;
   std::string map;
   bool known_defect = false;
   Tally tally;
-  const TestRecord* worst = nullptr;  ///< points into the GateResult; never null
+  const TestRecord* worst = nullptr;  ///< the worst test, in the GateResult; never null
 };
 
-/// "binary_search B"; the sampler alone where there is no density.
+/// The sampler and its density, "binary_search B"; the sampler alone where there is no density.
 std::string sampler_and_density(const TestRecord& test);
 
-/// In the order in which the runs first appear.
+/// The tests of a gate by run, in the order in which the runs first appear.
 std::vector<GateCell> summarise(const GateResult& gate);
 
 /// Whether the rejection is of a sampler that is kept as published, with its known defects.
@@ -35,14 +35,14 @@ struct SplitGate {
   GateResult known_defects;
 };
 
-/// Heads what is shown of samplers with known defects.
+/// The heading of what is shown of samplers with known defects.
 inline constexpr std::string_view kDemonstration =
     "Kept as published, with known defects: demonstration, not part of the verdict";
 
-/// All of it decides if `count_known_defects`.
+/// Splits a result into what decides and what does not; all of it decides if `count_known_defects`.
 SplitGate split_gate(const GateResult& gate, bool count_known_defects);
 
-/// A bin of the 16x32 and how far it is off, in standard deviations.
+/// One of the 32x16 bins over (phi, theta), and how far it is off in standard deviations.
 struct WorstBin {
   int x;
   int y;
@@ -52,8 +52,8 @@ struct WorstBin {
 /// The bins that are farthest off, the worst first.
 std::vector<WorstBin> worst_bins(const Rejection& rejection, std::size_t most);
 
-/// "✓ accept", "✗ reject", "? inconclusive", "≈ resolution-limited": a sign and a word, so that
-/// colour is never needed.
+/// An outcome in words, "✓ accept", "✗ reject", "? inconclusive", "≈ resolution-limited": a sign
+/// and a word, so that colour is never needed.
 std::string outcome_text(Outcome outcome);
 
 }  // namespace lightproof

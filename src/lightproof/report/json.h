@@ -15,9 +15,9 @@
 
 namespace lightproof {
 
-/// Of gate_json() and rejection_json().
+/// Version of the format of gate_json() and rejection_json().
 inline constexpr int kGateFormatVersion = 2;
-/// Of study_json().
+/// Version of the format of study_json().
 inline constexpr int kStudyFormatVersion = 2;
 
 /// The verdict on a whole run: the caller decides whether known defects count.
@@ -26,18 +26,18 @@ struct GateVerdict {
   bool count_known_defects = false;
 };
 
-/// Every test; `rejections` holds those that count, `known_defects` those of samplers that are kept
-/// as published and do not.
+/// A gate's result as JSON, every test of it; `rejections` holds those that count, `known_defects`
+/// those of samplers that are kept as published and do not.
 std::string gate_json(const GateResult& gate, GateVerdict verdict, const RunDescription& run);
 
-/// One of its rejections, with the command that draws the same samples again. Of `run` it takes
-/// version, commit and command.
+/// One rejection of a gate's result as JSON, with the command that draws the same samples again. Of
+/// `run` it takes version, commit and command.
 std::string rejection_json(const GateResult& gate, const Rejection& rejection,
                            const RunDescription& run);
 
-/// Everything in the study but the pixels, which lie in the EXR files that it names. Tests of
-/// samplers with known defects do not count towards gate.outcome. Of `run` it takes commit and
-/// command.
+/// A study as JSON, everything in it but the pixels, which lie in the EXR files that it names.
+/// Tests of samplers with known defects do not count towards gate.outcome. Of `run` it takes commit
+/// and command.
 std::string study_json(const StudyResult& study, const RunDescription& run);
 
 }  // namespace lightproof

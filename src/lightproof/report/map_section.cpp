@@ -72,8 +72,7 @@ std::string map_figure(const MapRecord& record) {
 constexpr std::string_view kIntroduction =
     "Each map as it is read, zenith at the top. At 0 EV the geometric mean of the luminances is "
     "middle grey; values are clipped and sRGB-encoded. Dots are samples that the binary search "
-    "drew "
-    "in proportion to luminance times solid angle: they gather where the light is.";
+    "drew in proportion to luminance times solid angle: they gather where the light is.";
 
 }  // namespace
 

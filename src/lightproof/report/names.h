@@ -9,12 +9,12 @@
 
 namespace lightproof {
 
-/// The text with everything but ASCII letters, digits, '.', '_' and '-' replaced by '_', and
-/// without leading dots: safe in any folder and in a URL. Never empty.
+/// A text as part of a file's name: with everything but ASCII letters, digits, '.', '_' and '-'
+/// replaced by '_', and without leading dots: safe in any folder and in a URL. Never empty.
 std::string file_name_part(std::string_view text);
 
-/// One stem per render, "<map>-<receiver>-<material>-<estimator>", all different: a repeated one
-/// gets "-2", "-3", …
+/// The stems of the renders' file names, "<map>-<receiver>-<material>-<estimator>", all different:
+/// a repeated one gets "-2", "-3", …
 std::vector<std::string> render_stems(const std::vector<RenderRecord>& renders);
 
 /// The renders of one receiver on one map with one material; they share the reference.
@@ -23,11 +23,11 @@ struct RenderScene {
   std::vector<std::size_t> members;  ///< positions in the list of renders; never empty
 };
 
-/// Its records, in their order.
+/// The records of a scene, in their order.
 std::vector<const RenderRecord*> members_of(const RenderScene& scene,
                                             const std::vector<RenderRecord>& renders);
 
-/// In the order of first appearance.
+/// The scenes of renders, in the order of their first appearance.
 std::vector<RenderScene> render_scenes(const std::vector<RenderRecord>& renders);
 
 }  // namespace lightproof

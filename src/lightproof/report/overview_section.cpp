@@ -56,8 +56,7 @@ constexpr std::string_view kHowToRead =
     "over correct samplers rejects anything at all. A test that accepts proves nothing beyond its "
     "own sight, so each one also states the smallest deviation that it would have seen with a "
     "power of 99\u00a0%. Error bars are two standard errors long on either side unless a chart "
-    "says "
-    "otherwise. Pictures, tables and data lie beside this file as EXR, CSV and JSON.";
+    "says otherwise. Pictures, tables and data lie beside this file as EXR, CSV and JSON.";
 
 }  // namespace
 

@@ -15,7 +15,7 @@ using TableCost = double TableRecord::*;
 std::vector<TableRecord> pareto_front(std::vector<TableRecord> records, TableCost first,
                                       TableCost second);
 
-/// The records of the largest map among them.
+/// The records of the largest map among these.
 std::vector<TableRecord> of_largest_map(const std::vector<TableRecord>& records);
 
 }  // namespace lightproof

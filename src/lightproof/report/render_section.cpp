@@ -96,9 +96,8 @@ constexpr std::string_view kNote =
     "Above: the picture, exposed so that the mean luminance of the reference's lit pixels is 0.35, "
     "clipped and sRGB-encoded. Below: picture minus reference in luminance, relative to the "
     "reference's mean over the pixels that show the receiver, on one scale for all estimators of a "
-    "scene; at most "
-    "1\u00a0% of the errors lie beyond its ends. Equal numbers of samples are not equal times: the "
-    "seconds are in the captions.";
+    "scene; at most 1\u00a0% of the errors lie beyond its ends. Equal numbers of samples are not "
+    "equal times: the seconds are in the captions.";
 
 }  // namespace
 

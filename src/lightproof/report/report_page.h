@@ -7,8 +7,8 @@
 
 namespace lightproof {
 
-/// One HTML document that needs nothing else: pictures, charts and the code that draws them are
-/// inside, and it opens from a disk without a network.
+/// A study as one HTML document that needs nothing else: pictures, charts and the code that draws
+/// them are inside, and it opens from a disk without a network.
 std::string report_page(const StudyResult& study);
 
 }  // namespace lightproof

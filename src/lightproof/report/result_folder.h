@@ -12,8 +12,9 @@
 
 namespace lightproof {
 
+/// The file name of the manifest.
 inline constexpr std::string_view kManifestName = "manifest.json";
-/// Of the manifest (docs/schema/manifest.schema.json).
+/// Version of the format of the manifest (docs/schema/manifest.schema.json).
 inline constexpr int kManifestFormatVersion = 1;
 
 /// Whether a folder that holds something may be written to.
@@ -26,9 +27,10 @@ enum class Overwriting {
 /// manifest is not one of ours or lists something that is no plain file name: a path, "..".
 std::set<std::string> listed_files(const std::filesystem::path& folder);
 
-/// Throws InputError, before minutes are spent, if the results cannot go to `folder`: it is a file,
-/// cannot be made or written; or it holds something and overwriting is refused; or it holds one of
-/// `names`, which will be written, and the manifest does not list it. Makes the folder.
+/// Makes the folder of results. Throws InputError, before minutes are spent, if the results cannot
+/// go to `folder`: it is a file, cannot be made or written; or it holds something and overwriting
+/// is refused; or it holds one of `names`, which will be written, and the manifest does not list
+/// it.
 void check_result_folder(const std::filesystem::path& folder, Overwriting overwriting,
                          const std::set<std::string>& names);
 
@@ -38,7 +40,7 @@ class ResultFolder {
   /// Throws InputError if the folder cannot be written.
   ResultFolder(std::filesystem::path folder, Overwriting overwriting);
 
-  /// Write here.
+  /// The folder to write into.
   const std::filesystem::path& temporary() const { return file_.temporary(); }
 
   /// Moves the files into the folder, removes those of the earlier run that were not written again,

@@ -78,9 +78,8 @@ std::string naming_finding(const std::vector<NamingRecord>& naming) {
   };
   return fmt::format(
       "Of {} rejections of injected defects on the maps of this study, {} are called by their "
-      "right "
-      "name, {} by a wrong one, and of {} the diagnosis says that no known defect explains the "
-      "samples.",
+      "right name, {} by a wrong one, and of {} the diagnosis says that no known defect explains "
+      "the samples.",
       with_thousands(total.rejected), share(total.right), share(total.wrong), share(total.unknown));
 }
 
@@ -176,20 +175,17 @@ constexpr std::string_view kIntroduction =
     "A gate that accepts everything passes everything. So it is tested itself: on samplers with "
     "one injected defect each, which it must reject and name; on a sampler that is right, whose "
     "p-values must be uniform; and on a distribution that is a little off, which it must find as "
-    "often as "
-    "it claims.";
+    "often as it claims.";
 constexpr std::string_view kKillNote =
     "Columns are the gate's tests, rows the injected defects; a dark frame marks tests of the "
-    "oracle "
-    "that has to reject. Where a cell is empty the test does not see the defect with 262,144 "
-    "samples.";
+    "oracle that has to reject. Where a cell is empty the test does not see the defect with "
+    "262,144 samples.";
 constexpr std::string_view kCalibrationNote =
     "One line for each test; dashed lines are the limits. The worst of many cells has a bound in "
     "place of a p-value: it may run far below zero, never above.";
 constexpr std::string_view kPowerNote =
     "Lines are predicted from the exact distribution, points are measured, bars are two standard "
-    "errors. "
-    "Tests at a level of 0.001.";
+    "errors. Tests at a level of 0.001.";
 
 }  // namespace
 

@@ -51,12 +51,11 @@ constexpr std::string_view kGrowthNote =
     "step of the search waits for it, while a scan reads ahead. The exponent is that of the whole "
     "time against width plus height, by least squares on logarithms. A table outgrows a cache at "
     "the smallest measured map on which it is larger. Breakpoints are measured: a line with one or "
-    "two of "
-    "them that fits the time of a step so much better than a straight one that straight ones with "
-    "random errors would hardly seem to bend as clearly: where all samplers are straight, any of "
-    "them has a breakpoint with a probability of at most 1 % (Holm's procedure over all samplers). "
-    "At "
-    "least two sizes lie on either side of a breakpoint; few sizes, or much scatter, show none.";
+    "two of them that fits the time of a step so much better than a straight one that straight "
+    "ones with random errors would hardly seem to bend as clearly: where all samplers are "
+    "straight, any of them has a breakpoint with a probability of at most 1 % (Holm's procedure "
+    "over all samplers). At least two sizes lie on either side of a breakpoint; few sizes, or much "
+    "scatter, show none.";
 
 std::string growth_table(const std::vector<GrowthFit>& growth, const CacheSizes& caches) {
   if (growth.empty()) return "";

@@ -11,25 +11,26 @@ namespace lightproof {
 struct ConvergencePoint {
   std::uint64_t samples = 0;
   double rmse = 0.0;        ///< root mean square error over pixels and replicates / mean value
-  double rmse_error = 0.0;  ///< its standard error (from the exact fourth moment)
-  double predicted = 0.0;   ///< from the exact variance
+  double rmse_error = 0.0;  ///< standard error of rmse, from the exact fourth moment
+  double predicted = 0.0;   ///< the rmse that follows from the exact variance
 };
 
+/// The error of one estimator on one map, receiver and material against the number of samples.
 struct ConvergenceRecord {
   std::string map;
   std::string receiver;
   std::string material;
   std::string estimator;
-  int pixels = 0;
-  int replicates = 0;                    ///< per pixel and number of samples
+  int pixels = 0;                        ///< pixels at which light is gathered
+  int replicates = 0;                    ///< estimates per pixel and number of samples
   std::vector<ConvergencePoint> points;  ///< ascending numbers of samples
-  /// Of log rmse against log samples, fitted to the points whose rmse_error is below a quarter of
-  /// the prediction; -1/2 is expected. Not a number, like slope_error, where fewer than three
-  /// points are (light found by rare hits), or where the estimator has no variance at all.
+  /// The slope of log rmse against log samples, fitted to the points whose rmse_error is below a
+  /// quarter of the prediction; -1/2 is expected. Not a number, like slope_error, where fewer than
+  /// three points are (light found by rare hits), or where the estimator has no variance at all.
   double slope = 0.0;
-  double slope_error = 0.0;
-  double measured_variance = 0.0;  ///< per sample, averaged over pixels, relative to mean^2
-  double predicted_variance = 0.0;
+  double slope_error = 0.0;           ///< standard error of `slope`
+  double measured_variance = 0.0;     ///< per sample, averaged over pixels, relative to mean^2
+  double predicted_variance = 0.0;    ///< the exact one, averaged and relative in the same way
   double variance_ratio_error = 0.0;  ///< standard error of measured / predicted
 };
 

@@ -15,24 +15,25 @@ struct Rejection {
   std::string sampler;
   std::string density_space;
   std::string map;
-  std::string looks_like;              ///< the most likely defect, by name
-  std::string diagnosis;               ///< the same in words
-  Grid<double> residual;               ///< (O - E) / sqrt(E) of the 16x32 bins
-  std::vector<double> row_divergence;  ///< of the marginal of rows, cumulative from t = 0
+  std::string looks_like;              ///< the name of the most likely defect
+  std::string diagnosis;               ///< the most likely defect in words
+  Grid<double> residual;               ///< (O - E) / sqrt(E) of the 32x16 bins
+  std::vector<double> row_divergence;  ///< divergence of the rows, cumulative from t = 0
   /// How sure the name is, in words; empty where nothing is named.
   std::string confidence = {};
 };
 
+/// What one run of the gate found.
 struct GateResult {
   double family_alpha = 0.0;  ///< probability that a run over correct samplers rejects anything
   std::uint64_t samples = 0;  ///< per run; tests below the screening level get four times
   std::uint64_t seed = 0;
   std::vector<TestRecord> tests;
   std::vector<Rejection> rejections = {};
-  std::string input_options = {};  ///< of the command line, with which the maps were read
+  std::string input_options = {};  ///< options of the command line for reading the maps
   std::uint64_t family = 0;        ///< p-values, or instances if sequential, that share the error
   bool sequential = false;
-  double must_detect = kMustDetect;  ///< as asked for
+  double must_detect = kMustDetect;  ///< deviation of the bins that had to be detectable
 };
 
 }  // namespace lightproof

@@ -13,8 +13,8 @@ namespace lightproof {
 struct MapRecord {
   EnvironmentMap map;
   std::string source;               ///< the map's name, unique in the study
-  double mean_luminance = 0.0;      ///< over the sphere
-  double peak_ratio = 0.0;          ///< brightest texel / mean
+  double mean_luminance = 0.0;      ///< mean over the sphere by solid angle
+  double peak_ratio = 0.0;          ///< luminance of the brightest texel / mean luminance
   double effective_fraction = 0.0;  ///< G^2/(4 pi Q): share of the sphere that the light fills
   std::vector<SquarePoint> drawn;   ///< some hundred samples of binary_search, density B
 };

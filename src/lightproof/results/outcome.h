@@ -3,6 +3,7 @@
 
 namespace lightproof {
 
+/// What a test, or a whole run, comes to.
 enum class Outcome {
   accept,
   reject,
@@ -14,6 +15,7 @@ enum class Outcome {
   not_run,
 };
 
+/// The name of an outcome where it is printed or written: "resolution-limited".
 constexpr const char* to_string(Outcome outcome) {
   switch (outcome) {
     case Outcome::accept:

@@ -16,10 +16,10 @@ struct RenderRecord {
   std::string material;
   std::string estimator;
   std::uint64_t samples = 0;
-  Grid<Rgb> picture;    ///< row 0 at the top
-  Grid<Rgb> reference;  ///< the same for every estimator
+  Grid<Rgb> picture;    ///< the estimator's picture, row 0 at the top
+  Grid<Rgb> reference;  ///< the picture that all estimators of a map are held against
   Grid<double> error;   ///< signed, over the reference's mean luminance at the receiver
-  double rmse = 0.0;    ///< of `error` at the pixels that show the receiver
+  double rmse = 0.0;    ///< root mean square of `error` at the pixels that show the receiver
   double seconds = 0.0;
   std::uint64_t reference_samples = 0;  ///< per pixel of the reference; 0 if it is not sampled
 };

@@ -13,13 +13,13 @@ namespace lightproof {
 /// p-values of one test of a correct sampler: uniform, if the test is.
 struct CalibrationRecord {
   TestId test = TestId::bins;
-  bool is_bound = false;  ///< its p-values may be too large, never too small
-  std::uint64_t replicates = 0;
-  std::vector<double> quantiles;           ///< of p, at 0 %, 1 %, … 100 %
-  double ks_distance = 0.0;                ///< of their distribution from uniform
-  double log10_p_ks = 0.0;                 ///< Kolmogorov-Smirnov; one-sided for a bound
-  std::optional<double> log10_p_anderson;  ///< none for a bound
-  std::uint64_t below_one_percent = 0;     ///< p-values below 0.01
+  bool is_bound = false;          ///< whether its p-values may be too large (never too small)
+  std::uint64_t replicates = 0;   ///< how many p-values there are
+  std::vector<double> quantiles;  ///< quantiles of the p-values at 0 %, 1 %, … 100 %
+  double ks_distance = 0.0;       ///< largest distance of their distribution from uniform
+  double log10_p_ks = 0.0;        ///< Kolmogorov-Smirnov test of it; one-sided for a bound
+  std::optional<double> log10_p_anderson;  ///< Anderson-Darling test of it; none for a bound
+  std::uint64_t below_one_percent = 0;     ///< how many p-values are below 0.01
 };
 
 /// How often runs over correct samplers reject anything.
@@ -28,9 +28,10 @@ struct FamilyRecord {
   double family_alpha = 0.0;
   std::uint64_t runs = 0;
   std::uint64_t rejected = 0;
-  bool is_bound = false;  ///< far from reached, by construction
+  bool is_bound = false;  ///< whether family_alpha is a bound that is far from reached
 };
 
+/// What the gate's tests make of correct samplers.
 struct CalibrationResult {
   std::vector<CalibrationRecord> tests;
   std::vector<FamilyRecord> families;
@@ -45,33 +46,34 @@ struct PowerRecord {
   std::uint64_t replicates = 0;
   std::uint64_t rejected = 0;
   double predicted = 0.0;  ///< share that should be rejected
-  bool is_bound = false;   ///< at least that share
+  bool is_bound = false;   ///< whether that share is only the least that should be
 };
 
 /// The fewest samples, of those tried, with which each test rejects one mutant.
 struct KillRecord {
   std::string mutant;
-  Oracle oracle = Oracle::reference;  ///< that must reject it
-  std::string looks_like;
-  std::string expected_diagnosis;
+  Oracle oracle = Oracle::reference;  ///< the oracle that must reject it
+  std::string looks_like;             ///< the name that the diagnosis gives
+  std::string expected_diagnosis;     ///< the name that it should give
+  /// The fewest samples with which one test rejects the mutant.
   struct Kill {
     TestId test = TestId::bins;
     std::uint64_t samples = 0;
   };
   std::vector<Kill> kills;
-  std::optional<std::uint64_t> sequential;  ///< that the sequential gate took; none: accepted
+  std::optional<std::uint64_t> sequential;  ///< the sequential gate's samples; none: accepted
 };
 
 /// What the gate calls one mutant on the maps of a study, under both densities.
 struct NamingRecord {
   std::string mutant;
-  std::string expected;        ///< its name
-  std::uint64_t runs = 0;      ///< maps, densities and seeds
-  std::uint64_t rejected = 0;  ///< runs in which it was; the others are in no other count
-  std::uint64_t right = 0;
-  std::uint64_t unknown = 0;  ///< no known defect explains the samples
-  std::uint64_t wrong = 0;
-  std::vector<std::string> wrong_names = {};  ///< each once
+  std::string expected;        ///< the name that the gate should give it
+  std::uint64_t runs = 0;      ///< runs: maps times densities times seeds
+  std::uint64_t rejected = 0;  ///< runs that rejected it; the counts below are of these alone
+  std::uint64_t right = 0;     ///< runs that gave it its name
+  std::uint64_t unknown = 0;   ///< runs in which no known defect explains the samples
+  std::uint64_t wrong = 0;     ///< runs that gave it another name
+  std::vector<std::string> wrong_names = {};  ///< the other names, each once
 };
 
 /// The gate tested on itself.

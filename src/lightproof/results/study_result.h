@@ -26,7 +26,7 @@ struct StudyResult {
   std::vector<ConvergenceRecord> convergence;
   std::vector<ThroughputRecord> throughput;
   std::string throughput_origin;  ///< when, where and of what the throughput was measured
-  CacheSizes caches;              ///< of the machine that measured the throughput
+  CacheSizes caches;              ///< caches of the machine that measured the throughput
   std::vector<GrowthFit> growth;
   std::vector<TableRecord> tables;
   std::vector<RenderRecord> renders;

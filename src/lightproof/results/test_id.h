@@ -15,11 +15,11 @@ enum class Oracle : std::uint8_t {
   reference,  ///< the exact distribution, by an implementation that shares no code
   self,       ///< the sampler's own pdf
   mean,       ///< the exact mean of an estimator
-  variance,   ///< its exact variance
+  variance,   ///< the exact variance of an estimator
   check,      ///< a fact that needs no statistics
 };
 
-/// "reference", "self", "mean", "variance", "check".
+/// The name of an oracle: "reference", "self", "mean", "variance", "check".
 std::string_view to_string(Oracle oracle);
 
 /// A test of the gate. The order is that of tests().
@@ -75,15 +75,15 @@ enum class TestId : std::uint8_t {
 enum class EffectMeasure : std::uint8_t {
   cells,            ///< w of Cohen: root mean square relative deviation of cells, by probability
   worst_cell,       ///< observed over expected count of the worst cell, less 1
-  distance,         ///< between distribution functions, as the statistic weighs it
+  distance,         ///< distance of two distribution functions, as the statistic weighs it
   relative_mean,    ///< measured over exact value, less 1
-  share,            ///< of the samples or of the points that were tried
+  share,            ///< share of the samples, or of the points that were tried, that fail
   relative_pdf,     ///< largest relative difference of densities
-  difference,       ///< of an integral from 1, or of a constant from its value, relative
+  difference,       ///< relative difference of an integral from 1, or of a constant from its value
   unreachable_mass  ///< share of the light that the pdf calls unreachable
 };
 
-/// One sentence: "the root mean square deviation of the cells …".
+/// What an effect measures, in words: "the root mean square deviation of the cells …".
 std::string_view meaning_of(EffectMeasure measure);
 
 /// A row of the table of tests.
@@ -92,7 +92,7 @@ struct TestDescription {
   Oracle oracle;
   std::string_view name;    ///< "texels"; unique with its oracle
   std::string_view counts;  ///< what the statistic is made of, in words
-  /// The p-value may be too large, never too small: Bonferroni's over cells.
+  /// Whether the p-value may be too large (never too small), as Bonferroni's over cells is.
   bool p_value_is_bound = false;
   EffectMeasure effect = EffectMeasure::cells;
 };
@@ -100,9 +100,10 @@ struct TestDescription {
 /// All tests, in the order of TestId.
 std::span<const TestDescription> tests();
 
+/// The row of a test.
 const TestDescription& describe(TestId test);
 
-/// "reference/texels".
+/// The name of a test with that of its oracle: "reference/texels".
 std::string full_name(TestId test);
 
 /// Whether a test is of all samples over the sphere, so that what it could have seen decides

@@ -24,26 +24,27 @@ inline constexpr double kMustDetect = 0.1;
 /// One test of one run.
 struct TestRecord {
   std::string sampler;
-  std::string density_space;  ///< "A" (texture space), "B" (solid angle); empty for distributions
-                              ///< over directions
-  std::string map;
+  /// "A" (texture space), "B" (solid angle); empty for distributions over directions.
+  std::string density_space;
+  std::string map;  ///< the map's name, or kDirections
   TestId test = TestId::bins;
   std::uint64_t samples = 0;
   double statistic = 0.0;
-  double dof = 0.0;               ///< 0 where it has no meaning
-  std::optional<double> log10_p;  ///< none for a deterministic check
-  double effect = 0.0;            ///< size of the deviation that was seen
-  std::optional<double>
-      minimum_detectable_effect;  ///< seen with kDetectionPower at this run's alpha
+  double dof = 0.0;               ///< degrees of freedom; 0 where they have no meaning
+  std::optional<double> log10_p;  ///< log10 of the p-value; none for a deterministic check
+  double effect = 0.0;            ///< size of the deviation that was seen, an EffectMeasure
+  /// The effect that is found with kDetectionPower at this run's alpha.
+  std::optional<double> minimum_detectable_effect;
   Outcome outcome = Outcome::inconclusive;
   std::string detail;       ///< why, in words; empty if there is nothing to say
   std::uint64_t seed = 0;   ///< base seed of the samples
-  std::string source = {};  ///< of the map, as it was given; empty: its name
-  int stage =
-      1;  ///< 2: run again, with more samples, because its p-value fell below the screening level
-  bool known_defect = false;  ///< of a sampler kept as published, to show what the gate finds
-  /// Below this effect the sampler's own rounding shows; for texels and rows of distributions that
-  /// are added up.
+  std::string source = {};  ///< what the user called the map; empty: its name
+  /// 1, or 2 if the test was run again, with more samples, because its p-value fell below the
+  /// screening level.
+  int stage = 1;
+  bool known_defect = false;  ///< whether the sampler is kept as published, with its defects
+  /// The effect below which the sampler's own rounding shows; of texels and rows of distributions
+  /// that are added up.
   std::optional<double> resolution_floor = {};
 };
 

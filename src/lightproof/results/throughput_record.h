@@ -14,8 +14,8 @@ struct ThroughputRecord {
   std::string map;
   Extent extent;
   double ns_per_sample = 0.0;  ///< median over repetitions
-  double ns_low = 0.0;         ///< smallest and largest repetition
-  double ns_high = 0.0;
+  double ns_low = 0.0;         ///< the smallest repetition
+  double ns_high = 0.0;        ///< the largest repetition
   double table_bytes = 0.0;
   double build_ms = 0.0;  ///< median of some builds, on all threads
 };
@@ -28,9 +28,9 @@ struct TableRecord {
   Extent extent;
   double ns_per_sample = 0.0;  ///< median over repetitions
   double bytes_per_texel = 0.0;
-  double worst_texel_error = 0.0;  ///< relative, of the probability that a texel is drawn with
-  double times_baseline = 0.0;     ///< as fast as std::upper_bound; 0 if it is that itself
-  double share_of_limit = 0.0;     ///< of the speed of a bare gather; likewise
+  double worst_texel_error = 0.0;  ///< largest relative error of a texel's probability
+  double times_baseline = 0.0;     ///< speed over that of std::upper_bound; 0 if it is that itself
+  double share_of_limit = 0.0;     ///< speed over that of a bare gather; 0 if it is that itself
 };
 
 /// Sizes in bytes of the caches that a core of the measured machine reads through, as its system

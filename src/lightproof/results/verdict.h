@@ -13,12 +13,12 @@ struct Tally {
   std::size_t tests = 0;
   std::size_t rejected = 0;
   std::size_t inconclusive = 0;
-  std::size_t limited = 0;  ///< by resolution
-  std::size_t not_run = 0;  ///< not among `tests`
+  std::size_t limited = 0;  ///< tests that are resolution-limited
+  std::size_t not_run = 0;  ///< tests that were not run, which are not among `tests`
 
   void add(Outcome outcome);
-  /// Reject if any test rejects, else inconclusive if any is or there are none, else
-  /// resolution-limited if any is, else accept.
+  /// The outcome of the set: reject if any test rejects, else inconclusive if any is or there are
+  /// none, else resolution-limited if any is, else accept.
   Outcome outcome() const;
 };
 
@@ -32,16 +32,16 @@ Tally tally_of(const GateResult& gate, const Selected& selected) {
   return tally;
 }
 
-/// The tests that decide: those of samplers without known defects, or all of them.
+/// The tally of the tests that decide: those of samplers without known defects, or all of them.
 Tally deciding_tally(const GateResult& gate, bool count_known_defects = false);
 
-/// The tests of samplers that are kept as published, with their known defects.
+/// The tally of the tests of samplers that are kept as published, with their known defects.
 Tally known_defect_tally(const GateResult& gate);
 
 /// The verdict of a run: that of its deciding_tally().
 Outcome overall_outcome(const GateResult& gate, bool count_known_defects);
 
-/// ", 3 resolution-limited, 2 not run", or nothing.
+/// What a tally says of tests that found nothing: ", 3 resolution-limited, 2 not run", or nothing.
 std::string limited_text(const Tally& tally);
 
 }  // namespace lightproof

@@ -10,12 +10,14 @@
 
 namespace lightproof {
 
+/// The sampler by one alias table over all texels.
 class Alias {
  public:
   /// Throws InputError if the map is black.
   Alias(const EnvironmentMap& map, TargetDensity target);
 
-  /// u.s names the column and the position across, u.t chooses, and gives the position along.
+  /// The sample at a point: u.s names the column of the alias table and the position over s in the
+  /// texel, u.t chooses between the column's two texels and gives the position over t.
   TexelSample sample(SquarePoint u) const {
     const AliasTable::Drawn drawn = table_.draw(u.s, u.t);
     const auto width = static_cast<std::uint32_t>(positions_.extent().width);
@@ -46,7 +48,8 @@ class Alias {
 };
 static_assert(EnvSampler<Alias>);
 
-/// Whole vectors of a batch; returns how many samples these are.
+/// Draws a batch by vectors, as many whole ones as fit, from the front. Returns how many samples
+/// these are.
 std::size_t sample_vectors(const Alias::View& table, const BatchPoints& points,
                            const BatchOutput& output);
 

@@ -12,13 +12,15 @@
 
 namespace lightproof {
 
+/// The sampler by an alias table over runs of texels and a search inside the run.
 class AliasLines {
  public:
   /// Throws InputError if the map is black.
   AliasLines(const EnvironmentMap& map, TargetDensity target);
 
-  /// u.s names the column of the alias table and the position along, u.t chooses the line and what
-  /// is in it.
+  /// The sample at a point: u.s names the column of the alias table and the position over t in the
+  /// texel, u.t chooses between the column's two runs, and the texel in the run with the position
+  /// over s.
   TexelSample sample(SquarePoint u) const {
     const AliasTable::Drawn drawn = table_.draw(u.s, u.t);
     const RunTexel found = lines_.find(drawn.cell, drawn.choice);
@@ -53,7 +55,8 @@ class AliasLines {
 };
 static_assert(EnvSampler<AliasLines>);
 
-/// Whole vectors of a batch; returns how many samples these are.
+/// Draws a batch by vectors, as many whole ones as fit, from the front. Returns how many samples
+/// these are.
 std::size_t sample_vectors(const AliasLines::View& table, const BatchPoints& points,
                            const BatchOutput& output);
 

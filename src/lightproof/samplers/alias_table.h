@@ -20,30 +20,30 @@
 
 namespace lightproof {
 
-/// Masses in units of 2^-bits / weights.count(), that is with a sum of weights.count() << bits.
-/// Positive weights of less than one unit get one; the others share the rest in proportion, to
-/// within one unit and the precision of their shares: 2^-20 of a unit (more if the sum is 2^42 or
-/// more), and 2^-53 of the share. What that leaves of the sum goes to the largest of every 65536
-/// cells, if it is at least half the average, in proportion to their masses: that changes none by
-/// more than some 2^-bits of itself, which is why there are at least 4 bits. In parallel, the same
-/// for any number of threads. All weights are >= 0 and one is positive;
-/// (weights.count() << bits) < 2^62.
+/// The masses of cells as whole numbers in units of 2^-bits / weights.count(), that is with a sum
+/// of weights.count() << bits. Positive weights of less than one unit get one; the others share the
+/// rest in proportion, to within one unit and the precision of their shares: 2^-20 of a unit (more
+/// if the sum is 2^42 or more), and 2^-53 of the share. What that leaves of the sum goes to the
+/// largest of every 65536 cells, if it is at least half the average, in proportion to their masses:
+/// that changes none by more than some 2^-bits of itself, which is why there are at least 4 bits.
+/// Computed in parallel, with the same result for any number of threads. All weights are >= 0 and
+/// one is positive; (weights.count() << bits) < 2^62.
 TableVector<std::uint64_t> whole_masses(const CellWeights& weights, unsigned bits);
 
-/// A column of the method: its own cell below the threshold, else the alias.
+/// A column of an alias table: its own cell below the threshold, else the alias.
 struct AliasColumn {
-  std::uint64_t
-      threshold;  ///< in [0, 2^bits); 0 if the alias, which may be the cell itself, is all
+  /// In [0, 2^bits); 0 if the alias, which may be the cell itself, is all.
+  std::uint64_t threshold;
   std::uint64_t alias;
 
   friend bool operator==(const AliasColumn&, const AliasColumn&) = default;
 };
 
-/// Neighbouring cells of at most the average mass; what those below it lack comes from one alias.
+/// Neighbouring cells of at most the average mass, whose columns share one alias.
 struct AliasRun {
   std::size_t first;
   std::span<const std::uint64_t> masses;
-  std::size_t alias;  ///< if no cell is above the average, and so none below it: how many there are
+  std::size_t alias;  ///< the number of all cells, if none is above the average and so none below
 
   AliasColumn column(std::size_t i, std::uint64_t full) const {
     return masses[i] < full ? AliasColumn{masses[i], alias} : AliasColumn{0, first + i};
@@ -57,7 +57,7 @@ struct AliasRun {
 /// of threads.
 class AliasSweep {
  public:
-  /// Masses of sum masses.size() << bits, which outlive this.
+  /// Prepares the pairing of masses whose sum is masses.size() << bits, and which outlive this.
   AliasSweep(std::span<const std::uint64_t> masses, unsigned bits);
 
   /// Calls take(column index, AliasColumn) once for every column, from several threads.
@@ -69,8 +69,8 @@ class AliasSweep {
       }
     });
   }
-  /// The same, but where one alias is enough for a whole stretch, its columns go to
-  /// take_run(AliasRun) together.
+  /// Calls take(column index, AliasColumn) once for every column, from several threads, but
+  /// take_run(AliasRun) for the columns of a whole stretch where one alias is enough for it.
   template <class Take, class TakeRun>
   void for_columns(const Take& take, const TakeRun& take_run) const {
     parallel_chunks(masses_.size(), kTask,
@@ -117,7 +117,7 @@ class AliasSweep {
     }
   }
 
-  /// Those of a stretch.
+  /// The columns of a stretch of cells that one alias is not enough for.
   template <class Take>
   void fill(std::size_t first, std::span<const std::uint64_t> masses, Filling& filling,
             const Take& take) const {
@@ -165,19 +165,20 @@ inline double rest_of_choice(double choice, double share) {
   return std::min((choice - share) / (1.0 - share), 1.0 - 0x1p-53);  // which may round to 1
 }
 
-/// The method with entries of 16 bytes.
+/// An alias table over any cells, with entries of 16 bytes.
 class AliasTable {
  public:
-  /// Weights >= 0, one of them positive; at most 2^31 - 1.
+  /// Builds the table of weights >= 0, one of them positive; at most 2^31 - 1 of them.
   explicit AliasTable(const CellWeights& weights);
 
+  /// A cell that was drawn, and what is left of the two random numbers.
   struct Drawn {
     std::uint32_t cell;
-    double mass;    ///< its probability, to 2^-24 of itself
+    double mass;    ///< the cell's probability, to 2^-24 of itself
     double column;  ///< uniform in [0,1), independent of the cell and of `choice`
-    double choice;  ///< likewise
+    double choice;  ///< uniform in [0,1), independent of the cell and of `column`
   };
-  /// Of two uniform numbers in [0,1).
+  /// Draws a cell by two uniform numbers in [0,1): one names a column, one chooses in it.
   Drawn draw(double column, double choice) const {
     const double scaled = column * static_cast<double>(entries_.size());
     const auto index = static_cast<std::uint32_t>(scaled);
@@ -188,14 +189,16 @@ class AliasTable {
             scaled - index, rest_of_choice(choice, share)};
   }
 
+  /// Probability of a cell, to 2^-24 of itself.
   double mass(std::size_t cell) const { return static_cast<double>(entries_[cell].mass); }
   std::size_t bytes() const { return entries_.size() * sizeof(Entry); }
 
+  /// A column, and the probabilities of its cells.
   struct Entry {
-    std::uint32_t threshold;  ///< in units of 2^-31
+    std::uint32_t threshold;  ///< share of the column's own cell, in units of 2^-31
     std::uint32_t alias;
-    float mass;
-    float alias_mass;
+    float mass;        ///< probability of the column's own cell
+    float alias_mass;  ///< probability of the alias
   };
   std::span<const Entry> entries() const { return entries_; }
 
@@ -207,8 +210,8 @@ class AliasTable {
   TableVector<Entry> entries_;
 };
 
-/// The entries of a run, vectorised; unit is the probability of one unit of mass. As many entries
-/// as the run has masses. Returns how many entries vectors wrote, from the front: 0 on a processor
+/// Writes the entries of a run, as many as it has masses, by vectors; `unit` is the probability of
+/// one unit of mass. Returns how many entries vectors wrote, from the front: 0 on a processor
 /// without vectors.
 std::size_t write_entries(const AliasRun& run, double unit, float alias_mass,
                           std::span<AliasTable::Entry> entries);

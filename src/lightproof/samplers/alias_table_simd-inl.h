@@ -15,7 +15,7 @@ namespace lightproof::HWY_NAMESPACE {
 class AliasTableKernel {
  public:
   struct Block {
-    alignas(64) std::int64_t offset[kBatchBlock];  ///< of the column's entry, in bytes
+    alignas(64) std::int64_t offset[kBatchBlock];  ///< where the column's entry begins, in bytes
     alignas(64) double within[kBatchBlock];        ///< the column: uniform
     alignas(64) AliasTable::Entry entry[kBatchBlock];
     alignas(64) double cell[kBatchBlock];

@@ -20,9 +20,10 @@ namespace lightproof {
 /// Where the points of a batch come from: they are given, or they are those of a stream.
 class BatchPoints {
  public:
+  /// Points that are given; they outlive this.
   explicit BatchPoints(std::span<const SquarePoint> given)
       : given_(given), stream_("", 0), first_(0), is_stream_(false) {}
-  /// The points first, first + 1, … of the stream.
+  /// The points first, first + 1, … of a stream.
   BatchPoints(const RandomStream& stream, std::uint64_t first)
       : stream_(stream), first_(first), is_stream_(true) {}
 
@@ -36,27 +37,29 @@ class BatchPoints {
   bool is_stream_;
 };
 
-/// Samples between two fetches of points.
+/// How many samples are drawn between two fetches of points.
 inline constexpr std::size_t kBatchBlock = 64;
 
 /// Samples as directions, each number in an array of its own; all of one size.
 struct DirectionBatch {
-  std::span<double> x;  ///< of the unit vectors
-  std::span<double> y;
-  std::span<double> z;
-  std::span<double> pdf;           ///< per steradian
-  std::span<std::int32_t> column;  ///< of the texels
-  std::span<std::int32_t> row;
+  std::span<double> x;             ///< x of the unit vectors
+  std::span<double> y;             ///< y of the unit vectors
+  std::span<double> z;             ///< z of the unit vectors
+  std::span<double> pdf;           ///< density of each direction, per steradian
+  std::span<std::int32_t> column;  ///< column of each sample's texel
+  std::span<std::int32_t> row;     ///< row of each sample's texel
 
   std::size_t size() const { return pdf.size(); }
 };
 
-/// Where a batch goes.
+/// Where the samples of a batch go: as points of the map or as directions.
 using BatchOutput = std::variant<std::span<TexelSample>, DirectionBatch>;
 
+/// Writes a sample as the i-th of a batch.
 inline void put(const TexelSample& sample, std::size_t i, std::span<TexelSample> samples) {
   samples[i] = sample;
 }
+/// Writes a sample as the i-th direction of a batch.
 inline void put(const TexelSample& sample, std::size_t i, const DirectionBatch& directions) {
   const Direction direction = direction_from_square(sample.at);
   directions.x[i] = direction.x;
@@ -95,15 +98,16 @@ std::size_t sample(const Sampler& sampler, std::span<const SquarePoint> points,
   return draw_batch(sampler, BatchPoints(points), samples);
 }
 
-/// Draws samples[i] at the point first + i of the stream.
+/// Draws samples[i] at the point first + i of the stream. Returns how many samples vectors drew.
 template <EnvSampler Sampler>
 std::size_t sample(const Sampler& sampler, const RandomStream& stream, std::uint64_t first,
                    std::span<TexelSample> samples) {
   return draw_batch(sampler, BatchPoints(stream, first), samples);
 }
 
-/// The same as directions: those of the samples' positions and their densities per steradian, to
-/// some roundings.
+/// Draws samples at the points first, first + 1, … of the stream as directions: those of their
+/// positions and their densities per steradian, to some roundings. Returns how many samples vectors
+/// drew.
 template <EnvSampler Sampler>
 std::size_t sample_directions(const Sampler& sampler, const RandomStream& stream,
                               std::uint64_t first, const DirectionBatch& directions) {

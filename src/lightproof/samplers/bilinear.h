@@ -24,18 +24,24 @@ namespace lightproof {
 /// H + 1 along, with half rows at the poles that are constant in t.
 class BilinearPatches {
  public:
-  /// Luminances that a float cannot tell from 0 are 0. Throws InputError if all are.
+  /// Keeps the map's luminances as floats; those that a float cannot tell from 0 are 0. Throws
+  /// InputError if all are.
   BilinearPatches(const EnvironmentMap& map, TargetDensity target);
 
-  /// In patches.
+  /// How many patches there are across and along.
   Extent extent() const { return {texels().width + 1, texels().height + 1}; }
+  /// Extent of the map in texels.
   Extent texels() const { return luminance_.extent(); }
-  /// ∫ of the interpolated luminance: over the square under A, in steradian under B.
+  /// ∫ of the interpolated luminance over each patch: over the square under A, in steradian under
+  /// B.
   Grid<double> weights() const;
-  /// The sample in patch (column, row), which is drawn with probability `mass`, below which lie
-  /// these shares of the patch: along of its mass, across of that at the same t.
+  /// The sample in patch (column, row), which is drawn with probability `mass`, at the point below
+  /// whose t lies the share `along` of the patch's mass, and to the left of which lies the share
+  /// `across` of the mass at that t.
   TexelSample sample(int column, int row, double across, double along, double mass) const;
+  /// The column of patches that this s lies in.
   int column_of(double s) const;
+  /// The row of patches that this t lies in.
   int row_of(double t) const;
   /// Density over the square at `at`, in this patch of probability `mass`.
   PerSquare pdf(int column, int row, double mass, SquarePoint at) const {
@@ -54,7 +60,8 @@ class BilinearPatches {
   static Part part(int index, int count) {
     return {index == 0 ? 0.5 : 0.0, index == 0 || index == count ? 0.5 : 1.0};
   }
-  /// Of the part that is covered, for the way from one centre to the next.
+  /// The share of a covered part that lies before a position on the way from one centre to the
+  /// next.
   static double share_of_part(double way, Part covered) {
     return std::clamp((way - covered.begin) / covered.length, 0.0, 1.0);
   }
@@ -74,7 +81,7 @@ class BilinearPatches {
   Row weigh(int row) const;
   /// The sine along a row, from its edge at the nearer pole.
   LinearTimesSine from_pole(int row) const;
-  /// Mirrored, where the inverse would lose precision.
+  /// Whether a row is mirrored, as the inverse would lose precision there.
   bool is_upper(int row) const { return 2 * row > texels().height; }
   Corners corners(int column, int row) const;
   double integral(const Corners& corners, int column, int row) const {
@@ -91,6 +98,7 @@ class BilinearPatches {
   std::vector<Row> rows_;
 };
 
+/// The sampler whose density is the bilinear look-up.
 class Bilinear {
  public:
   /// Draws the bilinear look-up. Throws InputError if the map is black.

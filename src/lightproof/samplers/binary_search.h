@@ -6,9 +6,9 @@
 
 namespace lightproof {
 
-/// Halves the range. Which half is chosen by arithmetic, not by a branch: the outcome is random, so
-/// a processor would mispredict every second one. What a guessed branch would have read ahead is
-/// prefetched instead, for both outcomes.
+/// The index of the cell that u lies in, by halving the range. Which half is chosen by arithmetic,
+/// not by a branch: the outcome is random, so a processor would mispredict every second one. What a
+/// guessed branch would have read ahead is prefetched instead, for both outcomes.
 inline int search_by_bisection(CdfEntries entries, std::uint32_t u) {
   const std::uint32_t* cell = entries.data();
   for (std::size_t cells = entries.size() - 1; cells > 1;) {
@@ -21,6 +21,7 @@ inline int search_by_bisection(CdfEntries entries, std::uint32_t u) {
   return static_cast<int>(cell - entries.data());
 }
 
+/// The CDF entries of a table, searched by bisection.
 class BisectedEntries : public SortedEntries<search_by_bisection> {
  public:
   using SortedEntries::SortedEntries;
@@ -32,7 +33,8 @@ using BinarySearch = CdfInversion<BisectedEntries>;
 using BinarySearchView = CdfInversionView<BisectedEntries::View>;
 static_assert(EnvSampler<BinarySearch>);
 
-/// Whole vectors of a batch; returns how many samples these are.
+/// Draws a batch by vectors, as many whole ones as fit, from the front. Returns how many samples
+/// these are.
 std::size_t sample_vectors(const BinarySearchView& table, const BatchPoints& points,
                            const BatchOutput& output);
 

@@ -11,17 +11,17 @@
 
 namespace lightproof {
 
-/// The cell of a distribution that u lies in: low <= u < high, its CDF entries.
-/// The CDF entries come first: a pair that is read at once is then returned in one register, and
+/// The cell of a distribution that a number u lies in: low <= u < high, its CDF entries in units of
+/// 2^-31. They come first: a pair that is read at once is then returned in one register, and
 /// does not take a way through memory whose parts the processor would wait for.
 struct CdfCell {
   std::uint32_t low;
   std::uint32_t high;
   int index;
 
-  /// Mass in units of 2^-31.
+  /// The cell's mass in units of 2^-31.
   double units() const { return static_cast<double>(high - low); }
-  /// Of the way through the cell's mass, in [0,1); u in units of 2^-31.
+  /// How much of the cell's mass lies before u, as a share in [0,1); u in units of 2^-31.
   double fraction(double u) const { return (u - low) / units(); }
 };
 
@@ -43,7 +43,7 @@ struct CdfInversionView {
   TexelPositionsView positions;
 };
 
-/// An inversion sampler. Monotone: it keeps stratification.
+/// The inversion sampler with this way of finding a cell. It is monotone and keeps stratification.
 template <CellFinder Finder>
 class CdfInversion {
  public:
@@ -66,7 +66,7 @@ class CdfInversion {
 
   const CdfTable& table() const { return table_; }
 
-  /// Of finders that show what they keep.
+  /// What the sampler keeps, if its finder shows what it keeps.
   auto view() const requires requires(const Finder& finder) { finder.view(); }
   {
     return CdfInversionView<decltype(finder_.view())>{table_.view(), finder_.view(),
@@ -83,6 +83,7 @@ class CdfInversion {
 
 /// A search of sorted CDF entries, which needs nothing beside them.
 using EntrySearch = int (*)(CdfEntries entries, std::uint32_t u);
+/// The CDF entries of a table as they are, searched by kSearch.
 
 template <EntrySearch kSearch>
 class SortedEntries {

@@ -42,7 +42,7 @@ HWY_INLINE void set_whole(const BlockPoints& points, CdfCells& cells, std::size_
   store(to_int32(scaled_to_entries(points.t + i)), cells.whole_t + i);
 }
 
-/// Of one dimension.
+/// The mass of found cells, in units of 2^-31, and the share of it that lies before the number.
 struct FoundCell {
   Number units;
   Number fraction;

@@ -19,9 +19,9 @@ inline constexpr int kRunTexels = 32;
 
 /// A texel of a run, found by a random number.
 struct RunTexel {
-  int index;
-  double mass;      ///< its share of the run's mass
-  double fraction;  ///< of the way through it, in [0,1)
+  int index;        ///< the texel's place in its run
+  double mass;      ///< the texel's share of the run's mass
+  double fraction;  ///< share of the texel's mass that lies before the random number, in [0,1)
 };
 
 /// Upper CDF entries of a run in units of 1/kOne. From the last texel with mass on they are 1,
@@ -48,7 +48,7 @@ struct alignas(64) RunEntries {
     for (const Integer entry : upper) index += entry <= number ? 1 : 0;
     return index;
   }
-  /// Share of the run's mass.
+  /// Share of the run's mass that a texel has.
   double mass(int index) const { return (high(index) - low(index)) / kOne; }
 
  private:
@@ -64,17 +64,19 @@ class CdfLines {
  public:
   explicit CdfLines(const Grid<double>& weights);
 
-  /// Runs across, and rows.
+  /// How many runs a row has, and how many rows there are.
   Extent extent() const { return extent_; }
+  /// Number of the run in this column of runs and this row.
   std::size_t index(int column, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(extent_.width) +
            static_cast<std::size_t>(column);
   }
+  /// The texel of a run that u, in [0,1), lies in.
   RunTexel find(std::size_t run, double u) const {
     const Narrow& entries = narrow(run);
     return is_wide(entries) ? wide_[wide_index(entries)].find(u) : entries.find(u);
   }
-  /// Share of the run's mass; of a run without any it says nothing.
+  /// Share of its run's mass that a texel has; of a run without mass it says nothing.
   double mass(std::size_t run, int texel) const {
     const Narrow& entries = narrow(run);
     return is_wide(entries) ? wide_[wide_index(entries)].mass(texel) : entries.mass(texel);
@@ -88,7 +90,7 @@ class CdfLines {
   struct View {
     const Narrow* narrow;
     const Wide* wide;
-    int runs;  ///< across
+    int runs;  ///< how many runs a row has
   };
   View view() const { return {&narrow(0), wide_.data(), extent_.width}; }
 
@@ -104,7 +106,7 @@ class CdfLines {
     return entries.upper[0] | std::size_t{entries.upper[1]} << 16U;
   }
 
-  /// Runs that need the longer form.
+  /// How many runs need the longer form.
   std::size_t wide_count() const { return wide_.size() - kBefore; }
 
  private:

@@ -15,18 +15,18 @@ namespace lightproof::HWY_NAMESPACE {
 class CdfLinesKernel {
  public:
   struct Block {
-    alignas(64) std::int64_t offset[kBatchBlock];  ///< of the run, in bytes
+    alignas(64) std::int64_t offset[kBatchBlock];  ///< where the run begins, in bytes
     alignas(
         64) std::int32_t wide[kBatchBlock];  ///< what is looked for, in units of wide CDF entries
-    alignas(64) std::int32_t narrow[kBatchBlock];   ///< and of narrow ones
-    alignas(64) std::int32_t index[kBatchBlock];    ///< of the texel in its run
+    alignas(64) std::int32_t narrow[kBatchBlock];   ///< what is looked for, in units of narrow ones
+    alignas(64) std::int32_t index[kBatchBlock];    ///< place of the texel in its run
     alignas(64) std::int32_t pair[kBatchBlock];     ///< its lower and upper narrow CDF entry
-    alignas(64) std::int64_t entries[kBatchBlock];  ///< the same as wide ones
+    alignas(64) std::int64_t entries[kBatchBlock];  ///< the CDF entries as wide ones
   };
   struct Texel {
     Number index;
     Number mass;      ///< its share of the run's mass
-    Number fraction;  ///< of the way through it
+    Number fraction;  ///< share of its mass that lies before the number
   };
 
   explicit CdfLinesKernel(const CdfLines::View& view) : view_(view) {}

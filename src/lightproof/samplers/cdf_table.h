@@ -17,35 +17,39 @@
 
 namespace lightproof {
 
-/// The CDF entries of a whole distribution: entries[k] is the mass before cell k, entries.back() ==
-/// kCdfOne.
+/// The CDF entries of a distribution, in units of 2^-31: entries[k] is the mass before cell k, and
+/// the last one is kCdfOne.
 using CdfEntries = std::span<const std::uint32_t>;
+/// The probability 1 in units of CDF entries.
 inline constexpr std::uint32_t kCdfOne = 1U << 31U;
 
-/// Probability of a row and of a column in it, both in units of 2^-31.
+/// Probability of a texel, from that of its row and of its column in the row in units of 2^-31.
 inline double cdf_mass(double row, double column) { return 0x1p-62 * row * column; }
 
-/// Writes weights.size() + 1 CDF entries, the last of which is `one`, more than there are weights,
-/// of which there are at most 2^18. All zero if every weight is zero. Returns the sum of the
-/// weights.
+/// Writes the weights.size() + 1 CDF entries of at most 2^18 weights; the last entry is `one`,
+/// which is more than there are weights. All are zero if every weight is zero. Returns the sum of
+/// the weights.
 double quantise_cdf(std::span<const double> weights, std::span<std::uint32_t> entries,
                     std::uint32_t one = kCdfOne);
 
-/// Marginal over rows and conditional over columns of a map's target density.
+/// The CDF entries of a distribution over a grid: of the marginal over rows, and of the conditional
+/// over columns in each row.
 class CdfTable {
  public:
-  /// Throws InputError if the map is black.
+  /// The distribution of texels of a map's target density. Throws InputError if the map is black.
   CdfTable(const EnvironmentMap& map, TargetDensity target);
-  /// Of any cells; one weight is positive.
+  /// The distribution of any cells in proportion to weights, one of which is positive.
   explicit CdfTable(const Grid<double>& weights);
 
   Extent extent() const { return extent_; }
+  /// CDF entries of the rows.
   CdfEntries rows() const { return CdfEntries(rows_).first(entries_of(extent_.height)); }
+  /// CDF entries of the columns in row y.
   CdfEntries columns(int y) const {
     const std::size_t stride = entries_of(extent_.width);
     return {columns_.data() + static_cast<std::size_t>(y) * stride, stride};
   }
-  /// Probability of texel (x, y) as drawn.
+  /// Probability with which cell (x, y) is drawn.
   double mass(int x, int y) const { return cdf_mass(units(rows(), y), units(columns(y), x)); }
   struct View {
     const std::uint32_t* rows;

@@ -24,10 +24,12 @@ struct alignas(64) CacheLine {
 /// with kCdfOne, which no random number reaches.
 class CdfTrees {
  public:
+  /// Makes `count` trees for distributions of so many cells each.
   CdfTrees(std::size_t count, std::size_t cells);
-  /// CDF entries as of CdfTable.
+  /// Sets one tree to the CDF entries of a distribution, as CdfTable gives them.
   void set(std::size_t tree, CdfEntries entries);
-  /// The CDF entries on the way down are the nearest ones on either side.
+  /// The cell of one tree that u lies in. The nearest CDF entries on either side of it stand on the
+  /// way down.
   CdfCell find(std::size_t tree, std::uint32_t u) const {
     const CacheLine* lines = &lines_[tree * lines_per_tree_];
     std::uint32_t low = 0;
@@ -60,6 +62,7 @@ class CdfTrees {
   TableVector<CacheLine> lines_;
 };
 
+/// The CDF entries of a table as trees of rows and of columns.
 class EytzingerEntries {
  public:
   explicit EytzingerEntries(const CdfTable& table);
@@ -84,7 +87,8 @@ using Eytzinger = CdfInversion<EytzingerEntries>;
 using EytzingerView = CdfInversionView<EytzingerEntries::View>;
 static_assert(EnvSampler<Eytzinger>);
 
-/// Whole vectors of a batch; returns how many samples these are.
+/// Draws a batch by vectors, as many whole ones as fit, from the front. Returns how many samples
+/// these are.
 std::size_t sample_vectors(const EytzingerView& table, const BatchPoints& points,
                            const BatchOutput& output);
 

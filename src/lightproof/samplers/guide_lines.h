@@ -12,6 +12,7 @@
 
 namespace lightproof {
 
+/// The sampler by guide tables over rows and runs and a search inside the run.
 class GuideLines {
  public:
   /// Throws InputError if the map is black.
@@ -51,13 +52,14 @@ class GuideLines {
   GuideLines(const Grid<double>& weights, DensitySpace density_space);
 
   CdfLines lines_;
-  CdfTable table_;  ///< of the runs
+  CdfTable table_;  ///< distribution of the runs
   GuidedEntries guides_;
   TexelPositions positions_;
 };
 static_assert(EnvSampler<GuideLines>);
 
-/// Whole vectors of a batch; returns how many samples these are.
+/// Draws a batch by vectors, as many whole ones as fit, from the front. Returns how many samples
+/// these are.
 std::size_t sample_vectors(const GuideLines::View& table, const BatchPoints& points,
                            const BatchOutput& output);
 

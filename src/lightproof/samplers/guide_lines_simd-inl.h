@@ -21,7 +21,7 @@ class GuideLinesKernel {
     CdfLinesKernel::Block lines;
     alignas(64) double across[kBatchBlock];  ///< the run
     alignas(64) double along[kBatchBlock];
-    alignas(64) double mass[kBatchBlock];  ///< of the run
+    alignas(64) double mass[kBatchBlock];  ///< probability of the run
   };
 
   explicit GuideLinesKernel(const GuideLines::View& view)

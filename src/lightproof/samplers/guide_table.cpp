@@ -24,8 +24,7 @@ std::size_t checked(std::size_t cells) {
   if (cells <= kMostCells) return cells;
   throw InputError(
       fmt::format("guide tables have 16-bit numbers: of {} texels or runs of texels in a row or "
-                  "column they can "
-                  "number {}; scale the map down or take another sampler",
+                  "column they can number {}; scale the map down or take another sampler",
                   cells, kMostCells));
 }
 

@@ -14,15 +14,16 @@
 
 namespace lightproof {
 
-/// For each of several distributions of the same number of cells, at most 65536: the cell that
+/// Guide tables of several distributions of the same number of cells, at most 65536: the cell that
 /// every 2^bits-th part of [0,1) begins in.
 class Guides {
  public:
   /// `parts_per_cell` is a power of two: the more there are, the more often the first cell is the
   /// one that is sought, or the next. Throws InputError if there are more than 65536 cells.
   Guides(std::size_t count, std::size_t cells, std::size_t parts_per_cell);
+  /// Sets one guide table to a distribution.
   void set(std::size_t guide, CdfEntries entries);
-  /// Of the distribution that was set with these CDF entries.
+  /// The cell that u lies in, of the distribution to whose CDF entries this guide was set.
   CdfCell find(std::size_t guide, CdfEntries entries, std::uint32_t u) const {
     const View all = view();
     const std::size_t cell = all.find(all.part(guide, u), entries.data(), u);
@@ -31,14 +32,14 @@ class Guides {
 
   struct View {
     unsigned shift;
-    std::size_t parts;  ///< of one guide, and its end
+    std::size_t parts;  ///< numbers of one guide table: a part each, and its end
     const std::uint16_t* first;
 
     /// The part of a guide that u lies in.
     std::size_t part(std::size_t guide, std::uint32_t u) const {
       return guide * parts + (u >> shift);
     }
-    /// By bisection, from a cell of the part on that u lies in or after.
+    /// The cell of a part that u lies in, by bisection from a cell on that u lies in or after.
     std::size_t find_from(std::size_t cell, std::size_t part, const std::uint32_t* entries,
                           std::uint32_t u) const {
       for (std::size_t cells = first[part + 1] - cell + 1; cells > 1;) {
@@ -48,7 +49,8 @@ class Guides {
       }
       return cell;
     }
-    /// One sample at a time: no CDF entry is read, and waited for, where a part has one cell alone.
+    /// The cell of a part that u lies in. No CDF entry is read, and waited for, where the part has
+    /// one cell alone.
     std::size_t find(std::size_t part, const std::uint32_t* entries, std::uint32_t u) const {
       return find_from(first[part], part, entries, u);
     }
@@ -62,9 +64,11 @@ class Guides {
   TableVector<std::uint16_t> first_;
 };
 
+/// Guide tables beside the CDF entries of a table, for its rows and its columns.
 class GuidedEntries {
  public:
-  /// Parts of each cell in the guides of columns; rows are few, and have more.
+  /// Makes the guides of a table; those of columns have so many parts a cell, those of rows, which
+  /// are few, more.
   explicit GuidedEntries(const CdfTable& table, std::size_t parts_per_column = 1);
   CdfCell row(const CdfTable& table, std::uint32_t u) const {
     return rows_.find(0, table.rows(), u);
@@ -89,7 +93,8 @@ using GuideTable = CdfInversion<GuidedEntries>;
 using GuideTableView = CdfInversionView<GuidedEntries::View>;
 static_assert(EnvSampler<GuideTable>);
 
-/// Whole vectors of a batch; returns how many samples these are.
+/// Draws a batch by vectors, as many whole ones as fit, from the front. Returns how many samples
+/// these are.
 std::size_t sample_vectors(const GuideTableView& table, const BatchPoints& points,
                            const BatchOutput& output);
 

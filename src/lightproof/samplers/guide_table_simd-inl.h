@@ -16,7 +16,7 @@ namespace lightproof::HWY_NAMESPACE {
 class GuidedKernel {
  public:
   struct Block : CdfCells {
-    alignas(64) std::int64_t part[kBatchBlock];  ///< of the guides of rows, then of columns
+    alignas(64) std::int64_t part[kBatchBlock];  ///< part of the guides of rows, then of columns
     alignas(64)
         std::int64_t columns[kBatchBlock];  ///< where the CDF entries of the row's columns begin
     alignas(64) std::int64_t first_entry[kBatchBlock];  ///< and where those of a part begin
@@ -90,7 +90,7 @@ class GuidedKernel {
     const std::int32_t* whole;
     const std::int64_t* part;
     std::int64_t* cell;     ///< that the part begins in, then the one that is sought
-    std::int64_t* entries;  ///< of the cell, the lower and the upper one
+    std::int64_t* entries;  ///< the cell's CDF entries, the lower and the upper one
   };
 
   /// Chooses among the first three cells of all parts, then corrects the few samples that lie in

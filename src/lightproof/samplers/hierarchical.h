@@ -15,6 +15,7 @@
 
 namespace lightproof {
 
+/// The sampler by hierarchical warping over a pyramid of sums.
 class Hierarchical {
  public:
   /// Throws InputError if the map is black.
@@ -47,9 +48,9 @@ class Hierarchical {
   /// texels, the first one has at most 2 x 2 sums.
   struct Level {
     Extent extent;
-    bool splits_s;  ///< or the one before it is as wide
-    bool splits_t;
-    std::size_t first;  ///< of its sums
+    bool splits_s;      ///< whether it is wider than the level before it
+    bool splits_t;      ///< whether it is higher than the level before it
+    std::size_t first;  ///< where its sums begin
   };
 
   /// The quarters of a square, and the first one's position. Those that do not exist have no mass.
@@ -77,8 +78,8 @@ class Hierarchical {
 
   struct Split {
     int chosen;
-    double share;  ///< of what was chosen
-    double rest;   ///< of the random number, in [0,1)
+    double share;  ///< probability of what was chosen
+    double rest;   ///< what is left of the random number, in [0,1)
   };
   static Split split(double u, double low, double high) {
     const double share = low / (low + high);
@@ -90,7 +91,7 @@ class Hierarchical {
 
   TexelPositions positions_;
   std::vector<Level> levels_;  ///< from the coarsest to the texels
-  TableVector<float> sums_;    ///< over the mean texel
+  TableVector<float> sums_;    ///< in units of the mean texel
 };
 static_assert(EnvSampler<Hierarchical>);
 

@@ -24,9 +24,9 @@ class LinearTimesSine {
  public:
   LinearTimesSine(double angle, double step) : angle_(angle), step_(step) {}
 
-  /// ∫ from 0 to q. Around the middle of that range, where the sine's even part meets the mean of
-  /// the linear factor, and its odd part the slope: no difference of primitives that would cancel
-  /// in a narrow row.
+  /// ∫ of the density from 0 to q. Expanded around the middle of that range, where the sine's even
+  /// part meets the mean of the linear factor, and its odd part the slope: no difference of
+  /// primitives that would cancel in a narrow row.
   double integral(double low, double high, double q) const {
     const double half = 0.5 * step_ * q;
     const double middle = angle_ + half;
@@ -61,7 +61,7 @@ class LinearTimesSine {
   /// Newton's error is about the square of its last step.
   static constexpr double kSmallStep = 0x1p-30;
 
-  /// As if the product were linear itself; it is not where it is 0 at both ends.
+  /// The solution if the product were linear itself; it is not where it is 0 at both ends.
   double first_guess(double low, double high, double u) const {
     const double first = low * std::sin(angle_);
     const double last = high * std::sin(angle_ + step_);

@@ -7,7 +7,7 @@
 
 namespace lightproof {
 
-/// Walks from the first cell.
+/// The index of the cell that u lies in, by a walk from the first cell on.
 inline int search_by_scan(CdfEntries entries, std::uint32_t u) {
   std::size_t cell = 0;
   while (entries[cell + 1] <= u) ++cell;

@@ -11,6 +11,7 @@
 
 namespace lightproof {
 
+/// The lecture's sampler as it is published, defects and all.
 class LinearScanPublished {
  public:
   /// Refers to the map, which must outlive the sampler. Throws InputError if the map is black.
@@ -18,7 +19,7 @@ class LinearScanPublished {
 
   TexelSample sample(SquarePoint u) const;
   PerSquare pdf(SquarePoint at) const;
-  /// The map itself is the table: 12 bytes a texel.
+  /// Bytes of the table, which is the map itself (12 bytes a texel) and the averages of rows.
   std::size_t table_bytes() const;
 
  private:
@@ -31,7 +32,7 @@ class LinearScanPublished {
   SolidAngleRows solid_angle_rows_;
   glm::vec3 weights_;
   std::vector<float> row_factor_;   ///< 1 under A; the texel's solid angle under B
-  std::vector<float> row_average_;  ///< of the weights
+  std::vector<float> row_average_;  ///< mean of the weights of each row
   float total_average_ = 0.0F;
 };
 

@@ -8,20 +8,21 @@ namespace lightproof {
 
 /// Probabilities around a texel.
 struct TexelMasses {
-  double texel;
-  double run;  ///< of the 32 texels of its row that share a run with it
-  double row;
-  std::size_t texels;  ///< of the map
+  double texel;        ///< probability of the texel
+  double run;          ///< probability of the 32 texels of its row that share a run with it
+  double row;          ///< probability of its row
+  std::size_t texels;  ///< how many texels the map has
 };
 
 /// The parts of a bound on the error of a texel's probability; all 0 for a sampler that claims the
 /// declared density exactly.
 struct MassRounding {
-  double relative = 0.0;    ///< of the texel's own probability
+  double relative = 0.0;    ///< error relative to the texel's own probability
   double of_sums = 0.0;     ///< step of the sums of rows, and of the sums of a row's columns
-  double of_run = 0.0;      ///< of the run's probability
-  double of_average = 0.0;  ///< of the average probability of a texel
+  double of_run = 0.0;      ///< error relative to the run's probability
+  double of_average = 0.0;  ///< error relative to the average probability of a texel
 
+  /// Bound on the error of the texel's probability.
   double bound(const TexelMasses& masses) const {
     const double share = masses.row > 0.0 ? masses.texel / masses.row : 0.0;
     return relative * masses.texel + of_sums * (masses.row + share) + of_run * masses.run +

@@ -24,23 +24,26 @@ namespace lightproof {
 struct PackedAliasLayout {
   unsigned code_bits;
   unsigned threshold_bits;
-  unsigned alias_at;  ///< first bits of the codes and of the threshold
-  unsigned own_at;
-  unsigned threshold_at;
+  unsigned alias_at;      ///< first bit of the alias's code
+  unsigned own_at;        ///< first bit of the own code
+  unsigned threshold_at;  ///< first bit of the threshold
   std::uint64_t alias_mask;
   std::uint64_t code_mask;
-  double unit;  ///< of the threshold
+  double unit;  ///< the share of a column that one unit of the threshold is
 
-  /// As much for the threshold as the other parts of a table of so many texels leave.
+  /// The layout for a table of so many texels; the threshold gets the bits that the other parts
+  /// leave.
   explicit PackedAliasLayout(std::size_t texels);
 };
 
+/// The sampler by an alias table of one word a texel.
 class PackedAlias {
  public:
   /// Throws InputError if the map is black.
   PackedAlias(const EnvironmentMap& map, TargetDensity target);
 
-  /// u.s names the column and the position across, u.t chooses, and gives the position along.
+  /// The sample at a point: u.s names the column of the alias table and the position over s in the
+  /// texel, u.t chooses between the column's two texels and gives the position over t.
   TexelSample sample(SquarePoint u) const {
     const double scaled = u.s * static_cast<double>(words_.size());
     const auto column = static_cast<std::uint64_t>(scaled);
@@ -88,7 +91,8 @@ class PackedAlias {
 };
 static_assert(EnvSampler<PackedAlias>);
 
-/// Whole vectors of a batch; returns how many samples these are.
+/// Draws a batch by vectors, as many whole ones as fit, from the front. Returns how many samples
+/// these are.
 std::size_t sample_vectors(const PackedAlias::View& table, const BatchPoints& points,
                            const BatchOutput& output);
 

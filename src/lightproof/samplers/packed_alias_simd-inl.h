@@ -16,7 +16,7 @@ class PackedAliasKernel {
  public:
   static constexpr int kStages = 2;
   struct Block : BlockPoints {
-    alignas(64) std::int64_t offset[kBatchBlock];  ///< of the column's word, in bytes
+    alignas(64) std::int64_t offset[kBatchBlock];  ///< where the column's word begins, in bytes
     alignas(64) double within[kBatchBlock];        ///< the column
     alignas(64) std::int64_t word[kBatchBlock];
   };

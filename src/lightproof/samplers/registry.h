@@ -21,38 +21,40 @@
 
 namespace lightproof {
 
-/// Visit once per batch, outside the loop.
+/// One of all environment-map samplers. Visit it once per batch, outside the loop.
 using AnySampler =
     std::variant<LinearScanPublished, LinearScan, BinarySearch, Eytzinger, GuideTable, GuideLines,
                  Alias, PackedAlias, AliasLines, Hierarchical, Bilinear>;
 
+/// What is known of a sampler.
 struct SamplerInfo {
   std::string_view name;
   std::string_view source;   ///< paper or lecture
   std::string_view growth;   ///< steps of one sample on a map of S x T texels, up to a constant
-  double (*steps)(Extent);   ///< the same as a function
+  double (*steps)(Extent);   ///< number of steps of one sample on a map of this extent
   LuminanceWeights weights;  ///< the luminance that the sampler declares; Rec. 709: the map's own
   Lookup lookup = Lookup::nearest;  ///< the look-up whose density it declares
-  /// Step of its sums of rows and columns, and of the random numbers that it reads; 0 if it
-  /// searches no such sums.
+  /// Step of the sums of rows and columns that the sampler searches, and of the random numbers that
+  /// it reads; 0 if it searches no such sums.
   double resolution;
   MassRounding (*rounding)(Extent map);  ///< what it declares of the probabilities of texels
   bool monotone;              ///< in u.t along and in u.s across: it keeps stratification
   bool inverts_rows = false;  ///< u.t alone, all its 53 bits, gives the row and the share of it
   bool known_defects;         ///< kept as published, to show what the gate finds
   bool inverts_shared_cdf;    ///< must return the texel of LinearScan for every point
-  /// The map must outlive the sampler. Throws InputError if it is black.
+  /// Builds the sampler of a map, which must outlive it. Throws InputError if the map is black.
   AnySampler (*make)(const EnvironmentMap& map, DensitySpace density_space);
 
-  /// On a map it is on_map() of this.
+  /// The target density that the sampler declares; on a map it is on_map() of this.
   TargetDensity target(DensitySpace density_space) const {
     return {density_space, weights, lookup};
   }
 };
 
+/// All samplers, in the order in which they are shown.
 std::span<const SamplerInfo> samplers();
 
-/// Throws InputError listing the names if there is none of this name.
+/// What is known of the sampler of this name. Throws InputError listing the names if there is none.
 const SamplerInfo& sampler_by_name(std::string_view name);
 
 }  // namespace lightproof

@@ -29,9 +29,10 @@ concept EnvSampler = requires(const T sampler, SquarePoint point) {
   { sampler.table_bytes() } -> std::same_as<std::size_t>;
 };
 
-/// The row of t and the column of s; a coordinate of exactly 1 belongs to the last cell. What lies
-/// outside of [0,1] belongs to the nearer end, infinities too, and what is not a number to cell 0:
-/// whoever must tell these apart looks at the coordinate.
+/// The cell, of `count` equal ones over [0,1], that a coordinate lies in: the row of t or the
+/// column of s. A coordinate of exactly 1 belongs to the last cell. What lies outside of [0,1]
+/// belongs to the nearer end, infinities too, and what is not a number to cell 0: whoever must tell
+/// these apart looks at the coordinate.
 inline int cell_of(double coordinate, int count) {
   // Both in this order: a comparison with what is not a number is false, and std::max then returns
   // its first argument. Converted to an integer before, it would be undefined.

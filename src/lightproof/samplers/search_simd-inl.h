@@ -20,10 +20,10 @@ struct Search {
   const std::int32_t* whole;         ///< what is looked for, in units of 2^-31
   const std::int64_t* distribution;  ///< in which
   std::int64_t* cell;                ///< that it lies in
-  std::int64_t* entries;             ///< of the cell, the lower and the upper one
+  std::int64_t* entries;             ///< the cell's CDF entries, the lower and the upper one
 };
 
-/// Of sorted CDF entries, those of all distributions one after the other.
+/// Bisection of sorted CDF entries, those of all distributions one after the other.
 class BisectionKernel {
  public:
   BisectionKernel(const std::uint32_t* entries, int cells)
@@ -60,7 +60,7 @@ class BisectionKernel {
   std::size_t cells_;
 };
 
-/// Of CdfTrees.
+/// Descent of CdfTrees.
 class TreeKernel {
  public:
   explicit TreeKernel(const CdfTrees::View& trees) : trees_(trees) {}
@@ -88,10 +88,10 @@ class TreeKernel {
  private:
   /// Where the search is, in bytes; the numbers of the nodes stand where the cells will.
   struct Nodes {
-    alignas(64) std::int64_t start[kBatchBlock];  ///< of the tree
+    alignas(64) std::int64_t start[kBatchBlock];  ///< where the tree begins, in bytes
     alignas(64) std::int64_t at[kBatchBlock];
     alignas(64) std::int64_t below[kBatchBlock];  ///< four levels down
-    alignas(64) std::int64_t words[kBatchBlock];  ///< of the nodes, in the lower halves
+    alignas(64) std::int64_t words[kBatchBlock];  ///< the nodes' words, in the lower halves
   };
 
   static HWY_INLINE void place(Nodes& nodes, Int node, std::size_t i) {

@@ -40,14 +40,14 @@ using Int64Tag = hn::ScalableTag<std::int64_t>;
 using Number = hn::Vec<Numbers>;
 using Int = hn::Vec<Int64Tag>;
 using Mask = hn::Mask<Numbers>;
-/// As many 32-bit integers.
+/// A vector of 32-bit integers, as many as one of numbers holds.
 using Int32Tag = hn::Rebind<std::int32_t, Numbers>;
 using Int32s = hn::Vec<Int32Tag>;
 
 HWY_INLINE Number number(double value) { return hn::Set(Numbers(), value); }
 HWY_INLINE Number to_number(Int value) { return hn::ConvertTo(Numbers(), value); }
 HWY_INLINE Int whole(std::int64_t value) { return hn::Set(Int64Tag(), value); }
-/// Of whole numbers from 0 to below 2^52, which are the last bits of their sums with it.
+/// The integers that whole numbers from 0 to below 2^52 are: the last bits of their sums with 2^52.
 HWY_INLINE Int to_whole(Number value) {
   const Int bits = hn::BitCast(Int64Tag(), hn::Add(value, number(0x1p52)));
   return hn::And(bits, whole((std::int64_t{1} << 52U) - 1));
@@ -55,7 +55,7 @@ HWY_INLINE Int to_whole(Number value) {
 HWY_INLINE Int32s to_int32(Number value) { return hn::DemoteTo(Int32Tag(), value); }
 HWY_INLINE Int32s load(const std::int32_t* from) { return hn::Load(Int32Tag(), from); }
 HWY_INLINE void store(Int32s value, std::int32_t* to) { hn::Store(value, Int32Tag(), to); }
-/// Of numbers below 2^32.
+/// The product of numbers below 2^32.
 HWY_INLINE Int product(Int a, std::size_t b) {
   const hn::RepartitionToNarrow<hn::RebindToUnsigned<Int64Tag>> narrow;
   return hn::BitCast(Int64Tag(),
@@ -92,7 +92,7 @@ HWY_INLINE void read_words(const void* base, const std::int64_t* offsets, std::s
   }
 }
 
-/// Of items of two 64-bit words each.
+/// The words of a vector of items of two 64-bit words each.
 struct WordPairs {
   Int first;
   Int second;
@@ -187,7 +187,7 @@ class PositionKernel {
     start_lifetime_as_array<TexelSample>(to, bytes);
   }
 
-  /// The same samples as directions: neither arc sine nor sine of an arc sine is needed.
+  /// Stores samples as directions: neither arc sine nor sine of an arc sine is needed.
   HWY_INLINE void store_samples(Cell cell, Number across, Number along, Number mass,
                                 const DirectionPointers& to) const {
     const Number s = hn::Mul(hn::Add(cell.x, inside(across)), number(view_.texel_width));
@@ -214,7 +214,7 @@ class PositionKernel {
 
   /// A direction but for its azimuth.
   struct Height {
-    Number sine;  ///< of the angle from a pole
+    Number sine;  ///< sine of the angle from a pole
     Number z;
     Number pdf;  ///< per steradian
   };
@@ -241,8 +241,8 @@ class PositionKernel {
   struct HalfAngle {
     Mask upper;           ///< whether the nearer pole is the zenith
     Number row;           ///< counted from it
-    Number span;          ///< of the row
-    Number squared_sine;  ///< of half the angle from it
+    Number span;          ///< the row's span (SolidAngleRows)
+    Number squared_sine;  ///< squared sine of half the angle from the pole
   };
   HWY_INLINE HalfAngle half_angle(Number y, Number fraction) const {
     const Number height = number(view_.extent.height);
@@ -294,7 +294,8 @@ HWY_INLINE void for_vectors(std::size_t count, const Body& body) {
 /// Those samples of a block that something is true of: a byte for every vector.
 class Marks {
  public:
-  /// Of all vectors of a block in turn, from the first on.
+  /// Sets the marks of the vector that begins at sample i; to be called for all vectors of a block
+  /// in turn, from the first on.
   HWY_INLINE void set(std::size_t i, hn::Mask<Int64Tag> mask) {
     static_assert(hn::MaxLanes(Int64Tag()) <= 8);
     std::uint8_t bits[8];

@@ -16,12 +16,12 @@ namespace lightproof {
 /// the neighbour (up to 2^16 cells) or onto a pole.
 inline constexpr double kCellMargin = 0x1p-34;
 
-/// The coordinate in [0,1) at `fraction` of cell `index`, of which each is `size` wide.
+/// The coordinate in [0,1) at `fraction` of the way through cell `index`; each cell is `size` wide.
 inline double position_in_cell(int index, double fraction, double size) {
   return (index + std::clamp(fraction, kCellMargin, 1.0 - kCellMargin)) * size;
 }
 
-/// The same of `count` cells.
+/// The coordinate in [0,1) at `fraction` of the way through cell `index` of `count` equal ones.
 inline double position_in_cell(int index, double fraction, int count) {
   return position_in_cell(index, fraction, 1.0 / count);
 }
@@ -44,14 +44,15 @@ class SolidAngleRows {
     return position_in_cell(y, upper ? 1.0 - within : within, row_height_);
   }
 
-  /// Of row `y`, in steradian.
+  /// Solid angle of a texel of row `y`, in steradian.
   double texel_solid_angle(int y) const {
     return solid_angle_ * spans_[static_cast<std::size_t>(from_pole(y))];
   }
 
-  /// sin^2 of half the angle from the pole where rows begin, counted from it.
+  /// sin^2 of half the angle from the pole at which rows begin, for rows counted from that pole.
   std::span<const double> squared_sines() const { return squared_sines_; }
-  /// By how much it is more where they end.
+  /// By how much sin^2 of half the angle from the pole is more where rows end than where they
+  /// begin.
   std::span<const double> spans() const { return spans_; }
   /// Steradian of a texel whose row has the span 1.
   double solid_angle() const { return solid_angle_; }
@@ -71,15 +72,16 @@ class SolidAngleRows {
 struct TexelPositionsView {
   Extent extent;
   DensitySpace density_space;
-  double texel_width;   ///< of the square
-  double texel_height;  ///< likewise
+  double texel_width;   ///< width of a texel in s
+  double texel_height;  ///< height of a texel in t
   double texels;        ///< how many there are
-  double solid_angle;   ///< see SolidAngleRows
+  double solid_angle;   ///< SolidAngleRows::solid_angle()
   const double* squared_sines;
   const double* spans;
 };
 
-/// Uniform in (s, t) inside a texel under density A, in solid angle under B.
+/// The positions of samples inside their texels: uniform in (s, t) under density A, in solid angle
+/// under B.
 class TexelPositions {
  public:
   TexelPositions(Extent extent, DensitySpace density_space);

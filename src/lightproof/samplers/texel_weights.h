@@ -10,24 +10,26 @@
 
 namespace lightproof {
 
-/// The luminance of every texel; under B times its solid angle. Throws InputError if the
-/// map is black.
+/// The weights of all texels, a grid of the map's extent: their luminance, under B times their
+/// solid angle. Throws InputError if the map is black.
 Grid<double> texel_weights(const EnvironmentMap& map, TargetDensity target);
 
-/// Those of the texels of one row, map.radiance's width of them.
+/// Writes the weights of the texels of row y, as many as the map has columns: their luminance,
+/// under B times their solid angle.
 void weigh_row(const EnvironmentMap& map, TargetDensity target, int y, std::span<double> weights);
 
 /// Weights of cells, >= 0, to be had a block at a time and as often as wanted: stored ones, or
 /// those of a map's texels, which are computed each time (quicker than memory for all of them).
 class CellWeights {
  public:
-  /// Stored weights, which outlive this.
+  /// Weights that are stored, and outlive this.
   explicit(false) CellWeights(std::span<const double> weights);
-  /// As texel_weights(); the map outlives this. Throws InputError if it is black.
+  /// The weights of a map's texels, as texel_weights() gives them; the map outlives this. Throws
+  /// InputError if it is black.
   CellWeights(const EnvironmentMap& map, TargetDensity target);
 
   std::size_t count() const { return count_; }
-  /// Writes those of the cells from `first` on.
+  /// Writes the weights of the cells from `first` on, as many as fit.
   void get(std::size_t first, std::span<double> weights) const { get_(first, weights); }
 
  private:
@@ -35,7 +37,7 @@ class CellWeights {
   std::function<void(std::size_t first, std::span<double> weights)> get_;
 };
 
-/// The error of a map without light.
+/// Refuses a map without light: throws InputError.
 [[noreturn]] void refuse_black(const EnvironmentMap& map);
 
 }  // namespace lightproof

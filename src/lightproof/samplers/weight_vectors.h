@@ -12,9 +12,9 @@
 
 namespace lightproof {
 
-/// weights[i] = area * luminance(texels[i], luminance). There may be more texels than weights:
-/// those that come later in memory and are asked for ahead. Returns how many of the weights vectors
-/// computed.
+/// Writes weights[i] = area * luminance(texels[i], luminance). There may be more texels than
+/// weights: those that come later in memory and are asked for ahead. Returns how many of the
+/// weights vectors computed.
 std::size_t weigh(std::span<const Rgb> texels, LuminanceWeights luminance, double area,
                   std::span<double> weights);
 
@@ -25,12 +25,15 @@ class WeightSums {
   WeightSums();
   explicit WeightSums(std::span<const double> weights) : WeightSums() { add(weights); }
 
-  /// All additions but the last are of a multiple of kLanes.
+  /// Adds weights; all additions but the last must be of a multiple of kLanes. Returns how many of
+  /// them vectors added.
   std::size_t add(std::span<const double> weights);
 
+  /// The sum of all weights.
   double sum() const;
+  /// How many weights are positive.
   std::size_t positive() const;
-  /// Infinite if none is positive.
+  /// The least positive weight; infinite if none is positive.
   double least_positive() const;
 
   static constexpr std::size_t kLanes = 8;
@@ -46,14 +49,14 @@ class WeightSums {
 
 /// How weights become whole numbers.
 struct FixedPoint {
-  double scale;
-  std::int64_t least;  ///< that a positive weight gives
-  std::int64_t more;   ///< that a positive weight gives besides
+  double scale;        ///< what weights are multiplied by
+  std::int64_t least;  ///< what a positive weight gives at least
+  std::int64_t more;   ///< what a positive weight gives besides
 };
 
-/// fixed[i] = scale * weights[i], rounded to the nearest whole number, of two the higher, below
-/// 2^62; at least `least`, and `more` beside it, if the weight is positive. Both spans are of one
-/// size.
+/// Writes fixed[i] = scale * weights[i], rounded to the nearest whole number, of two the higher,
+/// below 2^62; at least `least`, and `more` beside it, if the weight is positive. Both spans are of
+/// one size. Returns how many of them vectors did.
 std::size_t to_fixed_point(std::span<const double> weights, const FixedPoint& form,
                            std::span<std::int64_t> fixed);
 
@@ -62,11 +65,13 @@ struct Balance {
   std::uint64_t lack;
   std::uint64_t excess;
 
-  /// Of further numbers, all below 2^62; both sums stay below 2^64.
+  /// Adds what further numbers, all below 2^62, lack of `full` and have above it; both sums stay
+  /// below 2^64. Returns how many of the numbers vectors added.
   std::size_t add(std::span<const std::uint64_t> numbers, std::uint64_t full);
 };
 
-/// As Balance::add.
+/// What numbers below 2^62 lack of `full`, in sum, and what they have above it; both sums stay
+/// below 2^64.
 Balance balance_of(std::span<const std::uint64_t> numbers, std::uint64_t full);
 
 }  // namespace lightproof

@@ -10,18 +10,19 @@
 
 namespace lightproof {
 
+/// How the calibration of p-values is measured.
 struct CalibrationOptions {
   std::uint64_t seed = 1;
   std::uint64_t replicates = 10000;  ///< p-values for each test
   std::uint64_t samples = 4096;      ///< behind each p-value
   std::uint64_t runs = 1000;         ///< whole runs of the gate
-  std::uint64_t run_samples = 4096;
-  double family_alpha = 0.05;    ///< scaled up, so that false alarms can be counted
-  double screening_level = 0.3;  ///< likewise: at 1e-3 hardly a run has a second stage
+  std::uint64_t run_samples = 4096;  ///< samples of each such run
+  double family_alpha = 0.05;        ///< scaled up, so that false alarms can be counted
+  double screening_level = 0.3;      ///< scaled up: at 1e-3 hardly a run has a second stage
 };
 
 /// Draws from a distribution whose masses are known to the last bit, by inversion in double, and
-/// keeps what the gate's tests make of it. The same bits for any number of threads.
+/// keeps what the gate's tests make of it. The number of threads changes no bit.
 CalibrationResult calibrate(const CalibrationOptions& options, const Progress& progress = {});
 
 }  // namespace lightproof

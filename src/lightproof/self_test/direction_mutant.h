@@ -9,15 +9,17 @@
 
 namespace lightproof {
 
+/// A sampler of directions with one injected defect.
 struct DirectionMutant {
   DirectionSampler sampler;    ///< its description names the defect, its distribution is the claim
   std::string_view diagnosis;  ///< what the gate should say that it looks like
   Oracle oracle;               ///< the oracle that must reject it
 };
 
+/// All mutants of warps and materials.
 std::vector<DirectionMutant> direction_mutants();
 
-/// The samplers alone.
+/// The samplers of direction_mutants().
 std::vector<DirectionSampler> direction_mutant_samplers();
 
 }  // namespace lightproof

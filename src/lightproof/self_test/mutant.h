@@ -23,20 +23,21 @@ struct Mutant {
   std::string_view distribution = {};
   /// The random numbers that are used in place of the i-th of a batch.
   SquarePoint (*numbers)(std::span<const SquarePoint> batch, std::size_t i) = nullptr;
-  /// In place of DiscreteSampler::sample.
+  /// What is called in place of DiscreteSampler::sample.
   TexelSample (*draw)(const DiscreteSampler&, SquarePoint u) = nullptr;
-  /// Applied to what was drawn.
+  /// What is done to every sample that was drawn.
   void (*sample)(TexelSample&, const DiscreteSampler&) = nullptr;
-  /// In place of DiscreteSampler::pdf, for the density asked for; returned densities are not
-  /// touched.
+  /// What is called in place of DiscreteSampler::pdf, for the density asked for; returned densities
+  /// are not touched.
   PerSquare (*pdf)(const DiscreteSampler&, SquarePoint) = nullptr;
-  /// Of all densities, returned and asked for.
+  /// The factor by which all densities are wrong, returned and asked for.
   double (*pdf_factor)(const DiscreteSampler&) = nullptr;
 };
 
+/// All mutants of samplers of maps, in the order in which they are shown.
 std::span<const Mutant> mutants();
 
-/// Under a density (A or B); declares Rec. 709 luminance.
+/// A mutant as a sampler under test, under a density (A or B); it declares Rec. 709 luminance.
 SamplerUnderTest sampler_under_test(const Mutant& mutant, DensitySpace density_space);
 
 }  // namespace lightproof

@@ -1,45 +1,12 @@
 // The table of mutants: those of the literature and of old bug reports first, then mistakes that a
 // tired programmer makes.
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
+#include "lightproof/self_test/injected_defects.h"
 #include "lightproof/self_test/mutant.h"
-#include "lightproof/warp/lat_long.h"
 
 namespace lightproof {
 namespace {
-
-/// Moves a sample to another texel, to the same position inside it.
-void move_by(TexelSample& sample, Extent map, int columns, int rows) {
-  sample.x += columns;
-  sample.y += rows;
-  sample.at.s += static_cast<double>(columns) / map.width;
-  sample.at.t += static_cast<double>(rows) / map.height;
-}
-
-void flip_t(TexelSample& sample, Extent map) {
-  sample.at.t = 1.0 - sample.at.t;
-  sample.y = map.height - 1 - sample.y;
-}
-
-SquarePoint upside_down(SquarePoint at) { return {at.s, 1.0 - at.t}; }
-
-PerSquare times(PerSquare p, double factor) { return {p.value * factor}; }
-
-/// The lowest bits that a 16-bit random number does not have.
-double coarse(double u) { return std::floor(u * 0x1p16) * 0x1p-16; }
-
-/// The first cell whose upper edge is not below u, as std::lower_bound finds it.
-int lower_bound_of(std::span<const double> sums, double u) {
-  const auto found = std::lower_bound(sums.begin(), sums.end(), u);
-  return static_cast<int>(std::min(found, sums.end() - 1) - sums.begin());
-}
-
-bool is_pole_row(const TexelSample& sample, const DiscreteSampler& distribution) {
-  return sample.y == 0 || sample.y == distribution.extent().height - 1;
-}
 
 constexpr std::array kMutants = {
     Mutant{.name = "no-sine",
@@ -66,8 +33,7 @@ constexpr std::array kMutants = {
            .defect = "t flipped in sample() only",
            .diagnosis = "upside-down",
            .oracle = Oracle::self,
-           .sample = [](TexelSample& s,
-                        const DiscreteSampler& distribution) { flip_t(s, distribution.extent()); }},
+           .sample = defects::flip_t},
     Mutant{.name = "t-flipped-in-both",
            .defect = "t flipped in sample() and pdf()",
            .diagnosis = "upside-down",
@@ -125,44 +91,22 @@ constexpr std::array kMutants = {
            .defect = "one random number for both dimensions",
            .diagnosis = "same-number",
            .oracle = Oracle::reference,
-           .numbers =
-               [](std::span<const SquarePoint> batch, std::size_t i) {
-                 return SquarePoint{batch[i].t, batch[i].t};
-               }},
+           .numbers = defects::t_for_both},
     Mutant{.name = "uniform-in-sample",
            .defect = "1 % uniform samples that pdf() does not know",
            .diagnosis = "uniform-mixed-in",
            .oracle = Oracle::self,
-           .sample =
-               [](TexelSample& s, const DiscreteSampler& distribution) {
-                 // Every hundredth of the positions inside a texel goes to a position chosen by its
-                 // digits.
-                 const double within = s.at.s * distribution.extent().width - s.x;
-                 const double stretched = within * 100.0;
-                 if (stretched >= 1.0) return;
-                 const double across = stretched * distribution.extent().width;
-                 const double down = (across - std::floor(across)) * distribution.extent().height;
-                 s.x = static_cast<int>(across);
-                 s.y = static_cast<int>(down);
-                 s.at = {position_in_cell(s.x, 0.5, distribution.extent().width),
-                         position_in_cell(s.y, 0.5, distribution.extent().height)};
-               }},
+           .sample = defects::mix_in_uniform_samples},
     Mutant{.name = "16-bit-random",
            .defect = "random numbers of 16 bits",
            .diagnosis = "coarse-numbers",
            .oracle = Oracle::check,
-           .numbers =
-               [](std::span<const SquarePoint> batch, std::size_t i) {
-                 return SquarePoint{coarse(batch[i].s), coarse(batch[i].t)};
-               }},
+           .numbers = defects::sixteen_bits},
     Mutant{.name = "16-bit-conditional",
            .defect = "random numbers of 16 bits for the columns only",
            .diagnosis = "coarse-numbers",
            .oracle = Oracle::check,
-           .numbers =
-               [](std::span<const SquarePoint> batch, std::size_t i) {
-                 return SquarePoint{coarse(batch[i].s), batch[i].t};
-               }},
+           .numbers = defects::sixteen_bits_of_s},
     Mutant{.name = "pi-squared",
            .defect = "pi^2 sin(theta) for 2 pi^2 sin(theta)",
            .diagnosis = "pdf-scaled",
@@ -182,27 +126,12 @@ constexpr std::array kMutants = {
            .diagnosis = "wrong-at-cdf-entries",
            .oracle = Oracle::check,
            .needs = "texels without light",
-           .draw =
-               [](const DiscreteSampler& distribution, SquarePoint u) {
-                 const int row = lower_bound_of(distribution.rows(), u.t);
-                 const int column = lower_bound_of(distribution.columns().row(row), u.s);
-                 const TexelSample upper = distribution.sample(u);
-                 if (upper.x == column && upper.y == row) return upper;
-                 const SquarePoint at = {position_in_cell(column, 1.0, distribution.extent().width),
-                                         position_in_cell(row, 1.0, distribution.extent().height)};
-                 return TexelSample{at, column, row, distribution.pdf(at)};
-               }},
+           .draw = defects::draw_by_lower_bound},
     Mutant{.name = "cdf-ends-early",
            .defect = "the sums of a row end a millionth below 1: the rest runs off the map",
            .diagnosis = "off-the-map",
            .oracle = Oracle::check,
-           .draw =
-               [](const DiscreteSampler& distribution, SquarePoint u) {
-                 constexpr double kEnd = 1.0 - 0x1p-20;
-                 TexelSample drawn = distribution.sample({std::min(u.s / kEnd, kEnd), u.t});
-                 if (u.s >= kEnd) drawn.x = distribution.extent().width;
-                 return drawn;
-               }},
+           .draw = defects::draw_from_sums_that_end_early},
     Mutant{.name = "phi-wrap",
            .defect = "phi in [0, 2 pi) taken for phi in [-pi, pi)",
            .diagnosis = "half-turn",
@@ -212,43 +141,23 @@ constexpr std::array kMutants = {
            .defect = "half a texel added in sample() only",
            .diagnosis = "half-texel",
            .oracle = Oracle::self,
-           .sample =
-               [](TexelSample& s, const DiscreteSampler& distribution) {
-                 s.at.s = std::fmod(s.at.s + 0.5 / distribution.extent().width, 1.0);
-                 s.x = cell_of(s.at.s, distribution.extent().width);
-               }},
+           .sample = defects::add_half_a_texel},
     Mutant{.name = "first-row-at-zero",
            .defect = "u = 0 gives row 0, lit or not",
            .diagnosis = "wrong-at-cdf-entries",
            .oracle = Oracle::check,
            .needs = "a first row without light",
-           .draw =
-               [](const DiscreteSampler& distribution, SquarePoint u) {
-                 TexelSample drawn = distribution.sample(u);
-                 if (u.t > 0.0) return drawn;
-                 drawn.at.t = position_in_cell(0, 0.0, distribution.extent().height);
-                 drawn.y = 0;
-                 drawn.pdf = distribution.pdf(drawn.at);
-                 return drawn;
-               }},
+           .draw = defects::draw_first_row_at_zero},
     Mutant{.name = "nan-at-pole",
            .defect = "0/0 in the rows of the poles",
            .diagnosis = "off-the-map",
            .oracle = Oracle::check,
-           .sample =
-               [](TexelSample& s, const DiscreteSampler& distribution) {
-                 if (is_pole_row(s, distribution))
-                   s.pdf = {std::numeric_limits<double>::quiet_NaN()};
-               }},
+           .sample = defects::lose_pdf_in_pole_rows},
     Mutant{.name = "interpolated-in-u",
            .defect = "the position in the texel is that of u, not of the rest of its mass",
            .diagnosis = "uneven-in-texel",
            .oracle = Oracle::reference,
-           .sample =
-               [](TexelSample& s, const DiscreteSampler& distribution) {
-                 const double within = s.at.s * distribution.extent().width - s.x;
-                 s.at.s = position_in_cell(s.x, within * within, distribution.extent().width);
-               }},
+           .sample = defects::square_position_in_texel},
     Mutant{.name = "rotated-in-both",
            .defect = "a quarter turn of the map applied forwards in sample and pdf",
            .diagnosis = "quarter-turn",
@@ -275,20 +184,12 @@ constexpr std::array kMutants = {
            .defect = "s of every sample drawn with the number of the t before it",
            .diagnosis = "dependent-samples",
            .oracle = Oracle::reference,
-           .numbers =
-               [](std::span<const SquarePoint> batch, std::size_t i) {
-                 return SquarePoint{i > 0 ? batch[i - 1].t : batch[i].s, batch[i].t};
-               }},
+           .numbers = defects::s_from_last_t},
     Mutant{.name = "antithetic",
            .defect = "every second sample antithetic to the one before it",
            .diagnosis = "dependent-samples",
            .oracle = Oracle::reference,
-           .numbers =
-               [](std::span<const SquarePoint> batch, std::size_t i) {
-                 if (i % 2 == 0) return batch[i];
-                 constexpr double kLast = 1.0 - 0x1p-53;
-                 return SquarePoint{kLast - batch[i - 1].s, kLast - batch[i - 1].t};
-               }},
+           .numbers = defects::antithetic_to_the_one_before},
     Mutant{.name = "one-texel-missing",
            .defect = "one texel of six times the median set to zero in the table and in pdf()",
            .diagnosis = "one-texel-missing",
@@ -298,20 +199,7 @@ constexpr std::array kMutants = {
            .defect = "in the rows of the poles uniform in cos(theta) where t is declared, or in t",
            .diagnosis = "uneven-in-texel",
            .oracle = Oracle::reference,
-           .sample =
-               [](TexelSample& s, const DiscreteSampler& distribution) {
-                 if (!is_pole_row(s, distribution)) return;
-                 const int height = distribution.extent().height;
-                 const double within = s.at.t * height - s.y;
-                 // A row of the poles counted from the pole: its solid angle grows with the square
-                 // of the angle there.
-                 const double from_pole = 2 * s.y < height ? within : 1.0 - within;
-                 const double moved = distribution.density_space() == DensitySpace::texture
-                                          ? std::sqrt(from_pole)
-                                          : from_pole * from_pole;
-                 s.at.t = position_in_cell(s.y, 2 * s.y < height ? moved : 1.0 - moved, height);
-                 s.pdf = distribution.pdf(s.at);
-               }},
+           .sample = defects::change_measure_in_pole_rows},
     // Of our own.
     Mutant{.name = "columns-of-next-row",
            .defect = "columns drawn from the next row's sums",
@@ -342,47 +230,28 @@ constexpr std::array kMutants = {
            .defect = "always the centre of the texel",
            .diagnosis = "uneven-in-texel",
            .oracle = Oracle::reference,
-           .sample =
-               [](TexelSample& s, const DiscreteSampler& distribution) {
-                 s.at = {position_in_cell(s.x, 0.5, distribution.extent().width),
-                         position_in_cell(s.y, 0.5, distribution.extent().height)};
-                 s.pdf = distribution.pdf(s.at);
-               }},
+           .sample = defects::move_to_centre},
     Mutant{.name = "pdf-of-neighbour",
            .defect = "the density of the next column returned",
            .diagnosis = "pdf-of-another-position",
            .oracle = Oracle::check,
-           .sample =
-               [](TexelSample& s, const DiscreteSampler& distribution) {
-                 const double s_next = std::fmod(s.at.s + 1.0 / distribution.extent().width, 1.0);
-                 const PerSquare next = distribution.pdf({s_next, s.at.t});
-                 if (next.value > 0.0) s.pdf = next;
-               }},
-    Mutant{
-        .name = "pdf-per-steradian",
-        .defect = "a density per steradian returned as one over the square",
-        .diagnosis = "pdf-of-another-measure",
-        .oracle = Oracle::check,
-        .sample = [](TexelSample& s,
-                     const DiscreteSampler&) { s.pdf = {to_solid_angle(s.pdf, s.at).value}; },
-        .pdf =
-            [](const DiscreteSampler& distribution, SquarePoint at) {
-              return PerSquare{to_solid_angle(distribution.pdf(at), at).value};
-            }},
+           .sample = defects::return_pdf_of_next_column},
+    Mutant{.name = "pdf-per-steradian",
+           .defect = "a density per steradian returned as one over the square",
+           .diagnosis = "pdf-of-another-measure",
+           .oracle = Oracle::check,
+           .sample = defects::return_pdf_per_steradian,
+           .pdf = defects::pdf_per_steradian},
     Mutant{.name = "pdf-upside-down",
            .defect = "t flipped in pdf() only",
            .diagnosis = "upside-down",
            .oracle = Oracle::check,
-           .pdf = [](const DiscreteSampler& distribution,
-                     SquarePoint at) { return distribution.pdf(upside_down(at)); }},
+           .pdf = defects::pdf_upside_down},
     Mutant{.name = "noisy-weights",
            .defect = "densities 10 % too small and too large by turns",
            .diagnosis = "pdf-mismatch",
            .oracle = Oracle::check,
-           .sample =
-               [](TexelSample& s, const DiscreteSampler&) {
-                 s.pdf = times(s.pdf, s.x % 2 == 0 ? 1.0 / 1.1 : 1.0 / 0.9);
-               }},
+           .sample = defects::make_pdf_noisy},
     Mutant{.name = "weights-2-percent-off",
            .defect = "densities 2 % too large, in both",
            .diagnosis = "pdf-scaled",
@@ -392,30 +261,17 @@ constexpr std::array kMutants = {
            .defect = "every random number used four times",
            .diagnosis = "repeated-numbers",
            .oracle = Oracle::reference,
-           .numbers = [](std::span<const SquarePoint> batch,
-                         std::size_t i) { return batch[i - i % 4]; }},
+           .numbers = defects::each_four_times},
     Mutant{.name = "stratified",
            .defect = "jittered points, one in each of 32x32 strata, passed off as independent",
            .diagnosis = "stratified",
            .oracle = Oracle::reference,
-           .numbers =
-               [](std::span<const SquarePoint> batch, std::size_t i) {
-                 constexpr std::size_t kStrata = 32;
-                 return SquarePoint{
-                     (static_cast<double>(i % kStrata) + batch[i].s) / kStrata,
-                     (static_cast<double>(i / kStrata % kStrata) + batch[i].t) / kStrata};
-               }},
+           .numbers = defects::jittered},
     Mutant{.name = "one-texel-moved",
            .defect = "one texel's samples go to its neighbour",
            .diagnosis = "one-texel",
            .oracle = Oracle::reference,
-           .sample =
-               [](TexelSample& s, const DiscreteSampler& distribution) {
-                 const Extent map = distribution.extent();
-                 const TexelSample& one = distribution.median();
-                 if (s.x != one.x || s.y != one.y) return;
-                 move_by(s, map, s.x + 1 < map.width ? 1 : -1, 0);
-               }},
+           .sample = defects::move_one_texel},
 };
 
 }  // namespace

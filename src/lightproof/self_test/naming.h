@@ -11,14 +11,16 @@
 
 namespace lightproof {
 
+/// How it is measured what mutants are called.
 struct NamingOptions {
-  std::uint64_t seed = 1;  ///< the first of `seeds` in a row
-  std::uint64_t seeds = 3;
+  std::uint64_t seed = 1;   ///< the first seed
+  std::uint64_t seeds = 3;  ///< how many seeds in a row
   std::uint64_t samples = std::uint64_t{1} << 17U;
 };
 
-/// Every mutant of maps under both densities on every map, with every seed; those that the gate
-/// accepts there are in no count: the samples were too few, or the map lacks what the defect needs.
+/// What every mutant of maps is called under both densities on every map, with every seed. Those
+/// that the gate accepts are in no count: the samples were too few, or the map lacks what the
+/// defect needs.
 std::vector<NamingRecord> measure_naming(std::span<const MapRecord> maps,
                                          const NamingOptions& options,
                                          const Progress& progress = {});

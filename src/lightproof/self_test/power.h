@@ -11,9 +11,10 @@
 
 namespace lightproof {
 
+/// How power is measured.
 struct PowerOptions {
   std::uint64_t seed = 1;
-  std::uint64_t replicates = 1000;  ///< for each point
+  std::uint64_t replicates = 1000;  ///< replicates of each record
 };
 
 /// Injects defects as large as the gate says that it detects, and lets it judge them with both of

@@ -10,8 +10,9 @@
 
 namespace lightproof {
 
-/// Mutants, calibration and power, and the names that the gate gives to mutants on these maps, as
-/// the report shows them. Every map adds a run of the gate on all mutants.
+/// Measures what mutants, calibration and power come to, and the names that the gate gives to
+/// mutants on these maps, as the report shows them. Every map adds a run of the gate on all
+/// mutants.
 SelfTestResult run_self_test(std::span<const MapRecord> maps, std::uint64_t seed,
                              const Progress& progress = {});
 

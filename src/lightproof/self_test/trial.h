@@ -13,14 +13,14 @@
 
 namespace lightproof {
 
-/// What trials declare.
+/// The target density that trials declare.
 inline constexpr TargetDensity kTrialTarget = {DensitySpace::solid_angle, kRec709};
 
 /// A distribution whose bins are all likely enough to be tested alone, and a sampler of masses that
 /// may be another's.
 struct Trial {
   std::shared_ptr<const Expectation> expectation;
-  Grid<double> drawn;  ///< masses of texels
+  Grid<double> drawn;  ///< masses of texels that are drawn
   Inspection inspection;
   TestCase test_case;
 
@@ -32,10 +32,10 @@ struct Trial {
 /// either direction.
 EnvironmentMap calibration_map();
 
-/// Draws what it declares.
+/// A trial that draws what it declares.
 Trial correct_trial();
 
-/// The first stage's tests of fresh samples.
+/// The tests of the first stage on samples drawn anew.
 std::vector<Measured> run_once(const Trial& trial, std::uint64_t samples, std::uint64_t seed);
 
 /// Runs body(0) … body(count-1) in parallel and tells how far it is.

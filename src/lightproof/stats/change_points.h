@@ -38,19 +38,20 @@ inline constexpr std::size_t kShortestLevel = 5;
 
 /// Two levels that follow each other.
 struct ChangePoint {
-  std::size_t first = 0;  ///< the place of the first value of the new level
+  std::size_t first = 0;  ///< index in the series of the first value of the new level
   double ratio = 1.0;     ///< median of the new level / median of the old one
-  double log10_p = 0.0;   ///< that a series of one level seems to step so clearly, anywhere
+  double log10_p = 0.0;   ///< log10 P(a series of one level seems to step so clearly, anywhere)
 };
 
+/// What counts as a change of level.
 struct ChangeRule {
   double alpha = 0.05;        ///< probability of any change in any series if there is none in any
-  double least_ratio = 1.05;  ///< of the larger median to the smaller one
+  double least_ratio = 1.05;  ///< least ratio of the larger median to the smaller one
 };
 
 /// The changes of each of several series of positive values, in ascending order. Holm's procedure
 /// (see stats/family.h) decides which series have any, so that alpha holds for all of them
-/// together. The same for any number of threads.
+/// together. They do not depend on the number of threads.
 std::vector<std::vector<ChangePoint>> change_points(std::span<const std::vector<double>> series,
                                                     const ChangeRule& rule);
 

@@ -7,9 +7,9 @@
 
 namespace lightproof {
 
-/// Which of the tests Holm's step-down procedure (1979) rejects at family-wise error `alpha`,
-/// given the base-10 logarithms of their p-values. Valid under any dependence. Same order as the
-/// input. `family` tests share the error, if they are more than these: the others count as not
+/// Which of the tests Holm's step-down procedure (1979) rejects at the family-wise error `alpha`,
+/// in the order of the decimal logarithms of their p-values as they are given. Valid under any
+/// dependence. `family` tests share the error, if they are more than these: the others count as not
 /// rejected. So a part of a family rejects nothing that the whole accepts, whatever the part.
 std::vector<bool> holm_rejections(std::span<const double> log10_p, double alpha,
                                   std::size_t family = 0);

@@ -1,6 +1,7 @@
 #include "lightproof/stats/goodness_of_fit.h"
 
 #include <algorithm>
+#include <boost/math/distributions/poisson.hpp>
 #include <cassert>
 #include <cmath>
 #include <numeric>
@@ -142,16 +143,11 @@ double fit_power(std::span<const double> probability, std::span<const double> ac
 }
 
 double critical_count(double mean, double level) {
-  const double log10_level = std::log10(level);
-  double below = std::floor(mean);  // rejected by nobody: a level above 1/2 has no meaning here
-  double step = 1.0;
-  while (log10_poisson_upper(below + step, mean) > log10_level) step *= 2.0;
-  double reached = below + step;
-  while (reached - below > 1.0) {
-    const double middle = std::floor(0.5 * (below + reached));
-    (log10_poisson_upper(middle, mean) > log10_level ? below : reached) = middle;
-  }
-  return reached;
+  namespace policies = boost::math::policies;
+  using RoundUp = policies::policy<policies::discrete_quantile<policies::integer_round_up>>;
+  const boost::math::poisson_distribution<double, RoundUp> count(mean);
+  // The quantile is the least k with P(X > k) <= level.
+  return boost::math::quantile(boost::math::complement(count, level)) + 1.0;
 }
 
 double minimum_detectable_excess(const WorstCell& worst, double level, double power,

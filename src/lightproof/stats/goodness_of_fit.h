@@ -18,8 +18,10 @@
 
 namespace lightproof {
 
+/// The expectation up to which cells are pooled, in samples.
 inline constexpr double kPooledExpectation = 25.0;
 
+/// The outcome of a test of counts against their expectations.
 struct GoodnessOfFit {
   double statistic = 0.0;
   double dof = 0.0;                ///< pools - 1; 0 means that nothing can be said
@@ -38,8 +40,9 @@ double power_divergence(double observed, double expected);
 /// Sets the p-value of a statistic from its degrees of freedom, if it has any.
 void judge_fit(GoodnessOfFit& fit);
 
-/// Counts against probabilities, in an order in which neighbours in the sequence are neighbours in
-/// space. The probabilities sum to 1 within 1e-9; samples that are in no cell are the caller's.
+/// The power divergence of counts over cells from their probabilities, in an order in which
+/// neighbours in the sequence are neighbours in space. The probabilities sum to 1 within 1e-9;
+/// `samples` of which some are in no cell are the caller's to judge.
 GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
                            std::span<const double> probability, std::uint64_t samples);
 
@@ -50,12 +53,12 @@ GoodnessOfFit two_sample_fit(std::span<const std::uint64_t> first,
 
 /// The cell that is farthest from its expectation.
 struct WorstCell {
-  std::size_t cells = 0;   ///< of positive expectation
+  std::size_t cells = 0;   ///< how many cells have a positive expectation
   double likeliest = 0.0;  ///< largest probability of a cell
-  std::size_t cell = 0;
-  double observed = 0.0;
-  double expected = 0.0;
-  double log10_p = 0.0;  ///< of a cell as far off as this anywhere (Bonferroni)
+  std::size_t cell = 0;    ///< index of the worst cell
+  double observed = 0.0;   ///< its count
+  double expected = 0.0;   ///< its expectation
+  double log10_p = 0.0;    ///< log10 P(any cell is as far off as this), by Bonferroni's bound
 };
 
 /// The Poisson tail (for counts of a fixed total it is a bound) of the cell with the largest
@@ -75,13 +78,14 @@ double fit_power(std::span<const double> probability, std::span<const double> ac
 /// The fewest counts whose upper Poisson tail at this mean is at most `level`, which is below 1/2.
 double critical_count(double mean, double level);
 
-/// The relative excess of the likeliest cell that such a test finds with at least `power` at this
-/// level: the Poisson critical count of Bonferroni's share of the level, and the mean at which that
-/// count is reached with this power. Infinite if the cell would need more than all samples.
+/// The relative excess of the likeliest cell that the test of worst_cell() finds with at least
+/// `power` at this level: the Poisson critical count of Bonferroni's share of the level, and the
+/// mean at which that count is reached with this power. Infinite if the cell would need more than
+/// all samples.
 double minimum_detectable_excess(const WorstCell& worst, double level, double power,
                                  double samples);
 
-/// Row by row, every second row backwards, so that consecutive cells touch.
+/// The values of a grid row by row, every second row backwards, so that consecutive cells touch.
 template <class T>
 std::vector<T> serpentine(const Grid<T>& grid) {
   std::vector<T> sequence;

@@ -1,7 +1,9 @@
 #include "lightproof/stats/independence.h"
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 namespace lightproof {
@@ -111,15 +113,16 @@ double irwin_hall_cdf(int terms, double x) {
 }
 
 std::vector<double> irwin_hall_quantiles(int terms, int cells) {
+  const boost::math::tools::eps_tolerance<double> close(50);
   std::vector<double> quantiles;
   for (int i = 1; i < cells; ++i) {
-    double low = 0.0;
-    double high = terms;
-    for (int step = 0; step < 60; ++step) {
-      const double middle = 0.5 * (low + high);
-      (irwin_hall_cdf(terms, middle) < static_cast<double>(i) / cells ? low : high) = middle;
-    }
-    quantiles.push_back(high);
+    const auto excess = [&](double x) {
+      return irwin_hall_cdf(terms, x) - static_cast<double>(i) / cells;
+    };
+    std::uintmax_t most_steps = 1000;
+    quantiles.push_back(boost::math::tools::toms748_solve(excess, 0.0, static_cast<double>(terms),
+                                                          close, most_steps)
+                            .second);
   }
   return quantiles;
 }

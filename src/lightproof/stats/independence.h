@@ -21,7 +21,7 @@ namespace lightproof {
 /// Whether row and column of a square grid of counts are independent: Cressie and Read's power
 /// divergence with lambda = 2/3 from the products of the margins. Neighbouring rows and columns are
 /// merged two by two until an average cell holds 25 counts; below 2 x 2 there are 0 degrees of
-/// freedom, and nothing can be said. Two-sided from 30 degrees of freedom on, as cressie_read. The
+/// freedom, and nothing can be said. Its p-value is two-sided from 30 degrees of freedom on. The
 /// number of rows is a power of two.
 GoodnessOfFit independence_fit(const Grid<std::uint64_t>& counts);
 
@@ -29,8 +29,8 @@ GoodnessOfFit independence_fit(const Grid<std::uint64_t>& counts);
 /// judged as one.
 GoodnessOfFit sum_of_fits(std::span<const GoodnessOfFit> fits, std::uint64_t samples);
 
-/// Degrees of freedom of independence_fit for so many counts over a grid of `cells` x `cells`, all
-/// rows and columns hit.
+/// Degrees of freedom of independence_fit() for so many counts over a grid of `cells` x `cells`
+/// cells in which all rows and columns are hit.
 double independence_dof(std::uint64_t counts, int cells);
 
 /// P(the sum of `terms` independent uniform numbers of [0,1) <= x) (Irwin 1927, Hall 1927).

@@ -6,8 +6,9 @@
 
 namespace lightproof {
 
+/// A step from one level of a series to the next.
 struct LevelStep {
-  std::size_t first = 0;   ///< the place of the first value of the new level
+  std::size_t first = 0;   ///< index in the series of the first value of the new level
   double statistic = 0.0;  ///< difference of the means over its standard error
 };
 

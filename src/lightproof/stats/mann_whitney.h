@@ -8,19 +8,21 @@
 
 namespace lightproof {
 
-/// Up to this many values in both sets together the p-value is exact, beyond by the normal
+/// How many values in both sets together have an exact p-value; that of more comes from the normal
 /// distribution.
 inline constexpr std::size_t kLargestExactRanks = 64;
 
+/// The outcome of a one-sided test of two sets.
 struct MannWhitney {
   double u = 0.0;        ///< pairs in which the value of `second` is larger; a tie counts one half
   double log10_p = 0.0;  ///< log10 P(U >= u) if all values come from one distribution
-  bool exact = false;
+  bool exact = false;    ///< whether the p-value is that of all ways to divide the values
 };
 
-/// One-sided: small p if `second` tends to be larger than `first`. The exact distribution is that
-/// of all ways to divide the values at hand, ties included; the normal one has the tie correction
-/// and the continuity correction. Two empty sets, or one, give p = 1. No value may be NaN.
+/// Whether `second` tends to be larger than `first`: then p is small. The exact distribution is
+/// that of all ways to divide the values at hand, ties included; the normal one has the tie
+/// correction and the continuity correction. Two empty sets, or one, give p = 1. No value may be
+/// NaN.
 MannWhitney mann_whitney_larger(std::span<const double> first, std::span<const double> second);
 
 /// log10 of the two-sided p-value: twice the smaller of both one-sided ones, at most 1.

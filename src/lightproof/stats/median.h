@@ -6,7 +6,7 @@
 
 namespace lightproof {
 
-/// The middle value, or the mean of the two in the middle. Not a number if there are none.
+/// The median: the middle value, or the mean of the two in the middle. NaN if there are no values.
 double median(std::vector<double> values);
 
 /// The standard error of the median of these values, by Maritz & Jarrett (1978): the exact standard

@@ -1,11 +1,11 @@
 #include "lightproof/stats/moment_tests.h"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "lightproof/core/memo.h"
+#include "lightproof/stats/critical_value.h"
 #include "lightproof/stats/tails.h"
 
 namespace lightproof {
@@ -33,29 +33,16 @@ double log10_tails_of_mean(double z, double samples, const ExactMoments& moments
   return std::min({0.0, std::max(normal, bound), log10_normal_tails(last_normal)});
 }
 
-namespace {
-
-/// Standard errors beyond which a mean is rejected at this level.
-double critical_deviation(double level, double samples, const ExactMoments& moments) {
-  const auto excess = [&](double z) {
-    return log10_tails_of_mean(z, samples, moments) > std::log10(level) ? 1.0 : -1.0;
-  };
-  if (excess(0.0) < 0.0) return 0.0;  // a level that everything passes
-  double beyond = 1.0;
-  while (excess(beyond) > 0.0) beyond *= 2.0;
-  const boost::math::tools::eps_tolerance<double> close(40);
-  return boost::math::tools::bisect(excess, 0.0, beyond, close).second;
-}
-
-}  // namespace
-
 double minimum_detectable_factor(double level, double power, double samples,
                                  const ExactMoments& moments, double exact) {
   // The samplers of a density share it.
   static Memo<5> memo;
-  const double high =
-      memo({level, samples, moments.mean, moments.variance, moments.largest_deviation},
-           [&](const auto& /*argument*/) { return critical_deviation(level, samples, moments); });
+  const double high = memo(
+      {level, samples, moments.mean, moments.variance, moments.largest_deviation},
+      [&](const auto& /*arguments*/) {
+        return critical_value([&](double z) { return log10_tails_of_mean(z, samples, moments); },
+                              std::log10(level));
+      });
   const double error = std::sqrt(moments.variance / samples) / exact;
   const double least = 1.0 - normal_quantile(power) * error;
   return least > 0.0 ? (1.0 + high * error) / least : HUGE_VAL;

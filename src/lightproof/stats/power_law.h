@@ -10,20 +10,22 @@ namespace lightproof {
 /// is left is the quadrature's own error.
 inline constexpr double kNoVariance = 1e-8;
 
+/// A measured point of a power law; both coordinates are positive.
 struct PowerLawPoint {
   double x;
   double y;
   double relative_error;  ///< standard error of y over y
 };
 
-/// y = constant * x^exponent.
+/// A fitted power law, y = constant * x^exponent.
 struct PowerLaw {
   double exponent = 0.0;
   double exponent_error = 0.0;  ///< from the points' own errors
   double constant = 0.0;
 };
 
-/// Weighted least squares on the logarithms. Needs two points of different x; all x, y > 0.
+/// The power law through points, by weighted least squares on the logarithms. Needs two points of
+/// different x; all x, y > 0.
 inline PowerLaw fit_power_law(std::span<const PowerLawPoint> points) {
   double sw = 0.0;
   double sx = 0.0;

@@ -24,20 +24,23 @@
 
 namespace lightproof {
 
+/// A measured point of a line.
 struct LinePoint {
   double x = 0.0;
   double y = 0.0;
 };
 
+/// Where a line bends.
 struct Breakpoint {
-  std::size_t point = 0;  ///< that lies in the bend
-  double slope_after = 0.0;
+  std::size_t point = 0;     ///< index of the measured point that lies in the bend
+  double slope_after = 0.0;  ///< slope from there to the next breakpoint or the end
 };
 
+/// A line that bends once or twice.
 struct SegmentedLine {
-  double slope = 0.0;                   ///< before the first breakpoint
+  double slope = 0.0;                   ///< slope before the first breakpoint
   std::vector<Breakpoint> breakpoints;  ///< one or two, ascending
-  double p_value = 1.0;  ///< that this straight line seems to bend so clearly, anywhere
+  double p_value = 1.0;                 ///< P(a straight line seems to bend so clearly, anywhere)
 };
 
 /// For each of several lines, of points with ascending x, the clearest segmented one if Holm's

@@ -23,16 +23,19 @@ namespace lightproof {
 /// to a correct sampler is of this size.
 inline constexpr double kSmallestSequentialEffect = 0x1p-10;
 
+/// The sequential test of counts against the exact probabilities of cells.
 class SequentialTest {
  public:
-  /// Sums to 1 within 1e-9; zeros are cells that cannot be hit.
+  /// Tests against the probabilities of cells, which sum to 1 within 1e-9; cells of 0 cannot be
+  /// hit.
   explicit SequentialTest(std::span<const double> probability);
 
-  /// log10 E of all counts from the first sample on; +infinity after a hit of an impossible cell.
-  /// Samples that are in no cell are the caller's.
+  /// log10 E of the counts of all cells from the first sample on; +infinity after a hit of an
+  /// impossible cell. Samples that are in no cell are the caller's to judge.
   double log10_e(std::span<const std::uint64_t> counts) const;
 
-  /// Stopping as soon as this holds is a false alarm with a probability of at most alpha.
+  /// Whether E has reached 1/alpha. Stopping as soon as it has is a false alarm with a probability
+  /// of at most alpha.
   static bool rejects(double log10_e, double alpha);
 
   /// The effect w with which E reaches 1/alpha within so many samples, with this power. Where
@@ -42,7 +45,8 @@ class SequentialTest {
   /// for a single cell.
   double minimum_detectable_effect(double alpha, double power, double samples) const;
 
-  /// Those that E is averaged over, with equal weights: powers of two times the smallest.
+  /// The concentrations c that E is averaged over, with equal weights: powers of two times the
+  /// smallest.
   std::span<const double> concentrations() const { return concentrations_; }
 
  private:

@@ -7,8 +7,10 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
+#include <boost/math/tools/fraction.hpp>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "lightproof/core/memo.h"
 #include "lightproof/stats/saddle_point.h"
@@ -25,26 +27,27 @@ double log_gamma_density(double a, double x) {
   return -half_deviance(a, x) - stirling_remainder(a) - 0.5 * std::log(2.0 * std::numbers::pi * a);
 }
 
-/// log Q(a, x) for x > a + 1 by Legendre's continued fraction, evaluated by Lentz's algorithm
-/// (Abramowitz & Stegun 6.5.31). Where Q is below a double, (x - a)^2 > 37^2 a, it converges in
-/// ten steps, whatever a.
-double log_gamma_q(double a, double x) {
-  constexpr double kTiny = 1e-300;
-  double b = x + 1.0 - a;
-  double c = 1.0 / kTiny;
-  double d = 1.0 / b;
-  double h = d;
-  for (int i = 1; i < 1000; ++i) {
-    const double numerator = -i * (i - a);
-    b += 2.0;
-    d = numerator * d + b;
-    d = 1.0 / (std::abs(d) < kTiny ? kTiny : d);
-    c = b + numerator / c;
-    if (std::abs(c) < kTiny) c = kTiny;
-    h *= d * c;
-    if (std::abs(d * c - 1.0) < 1e-15) break;
+/// Partial numerators and denominators of Legendre's continued fraction, whose sum with x + 1 - a
+/// is x^a e^-x / (Gamma(a) Q(a, x)) (Abramowitz & Stegun 6.5.31, contracted to every other term).
+struct LegendreFraction {
+  using result_type = std::pair<double, double>;
+
+  result_type operator()() {
+    ++k;
+    return {k * (a - k), x + 1.0 - a + 2.0 * k};
   }
-  return log_gamma_density(a, x) + std::log(a * h);
+
+  double a;
+  double x;
+  int k = 0;
+};
+
+/// log Q(a, x) for x > a + 1. Where Q is below a double, (x - a)^2 > 37^2 a, the fraction converges
+/// in ten steps, whatever a.
+double log_gamma_q(double a, double x) {
+  LegendreFraction fraction{a, x};
+  const double rest = boost::math::tools::continued_fraction_a(fraction, 1e-15);
+  return log_gamma_density(a, x) + std::log(a / (x + 1.0 - a + rest));
 }
 
 /// log P(a, x) for x < a by its series (Abramowitz & Stegun 6.5.29), whose terms fall like

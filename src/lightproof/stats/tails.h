@@ -13,8 +13,10 @@ double log10_chi_square_tail(double statistic, double dof);
 /// -infinity at a statistic of 0.
 double log10_chi_square_lower(double statistic, double dof);
 
-/// log10 P(Poisson of this mean <= count), and of >= count. mean > 0.
+/// log10 P(Poisson count of this mean <= count). mean > 0.
 double log10_poisson_lower(double count, double mean);
+
+/// log10 P(Poisson count of this mean >= count). mean > 0.
 double log10_poisson_upper(double count, double mean);
 
 /// The mean at which a Poisson count is at least `count` (>= 1) with this probability.
@@ -26,10 +28,11 @@ double log10_normal_tails(double z);
 /// The non-centrality at which a chi-square test of size alpha rejects with the given power.
 double minimum_detectable_noncentrality(double dof, double alpha, double power);
 
-/// The non-centrality at which chi-square exceeds `critical` with the given probability.
+/// The non-centrality at which chi-square of `dof` degrees of freedom exceeds `critical` with the
+/// given probability.
 double noncentrality_beyond(double dof, double critical, double probability);
 
-/// P(a chi-square test of size alpha rejects) at this non-centrality.
+/// P(a chi-square test of size alpha and `dof` degrees of freedom rejects) at this non-centrality.
 double chi_square_power(double dof, double alpha, double noncentrality);
 
 /// P(standard normal <= z).

@@ -11,19 +11,22 @@
 
 namespace lightproof {
 
+/// How convergence is measured.
 struct ConvergenceOptions {
   std::uint64_t seed = 1;
-  /// N = 1, 4, 16, … up to this.
+  /// The largest number N of samples; measured are N = 1, 4, 16, … up to it.
   std::uint64_t most_samples = 16384;
-  /// Independent estimates for every N, at least, over all pixels of the receiver together.
+  /// The least number of independent estimates for every N, over all pixels of the receiver
+  /// together.
   int estimates = 128;
-  /// The receivers' pictures; their visible pixels are the points at which light is gathered.
+  /// Extent of the receivers' pictures; their visible pixels are the points at which light is
+  /// gathered.
   Extent picture = {8, 6};
 };
 
-/// Every map, receiver and material, and every estimator whose exact moments are known: errors of
-/// independent estimates against quadrature, beside the exact variance. The same bits for any
-/// number of threads. Throws std::logic_error if two maps have one name.
+/// Measures errors of independent estimates against quadrature, beside the exact variance, on every
+/// map, receiver and material and by every estimator whose exact moments are known. The number of
+/// threads changes no bit. Throws std::logic_error if two maps have one name.
 std::vector<ConvergenceRecord> study_convergence(std::span<const EnvironmentMap> maps,
                                                  const ConvergenceOptions& options,
                                                  const Progress& progress = {});

@@ -12,11 +12,11 @@
 
 namespace lightproof {
 
-/// f_r (n·l)+ V at a point, with the material's own pdf, for quadrature.
+/// The kernel of the light that a point reflects, f_r (n·l)+ V, with the material's own pdf.
 reference::Kernel kernel_at(const ReceiverInfo& receiver, const Scene& scene,
                             const Material& material, const ShadingPoint& point);
 
-/// moments[map][pixel] of the luminance estimators; maps may differ in size.
+/// The exact moments of the estimators of luminance, as [map][pixel]; maps may differ in size.
 std::vector<std::vector<reference::LightMoments>> exact_light(
     std::span<const Grid<double>> luminances, const ReceiverInfo& receiver, const Scene& scene,
     const Material& material, std::span<const Pixel> pixels);

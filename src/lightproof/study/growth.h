@@ -9,7 +9,8 @@
 
 namespace lightproof {
 
-/// Of each sampler that was measured on three maps or more, in the order of the registry. If the
+/// How the costs of each sampler grow that was measured on three maps or more, in the order of the
+/// registry. If the
 /// time of a step follows one power law with normal scatter for all of them, any sampler gets
 /// breakpoints with a probability of at most 1 % (see stats/segmented_regression.h).
 std::vector<GrowthFit> growth_of(std::span<const ThroughputRecord> records,

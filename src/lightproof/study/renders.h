@@ -11,14 +11,15 @@
 
 namespace lightproof {
 
+/// How pictures are rendered.
 struct RenderOptions {
   std::uint64_t seed = 1;
   Extent picture = {160, 120};
-  std::uint64_t samples = 64;              ///< per pixel and estimator
-  std::uint64_t reference_samples = 2048;  ///< per pixel, by environment B
+  std::uint64_t samples = 64;              ///< samples per pixel of each estimator
+  std::uint64_t reference_samples = 2048;  ///< samples per pixel of the reference, environment B
 };
 
-/// The sphere on a plane, modified Phong, under every map.
+/// Renders the sphere on a plane, of modified Phong, under every map by every estimator.
 std::vector<RenderRecord> study_renders(std::span<const EnvironmentMap> maps,
                                         const RenderOptions& options,
                                         const Progress& progress = {});

@@ -12,11 +12,12 @@
 
 namespace lightproof {
 
+/// What a study measures.
 struct StudyOptions {
   GateOptions gate;
   ConvergenceOptions convergence;
   RenderOptions renders;
-  /// Without it the throughput is left out.
+  /// Where throughput is measured; none: it is left out.
   std::optional<ThroughputSource> throughput;
 };
 
@@ -26,6 +27,7 @@ MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed);
 /// Puts what was measured into the study, and how it grows.
 void set_throughput(StudyResult& study, Throughput measured);
 
+/// Runs the gate, measures convergence, renders and, if it is asked for, throughput.
 StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& options,
                       const Progress& progress = {});
 

@@ -10,6 +10,7 @@
 
 namespace lightproof {
 
+/// What samplers cost, and where it was measured.
 struct Throughput {
   std::vector<ThroughputRecord> samplers;
   std::vector<TableRecord> tables;
@@ -24,21 +25,21 @@ std::string throughput_filter(std::uint64_t largest_width);
 /// Where throughput is measured, and kept.
 struct ThroughputSource {
   std::filesystem::path program;       ///< the benchmark program
-  std::uint64_t largest_width = 8192;  ///< of the maps
+  std::uint64_t largest_width = 8192;  ///< width of the largest map that is measured
   std::filesystem::path cache = {};    ///< folder of what was measured before; empty: none
-  bool measure_again = false;          ///< whatever is kept
+  bool measure_again = false;          ///< whether what is kept is measured anew
 };
 
-/// Runs these of the benchmark program and reads what it measured, which is kept in the cache; or
+/// Runs the benchmarks of a study and reads what it measured, which is kept in the cache; or
 /// takes what is kept there of the same program, to the last byte, on this machine and up to this
 /// width. Throws InputError if the program cannot be started or fails, Interrupted if it was
 /// interrupted.
 Throughput measure_throughput(const ThroughputSource& source);
 
-/// The rows named sample/<sampler>/<map>/<W>x<H>/random of such a file, medians over repetitions,
-/// and those of the order `fused` that say what a texel's error is; the caches are those of the
-/// machine that wrote the file. Throws InputError naming the file if it is not Google Benchmark's
-/// JSON, or has none of the first.
+/// Reads a file of Google Benchmark: the rows named sample/<sampler>/<map>/<W>x<H>/random, as
+/// medians over repetitions, and those of the order `fused` that say what a texel's error is; the
+/// caches are those of the machine that wrote the file. Throws InputError naming the file if it is
+/// not Google Benchmark's JSON, or has none of the first.
 Throughput read_throughput(const std::filesystem::path& file);
 
 }  // namespace lightproof

@@ -8,7 +8,8 @@
 
 namespace lightproof {
 
-/// Unit vector of (s, t); t = 0 is -z, t = 1 is +z, s = 1/2 is the half-plane of +x.
+/// The direction, a unit vector, of a point of the square: t = 0 is -z, t = 1 is +z, s = 1/2 is the
+/// half-plane of +x.
 inline Direction direction_from_square(SquarePoint at) {
   const double phi = kPi - 2.0 * kPi * at.s;
   const double from_pole = kPi * std::min(at.t, 1.0 - at.t);
@@ -17,7 +18,7 @@ inline Direction direction_from_square(SquarePoint at) {
   return {sine * std::cos(phi), sine * std::sin(phi), at.t < 0.5 ? -height : height};
 }
 
-/// (s, t) in [0,1) x [0,1] of a unit vector; s = 0 at the poles' own seam, where it is undefined.
+/// The point (s, t) in [0,1) x [0,1] of a unit vector; s = 0 at the poles, where it is undefined.
 inline SquarePoint square_from_direction(Direction d) {
   const double s = 0.5 - std::atan2(d.y, d.x) / (2.0 * kPi);
   // atan2 of both components keeps full precision near the poles, where acos(z) loses half of it.
@@ -46,8 +47,8 @@ inline double approximate_atan2(double y, double x) {
   return std::copysign(x < 0.0 ? kPi - quadrant : quadrant, y);
 }
 
-/// As square_from_direction, with an error below 2e-8 in s and t: enough to find a texel, at a
-/// quarter of the time.
+/// The point (s, t) of a unit vector with an error below 2e-8 in s and t: enough to find a texel,
+/// in a quarter of the time of square_from_direction().
 inline SquarePoint approximate_square_from_direction(Direction d) {
   const double s = 0.5 - approximate_atan2(d.y, d.x) / (2.0 * kPi);
   const double t = approximate_atan2(std::sqrt(d.x * d.x + d.y * d.y), -d.z) / kPi;

@@ -10,6 +10,7 @@
 
 namespace lightproof {
 
+/// A convention by which directions map to the pixels of an environment map.
 enum class Preset {
   z_up,
   z_up_half_turn,
@@ -26,17 +27,20 @@ enum class Lattice {
   node_centred,  ///< pixel (i, r) is the value at (i/(W-1), r/(H-1))
 };
 
+/// What is known of a preset.
 struct PresetInfo {
   Preset preset;
-  std::string_view name;         ///< as on the command line: `z-up-half-turn`
+  std::string_view name;         ///< name on the command line: `z-up-half-turn`
   std::string_view description;  ///< axes and formula, one line
   Lattice lattice;
   double aspect;  ///< width / height that the convention asks for: 2, or 1 for octahedral
 };
 
+/// All presets, in the order of their enumeration.
 std::span<const PresetInfo> presets();
+/// What is known of a preset.
 const PresetInfo& info(Preset preset);
-/// None if there is no preset of this name.
+/// The preset of this name; none if there is none.
 std::optional<Preset> preset_by_name(std::string_view name);
 
 /// Image coordinates: s from the left, t from the *bottom* of the image, in [0,1)^2 for
@@ -44,7 +48,8 @@ std::optional<Preset> preset_by_name(std::string_view name);
 /// Presets with y up use (X, Y, Z) = (y, z, x).
 SquarePoint image_from_direction(Preset preset, Direction direction);
 
-/// The inverse of image_from_direction.
+/// The direction, a unit vector in Lightproof's world (z up), of image coordinates; the inverse of
+/// image_from_direction.
 Direction direction_from_image(Preset preset, SquarePoint at);
 
 }  // namespace lightproof

@@ -42,7 +42,8 @@ struct SinCos {
   hwy::HWY_NAMESPACE::Vec<D> cos;
 };
 
-/// Of 2 pi x, x in [0, 1]: errors of some 2^-53; the sine's near its zeros are so relative to it.
+/// Sine and cosine of 2 pi x, x in [0, 1], with errors of some 2^-53; near the sine's zeros its
+/// error is so relative to it.
 template <class D>
 HWY_INLINE SinCos<D> sin_cos_of_turns(D d, hwy::HWY_NAMESPACE::Vec<D> x) {
   namespace hn = hwy::HWY_NAMESPACE;
