@@ -74,15 +74,16 @@ double orthonormality_error(const FrameOf<double>& frame) { return error_of(fram
 
 std::vector<FrameError> frame_errors(std::span<const double> distances) {
   std::vector<FrameError> rows;
+  const auto add_line = [&](const FrameConstruction& each, bool is_float, bool is_nadir) {
+    for (const double distance : distances) {
+      const double error = is_float ? largest_error(each.in_float, is_nadir, distance)
+                                    : largest_error(each.in_double, is_nadir, distance);
+      rows.push_back({each.name, is_float, is_nadir, distance, error});
+    }
+  };
   for (const FrameConstruction& each : kConstructions) {
     for (const bool is_float : {true, false}) {
-      for (const bool is_nadir : {true, false}) {
-        for (const double distance : distances) {
-          const double error = is_float ? largest_error(each.in_float, is_nadir, distance)
-                                        : largest_error(each.in_double, is_nadir, distance);
-          rows.push_back({each.name, is_float, is_nadir, distance, error});
-        }
-      }
+      for (const bool is_nadir : {true, false}) add_line(each, is_float, is_nadir);
     }
   }
   return rows;
