@@ -89,7 +89,7 @@ double integral_between_roots(const Integrand& at, double low, double high) {
         return at(low + (high - low) * w * w * (3.0 - 2.0 * w)) * (high - low) * 6.0 * w *
                (1.0 - w);
       },
-      0.0, 1.0, 8, 1e-7);
+      0.0, 1.0, 6, 1e-7);
 }
 
 template <class Factor>

@@ -155,6 +155,12 @@ HWY_INLINE PhongKernel kernel_of(const ModifiedPhong& material, const ShadingPoi
   return {material, at};
 }
 
+/// Materials without a kernel are left to the scalar code.
+template <class Surface>
+concept HasKernel = requires(const Surface& material, const ShadingPoint& at) {
+  kernel_of(material, at);
+};
+
 /// Whole vectors from the front; returns how many directions that were.
 template <class Kernel>
 HWY_INLINE std::size_t evaluate_vectors(const Kernel& kernel, const DirectionArrays& light,
@@ -188,17 +194,29 @@ HWY_INLINE std::size_t sample_vectors(const Kernel& kernel, std::span<const doub
 
 std::size_t evaluate_front(const Material& material, const ShadingPoint& at,
                            const DirectionArrays& light, std::span<double> out) {
-  return std::visit([&](const auto& surface)
-                        HWY_ATTR { return evaluate_vectors(kernel_of(surface, at), light, out); },
-                    material);
+  return std::visit(
+      [&]<class Surface>(const Surface& surface) HWY_ATTR -> std::size_t {
+        if constexpr (HasKernel<Surface>) {
+          return evaluate_vectors(kernel_of(surface, at), light, out);
+        } else {
+          return 0;
+        }
+      },
+      material);
 }
 
 std::size_t sample_front(const Material& material, const ShadingPoint& at,
                          std::span<const double> s, std::span<const double> t,
                          const MaterialSamples& samples) {
-  return std::visit([&](const auto& surface)
-                        HWY_ATTR { return sample_vectors(kernel_of(surface, at), s, t, samples); },
-                    material);
+  return std::visit(
+      [&]<class Surface>(const Surface& surface) HWY_ATTR -> std::size_t {
+        if constexpr (HasKernel<Surface>) {
+          return sample_vectors(kernel_of(surface, at), s, t, samples);
+        } else {
+          return 0;
+        }
+      },
+      material);
 }
 
 #endif
