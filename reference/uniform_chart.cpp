@@ -6,14 +6,18 @@
 namespace lightproof::reference {
 namespace {
 
-/// How far beyond the edge of the square rounding may put a direction.
+/// How far beyond the edge rounding may put a direction.
 constexpr double kSlack = 1e-6;
+
+SquarePoint clamped(SquarePoint at) {
+  constexpr double kBelowOne = 1.0 - 0x1p-53;
+  return {std::clamp(at.s, 0.0, kBelowOne), std::clamp(at.t, 0.0, kBelowOne)};
+}
 
 std::optional<SquarePoint> inside(SquarePoint at) {
   const auto is_near = [](double x) { return x >= -kSlack && x <= 1.0 + kSlack; };
   if (!is_near(at.s) || !is_near(at.t)) return std::nullopt;  // takes what is not a number
-  constexpr double kBelowOne = 1.0 - 0x1p-53;
-  return SquarePoint{std::clamp(at.s, 0.0, kBelowOne), std::clamp(at.t, 0.0, kBelowOne)};
+  return clamped(at);
 }
 
 /// In [0,1].
@@ -38,10 +42,9 @@ std::optional<Direction> normal_between(Direction view, Direction light) {
   return sum / length;
 }
 
-/// Solid angle of light directions per solid angle of the normals that mirror the view to them.
-double light_per_normal(Direction view, Direction normal) {
-  return 4.0 * std::abs(glm::dot(view, normal));
-}
+/// Solid angle of light directions per solid angle of the normals that mirror the view to them,
+/// 4 |v.h|. By the length of the sum, since their product cancels where they are nearly opposite.
+double light_per_normal(Direction view, Direction light) { return 2.0 * glm::length(view + light); }
 
 /// Any two vectors across `axis`, by Gram and Schmidt.
 struct Axes {
@@ -97,20 +100,24 @@ double density_of_normal(const NormalDistribution& distribution, Direction h) {
 /// scaled by alpha, normals by its inverse.
 struct Hemisphere {
   double alpha;
+  Direction scaled_view;
   Direction view;  ///< on the hemisphere
 
   Hemisphere(double a, Direction v)
-      : alpha(a), view(glm::normalize(Direction(a * v.x, a * v.y, v.z))) {}
+      : alpha(a), scaled_view(a * v.x, a * v.y, v.z), view(glm::normalize(scaled_view)) {}
 
   Direction stretched(Direction h) const { return {h.x / alpha, h.y / alpha, h.z}; }
+  Direction to(Direction h) const { return glm::normalize(stretched(h)); }
   Direction from(Direction m) const {
     return glm::normalize(Direction(alpha * m.x, alpha * m.y, m.z));
   }
-  /// Solid angle on the hemisphere per solid angle of normals: the determinant of the stretching
-  /// over the cube of the length.
-  double solid_angle_per_normal(Direction h) const {
-    const double length = glm::length(stretched(h));
-    return 1.0 / (alpha * alpha * length * length * length);
+  /// The density of light directions, given that of normals m on the hemisphere as a multiple of
+  /// m.view. Solid angle on the hemisphere is that of normals h by 1/(alpha^2 length^3), the
+  /// determinant of the stretching over the cube of the length; m.view is v.h by the lengths of
+  /// both vectors; light is four times v.h of the normals, and v.h is gone.
+  PerSteradian pdf_of_light(double per_cosine, Direction h) const {
+    const double length2 = glm::dot(stretched(h), stretched(h));
+    return {per_cosine / (4.0 * alpha * alpha * length2 * length2 * glm::length(scaled_view))};
   }
 };
 
@@ -142,12 +149,15 @@ struct Projection {
     y = glm::cross(hemisphere.view, x);
   }
 
-  SquarePoint square(Direction m) const {
-    const double abscissa = glm::dot(m, x);
-    const double half_chord = std::sqrt(std::max(0.0, 1.0 - abscissa * abscissa));
+  /// None for a normal below the surface.
+  std::optional<SquarePoint> square(Direction m) const {
+    const double abscissa = std::clamp(glm::dot(m, x), -1.0, 1.0);
+    const double half_chord = std::sqrt((1.0 - abscissa) * (1.0 + abscissa));
     const double cosine = hemisphere.view.z;
-    return {(glm::dot(m, y) / half_chord + cosine) / (1.0 + cosine),
-            disc_to_the_left(std::asin(std::clamp(abscissa, -1.0, 1.0)))};
+    const double from_end = glm::dot(m, y) + cosine * half_chord;
+    const double chord = (1.0 + cosine) * half_chord;
+    if (!(from_end >= -kSlack && from_end <= chord + kSlack)) return std::nullopt;
+    return clamped({chord > 0.0 ? from_end / chord : 0.0, disc_to_the_left(std::asin(abscissa))});
   }
   Direction normal(SquarePoint at) const {
     const double psi = angle_of_share(at.t);
@@ -157,10 +167,8 @@ struct Projection {
         std::sqrt(std::max(0.0, std::cos(psi) * std::cos(psi) - ordinate * ordinate));
     return std::sin(psi) * x + ordinate * y + depth * hemisphere.view;
   }
-  /// Uniform over the projection, whose area is pi (1 + cosine) / 2.
-  double pdf(Direction m) const {
-    return 2.0 * std::max(0.0, glm::dot(m, hemisphere.view)) / (kPi * (1.0 + hemisphere.view.z));
-  }
+  /// Uniform over the projection, whose area is pi (1 + cosine) / 2: a multiple of m.view.
+  double per_cosine() const { return 2.0 / (kPi * (1.0 + hemisphere.view.z)); }
 };
 
 /// The height on the hemisphere of the light along the surface on the side of the view, at which
@@ -205,51 +213,46 @@ UniformChart mirrored_at_normals(NormalDistribution distribution, Direction view
     if (normal && normal->z < 0.0) normal = -*normal;
     return normal;
   };
-  return {[=](Direction light) -> std::optional<SquarePoint> {
-            const auto h = upper_normal(light);
-            if (!h) return std::nullopt;
-            return inside({turns(h->x, h->y), cumulative(distribution, *h)});
-          },
-          [=](SquarePoint at) { return mirrored(view, normal_at(distribution, at)); },
-          [=](Direction light) {
-            const auto h = upper_normal(light);
-            if (!h || h->z <= 0.0) return PerSteradian{0.0};
-            return PerSteradian{density_of_normal(distribution, *h) / light_per_normal(view, *h)};
-          }};
+  return {
+      [=](Direction light) -> std::optional<SquarePoint> {
+        const auto h = upper_normal(light);
+        if (!h) return std::nullopt;
+        return inside({turns(h->x, h->y), cumulative(distribution, *h)});
+      },
+      [=](SquarePoint at) { return mirrored(view, normal_at(distribution, at)); },
+      [=](Direction light) {
+        const auto h = upper_normal(light);
+        if (!h || h->z <= 0.0) return PerSteradian{0.0};
+        return PerSteradian{density_of_normal(distribution, *h) / light_per_normal(view, light)};
+      }};
 }
 
 UniformChart mirrored_at_visible_normals(double alpha, Direction view) {
   const Projection projection(alpha, view);
   const Hemisphere& hemisphere = projection.hemisphere;
-  const auto is_visible = [view](const std::optional<Direction>& h) {
-    return h && h->z > -kSlack && glm::dot(*h, view) > 0.0;
+  const auto square = [=](Direction light) -> std::optional<SquarePoint> {
+    const auto h = normal_between(view, light);
+    if (!h) return std::nullopt;
+    return projection.square(hemisphere.to(*h));
   };
-  return {[=](Direction light) -> std::optional<SquarePoint> {
-            const auto h = normal_between(view, light);
-            if (!is_visible(h)) return std::nullopt;
-            return inside(projection.square(glm::normalize(hemisphere.stretched(*h))));
-          },
+  return {square,
           [=](SquarePoint at) { return mirrored(view, hemisphere.from(projection.normal(at))); },
           [=](Direction light) {
-            const auto h = normal_between(view, light);
-            if (!is_visible(h) || h->z <= 0.0) return PerSteradian{0.0};
-            const Direction m = glm::normalize(hemisphere.stretched(*h));
-            return PerSteradian{projection.pdf(m) * hemisphere.solid_angle_per_normal(*h) /
-                                light_per_normal(view, *h)};
+            if (!square(light)) return PerSteradian{0.0};
+            return hemisphere.pdf_of_light(projection.per_cosine(), *normal_between(view, light));
           }};
 }
 
 UniformChart mirrored_at_bounded_normals(double alpha, Direction view) {
   const Hemisphere hemisphere(alpha, view);
   const double lowest = lowest_height(alpha, view);
-  const auto on_hemisphere = [=](Direction h) { return glm::normalize(hemisphere.stretched(h)); };
-  const auto on_cap = [=](Direction m) { return mirrored(hemisphere.view, m); };
-  return {[=](Direction light) -> std::optional<SquarePoint> {
-            const auto h = normal_between(view, light);
-            if (!h) return std::nullopt;
-            const Direction at = on_cap(on_hemisphere(*h));
-            return inside({turns(at.x, at.y), (1.0 - at.z) / (1.0 - lowest)});
-          },
+  const auto square = [=](Direction light) -> std::optional<SquarePoint> {
+    const auto h = normal_between(view, light);
+    if (!h) return std::nullopt;
+    const Direction on_cap = mirrored(hemisphere.view, hemisphere.to(*h));
+    return inside({turns(on_cap.x, on_cap.y), (1.0 - on_cap.z) / (1.0 - lowest)});
+  };
+  return {square,
           [=](SquarePoint at) {
             const double height = 1.0 - at.t * (1.0 - lowest);
             const double sine = std::sqrt(std::max(0.0, 1.0 - height * height));
@@ -257,13 +260,10 @@ UniformChart mirrored_at_bounded_normals(double alpha, Direction view) {
             return mirrored(view, hemisphere.from(m));
           },
           [=](Direction light) {
-            const auto h = normal_between(view, light);
-            if (!h || h->z <= 0.0) return PerSteradian{0.0};
-            const Direction m = on_hemisphere(*h);
-            if (on_cap(m).z < lowest) return PerSteradian{0.0};
-            const double on_sphere = 1.0 / (2.0 * kPi * (1.0 - lowest));
-            return PerSteradian{on_sphere * light_per_normal(hemisphere.view, m) *
-                                hemisphere.solid_angle_per_normal(*h) / light_per_normal(view, *h)};
+            if (!square(light)) return PerSteradian{0.0};
+            // Uniform on the cap, which has four times m.view of the solid angle of its normals.
+            const double per_cosine = 4.0 / (2.0 * kPi * (1.0 - lowest));
+            return hemisphere.pdf_of_light(per_cosine, *normal_between(view, light));
           }};
 }
 

@@ -14,11 +14,11 @@ namespace lightproof::reference {
 /// the uniform one. The two functions are each other's inverse, and an area ds dt is the solid
 /// angle ds dt / pdf.
 struct UniformChart {
-  /// None for a direction that the distribution cannot give. One that is outside by less than 1e-6
-  /// of the square, by rounding, is put on its edge.
+  /// None for a direction that the distribution cannot give. One that is outside by less than 1e-6,
+  /// by rounding, is put on the edge.
   std::function<std::optional<SquarePoint>(Direction)> square_from_direction;
   std::function<Direction(SquarePoint)> direction_from_square;
-  /// 0 for a direction that the distribution cannot give.
+  /// 0 where square_from_direction has nothing.
   std::function<PerSteradian(Direction)> pdf;
 };
 

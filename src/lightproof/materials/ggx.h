@@ -22,7 +22,7 @@ inline double ggx_alpha(double roughness) {
 /// surface. ∫ D(h) (n.h) dh = 1; 0 below the surface. From h.x^2 + h.y^2, since 1 - h.z^2 has no
 /// digits left where alpha is small.
 inline double ggx_normal_distribution(double alpha, Direction h) {
-  if (!(h.z > 0.0)) return 0.0;
+  if (h.z < 0.0) return 0.0;
   const double a2 = alpha * alpha;
   const double stretched = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
   return a2 / (kPi * stretched * stretched);

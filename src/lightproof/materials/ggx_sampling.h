@@ -44,22 +44,33 @@ inline Direction from_hemisphere_of_normals(double alpha, Direction h) {
   return glm::normalize(Direction(alpha * h.x, alpha * h.y, h.z));
 }
 
+/// A unit vector along the surface and across a direction.
+inline Direction across(Direction d) {
+  const double length = std::hypot(d.x, d.y);
+  return length > 0.0 ? Direction(-d.y / length, d.x / length, 0.0) : Direction(1.0, 0.0, 0.0);
+}
+
 /// Density of visible normals, G1(v) (v.h)+ D(h) / (n.v). The hemisphere of normals, projected
 /// along the view, is half a disc and half an ellipse, where visible normals are uniform: a disc is
 /// squeezed into them (Heitz 2018, "Sampling the GGX Distribution of Visible Normals").
 inline Direction ggx_visible_normal_from_square(double alpha, Direction view, SquarePoint u) {
   const Direction v = to_hemisphere_of_normals(alpha, view);
-  const double across = std::hypot(v.x, v.y);
-  const Direction x =
-      across > 0.0 ? Direction(-v.y / across, v.x / across, 0.0) : Direction(1.0, 0.0, 0.0);
+  const Direction x = across(v);
   const Direction y = glm::cross(v, x);
   const double radius = std::sqrt(u.t);
   const double phi = 2.0 * kPi * u.s;
   const double along_x = radius * std::cos(phi);
-  const double half_chord = std::sqrt(std::max(0.0, 1.0 - along_x * along_x));
+  const double in_disc = radius * std::sin(phi);
+  // All distances from the rim by 1 - u.t, which is not 0 there: no normal is across the view.
+  const double left = 1.0 - u.t;
+  const double half_chord = std::sqrt(left + in_disc * in_disc);
+  const double above = in_disc > 0.0 ? left / (half_chord + in_disc) : half_chord - in_disc;
+  const double below = in_disc < 0.0 ? left / (half_chord - in_disc) : half_chord + in_disc;
   const double share = 0.5 * (1.0 + v.z);
-  const double along_y = (1.0 - share) * half_chord + share * radius * std::sin(phi);
-  const double height = std::sqrt(std::max(0.0, half_chord * half_chord - along_y * along_y));
+  const double along_y = (1.0 - share) * half_chord + share * in_disc;
+  // The root of half_chord^2 - along_y^2
+  const double height =
+      std::sqrt(share * above * (2.0 * (1.0 - share) * half_chord + share * below));
   const Direction h = along_x * x + along_y * y + height * v;
   return from_hemisphere_of_normals(alpha, {h.x, h.y, std::max(0.0, h.z)});
 }
@@ -76,7 +87,11 @@ inline Direction normal_from_cap(Direction v, double depth, SquarePoint u) {
   const double z = from_edge - depth;
   const double sine = std::sqrt(std::max(0.0, (1.0 - z) * (1.0 + z)));
   // The height is the sum of two that cancel where the cap is that of all visible normals.
-  return {v.x + sine * std::cos(phi), v.y + sine * std::sin(phi), from_edge + (v.z - depth)};
+  const Direction h = {v.x + sine * std::cos(phi), v.y + sine * std::sin(phi),
+                       from_edge + (v.z - depth)};
+  // Opposite to the view but for roundings, once in 1e16 samples: a normal all but across the view.
+  if (glm::dot(h, h) < 1e-16) return across(v) + 1e-7 * v;
+  return h;
 }
 
 /// Density as ggx_visible_normal_pdf. On the hemisphere of normals a visible normal reflects the

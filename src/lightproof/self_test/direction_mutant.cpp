@@ -14,7 +14,7 @@ constexpr Direction kUp = {0.0, 0.0, 1.0};
 
 /// The sampler of the registry that a mutant claims to be.
 DirectionSampler correct_sampler(std::string_view name) {
-  std::vector<DirectionSampler> all = direction_samplers();
+  std::vector<DirectionSampler> all = all_direction_samplers();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });
   if (found == all.end())
@@ -113,7 +113,7 @@ void add_warps(std::vector<DirectionMutant>& all) {
 
 void add_phong_lobes(std::vector<DirectionMutant>& all) {
   const DirectionSampler lobe = correct_sampler("phong_lobe_50");
-  const double n = lobe.distribution.front().exponent;
+  const double n = std::get<CosineLobes>(lobe.distribution).front().exponent;
   const auto with_exponent = [](double exponent) {
     return [exponent](SquarePoint u) { return phong_lobe_from_square(u, exponent); };
   };
@@ -148,7 +148,7 @@ struct TwoLobes {
 
 TwoLobes two_lobes() {
   const DirectionSampler sampler = correct_sampler("phong_45");
-  const auto& lobes = sampler.distribution;
+  const auto& lobes = std::get<CosineLobes>(sampler.distribution);
   return {lobes[0].share, lobes[1].exponent, frame_around(lobes[1].axis), sampler};
 }
 
