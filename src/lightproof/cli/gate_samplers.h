@@ -10,7 +10,9 @@
 namespace lightproof::cli {
 
 struct SamplerChoice {
-  std::vector<std::string> names;  ///< of samplers or mutants; empty: all that are correct
+  /// Of samplers or mutants, or of the groups "directions" and "all_directions"; empty: all that are
+  /// correct, microfacets at a selection of roughnesses.
+  std::vector<std::string> names;
   std::string density_space;       ///< "A", "B" or both (empty)
   bool with_published = false;     ///< those that are kept with known defects as well
   bool has_maps = false;           ///< some were named
