@@ -34,12 +34,13 @@ Direction mirrored(Direction view, Direction normal) {
   return 2.0 * glm::dot(view, normal) * normal - view;
 }
 
-/// The normal between view and light, on the side of both; none if they are opposite.
-std::optional<Direction> normal_between(Direction view, Direction light) {
+/// The normal between view and light, on the side of both. If they are opposite every normal across
+/// the view is: the steepest.
+Direction normal_between(Direction view, Direction light) {
   const Direction sum = view + light;
-  const double length = glm::length(sum);
-  if (!(length > 0.0)) return std::nullopt;
-  return sum / length;
+  if (glm::length(sum) > 0.0) return glm::normalize(sum);
+  const Direction steepest = Direction(0, 0, 1) - view.z * view;
+  return glm::length(steepest) > 0.0 ? glm::normalize(steepest) : Direction(1, 0, 0);
 }
 
 /// Solid angle of light directions per solid angle of the normals that mirror the view to them,
@@ -209,47 +210,40 @@ UniformChart cosine_lobe_chart(Direction axis, double exponent) {
 
 UniformChart mirrored_at_normals(NormalDistribution distribution, Direction view) {
   const auto upper_normal = [view](Direction light) {
-    auto normal = normal_between(view, light);
-    if (normal && normal->z < 0.0) normal = -*normal;
-    return normal;
+    const Direction normal = normal_between(view, light);
+    return normal.z < 0.0 ? -normal : normal;
   };
-  return {
-      [=](Direction light) -> std::optional<SquarePoint> {
-        const auto h = upper_normal(light);
-        if (!h) return std::nullopt;
-        return inside({turns(h->x, h->y), cumulative(distribution, *h)});
-      },
-      [=](SquarePoint at) { return mirrored(view, normal_at(distribution, at)); },
-      [=](Direction light) {
-        const auto h = upper_normal(light);
-        if (!h || h->z <= 0.0) return PerSteradian{0.0};
-        return PerSteradian{density_of_normal(distribution, *h) / light_per_normal(view, light)};
-      }};
+  return {[=](Direction light) -> std::optional<SquarePoint> {
+            const Direction h = upper_normal(light);
+            return inside({turns(h.x, h.y), cumulative(distribution, h)});
+          },
+          [=](SquarePoint at) { return mirrored(view, normal_at(distribution, at)); },
+          [=](Direction light) {
+            const Direction h = upper_normal(light);
+            if (h.z <= 0.0) return PerSteradian{0.0};
+            return PerSteradian{density_of_normal(distribution, h) / light_per_normal(view, light)};
+          }};
 }
 
 UniformChart mirrored_at_visible_normals(double alpha, Direction view) {
   const Projection projection(alpha, view);
   const Hemisphere& hemisphere = projection.hemisphere;
-  const auto square = [=](Direction light) -> std::optional<SquarePoint> {
-    const auto h = normal_between(view, light);
-    if (!h) return std::nullopt;
-    return projection.square(hemisphere.to(*h));
+  const auto square = [=](Direction light) {
+    return projection.square(hemisphere.to(normal_between(view, light)));
   };
   return {square,
           [=](SquarePoint at) { return mirrored(view, hemisphere.from(projection.normal(at))); },
           [=](Direction light) {
             if (!square(light)) return PerSteradian{0.0};
-            return hemisphere.pdf_of_light(projection.per_cosine(), *normal_between(view, light));
+            return hemisphere.pdf_of_light(projection.per_cosine(), normal_between(view, light));
           }};
 }
 
 UniformChart mirrored_at_bounded_normals(double alpha, Direction view) {
   const Hemisphere hemisphere(alpha, view);
   const double lowest = lowest_height(alpha, view);
-  const auto square = [=](Direction light) -> std::optional<SquarePoint> {
-    const auto h = normal_between(view, light);
-    if (!h) return std::nullopt;
-    const Direction on_cap = mirrored(hemisphere.view, hemisphere.to(*h));
+  const auto square = [=](Direction light) {
+    const Direction on_cap = mirrored(hemisphere.view, hemisphere.to(normal_between(view, light)));
     return inside({turns(on_cap.x, on_cap.y), (1.0 - on_cap.z) / (1.0 - lowest)});
   };
   return {square,
@@ -263,7 +257,7 @@ UniformChart mirrored_at_bounded_normals(double alpha, Direction view) {
             if (!square(light)) return PerSteradian{0.0};
             // Uniform on the cap, which has four times m.view of the solid angle of its normals.
             const double per_cosine = 4.0 / (2.0 * kPi * (1.0 - lowest));
-            return hemisphere.pdf_of_light(per_cosine, *normal_between(view, light));
+            return hemisphere.pdf_of_light(per_cosine, normal_between(view, light));
           }};
 }
 

@@ -121,6 +121,16 @@ TEST(UniformChart, TellsDirectionsThatCannotBeDrawn) {
   expect_impossible(mirrored_at_bounded_normals(0.5, view), below);
 }
 
+// The light opposite to the view has no normal of its own.
+TEST(UniformChart, PlacesTheDirectionOppositeToTheView) {
+  for (const double degrees : {0.0, 45.0, 89.9}) {
+    const Direction view = view_at(degrees);
+    EXPECT_TRUE(mirrored_at_normals({Kind::ggx, 0.5}, view).square_from_direction(-view));
+    EXPECT_TRUE(mirrored_at_visible_normals(0.5, view).square_from_direction(-view));
+    EXPECT_GT(mirrored_at_visible_normals(0.5, view).pdf(-view).value, 0.0);
+  }
+}
+
 // What the bounded cap leaves out lies below the surface, and its edge touches the surface.
 TEST(UniformChart, OfBoundedNormalsHoldsAllDirectionsAboveTheSurface) {
   for (const double alpha : {0.01, 0.3, 1.0}) {

@@ -132,21 +132,22 @@ inline Direction ggx_normal_from_square(MicrofacetSampling sampling, double alph
   return {};
 }
 
-/// Whether the bounded cap holds the direction that `h` reflects the view to. One that is outside
-/// by a rounding counts as inside: it may have been drawn.
-inline bool is_in_bounded_cap(double alpha, Direction view, Direction h) {
-  constexpr double kRounding = 1e-9;
+/// Whether the bounded cap holds the direction that the view is reflected to. One that is outside
+/// by the roundings of its half vector, stretched by 1/alpha, counts as inside: it may have been
+/// drawn.
+inline bool is_in_bounded_cap(double alpha, Direction view, const HalfVector& half) {
+  const double rounding = 0x1p-50 / (alpha * half.cosine);
   const Direction v = to_hemisphere_of_normals(alpha, view);
+  const Direction h = half.normal;
   const Direction m = glm::normalize(Direction(h.x / alpha, h.y / alpha, h.z));
   const double height = 2.0 * glm::dot(v, m) * m.z - v.z;
-  return height >= -cap_bound(alpha, view) * v.z - kRounding;
+  return height >= -cap_bound(alpha, view) * v.z - rounding;
 }
 
 /// The density over light directions with which this way of sampling draws the one whose half
 /// vector is given, above the surface or below.
 inline PerSteradian ggx_reflected_pdf(MicrofacetSampling sampling, double alpha, Direction view,
                                       const HalfVector& half) {
-  if (!(half.cosine > 0.0)) return {0.0};
   const Direction h = half.normal;
   const double length = smith_stretched_length(alpha, view.z);
   switch (sampling) {
@@ -161,7 +162,7 @@ inline PerSteradian ggx_reflected_pdf(MicrofacetSampling sampling, double alpha,
     case MicrofacetSampling::bounded_caps: {
       const double bound = cap_bound(alpha, view);
       const bool may_be_outside = 2.0 * half.cosine * h.z < view.z;  // below the surface
-      if (may_be_outside && !is_in_bounded_cap(alpha, view, h)) return {0.0};
+      if (may_be_outside && !is_in_bounded_cap(alpha, view, half)) return {0.0};
       return {0.5 * ggx_normal_distribution(alpha, h) / (bound * view.z + length)};
     }
   }

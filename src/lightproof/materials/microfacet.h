@@ -63,7 +63,6 @@ struct BlinnMicrofacet {
  private:
   Scattering of_local(Direction view, Direction light) const {
     const HalfVector half = half_vector(view, light);
-    if (!(half.cosine > 0.0)) return {0.0, {0.0}};
     const Direction upper = half.normal.z < 0.0 ? -half.normal : half.normal;
     const double distribution = blinn_normal_distribution(blinn_shininess(roughness), upper);
     const PerSteradian pdf = reflected_density({distribution * upper.z}, half.cosine);
