@@ -44,8 +44,11 @@ Direction normal_between(Direction view, Direction light) {
 }
 
 /// Solid angle of light directions per solid angle of the normals that mirror the view to them,
-/// 4 |v.h|. By the length of the sum, since their product cancels where they are nearly opposite.
-double light_per_normal(Direction view, Direction light) { return 2.0 * glm::length(view + light); }
+/// 4 |v.h|. By the length of the sum, since their product cancels where they are nearly opposite;
+/// of opposite ones what a rounding leaves of it, so that densities stay finite.
+double light_per_normal(Direction view, Direction light) {
+  return 2.0 * std::max(0x1p-53, glm::length(view + light));
+}
 
 /// Any two vectors across `axis`, by Gram and Schmidt.
 struct Axes {
