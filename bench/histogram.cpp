@@ -42,7 +42,8 @@ constexpr double kLeastLog10P = -6.0;
 class Block {
  public:
   explicit Block(const DirectionSampler& sampler)
-      : sampler_(sampler), masses_(serpentine(bin_masses(sampler.distribution))) {
+      : sampler_(sampler),
+        masses_(serpentine(bin_masses(std::get<CosineLobes>(sampler.distribution)))) {
     draw(0);
   }
 

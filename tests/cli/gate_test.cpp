@@ -308,6 +308,19 @@ TEST(GateSamplers, OfDirectionsTakeNoMap) {
   EXPECT_THAT(values_of(gate_results(both), "map"), ElementsAre("sun-sky", "directions"));
 }
 
+// By one name: what runs without a map, and everything.
+TEST(GateSamplers, OfDirectionsGoByGroups) {
+  const auto names = [](const char* group) {
+    return values_of(gate_results({"--sampler", group, "-n", "1024"}), "sampler");
+  };
+  const Words some = names("directions");
+  EXPECT_THAT(some, AllOf(Contains("cosine_quaternion"), Contains("phong_89.9"),
+                          Contains("ggx_visible_0.6_45"), Not(Contains("ggx_visible_0.3_45"))));
+  const Finished mixed = quick_gate({"sun-sky", "--sampler", "directions"});
+  EXPECT_EQ(mixed.exit_code, 2);
+  EXPECT_THAT(mixed.err, HasSubstr("--sampler: directions draws directions and needs no map"));
+}
+
 TEST(GateSamplers, OfDirectionsHaveNoDensityOfAMap) {
   const Finished gate = quick_gate({"--sampler", "cosine_hemisphere", "--density", "B"});
   EXPECT_EQ(gate.exit_code, 2) << gate.out;

@@ -50,6 +50,13 @@ TEST(Frame, IsRightHandedOnTheHorizonWithEitherZero) {
   }
 }
 
+TEST(Frame, TakesDirectionsToTheWorldAndBack) {
+  const Frame frame = frame_around(glm::normalize(Direction(0.3, -0.5, -0.4)));
+  const Direction local = glm::normalize(Direction(0.2, 0.9, -0.1));
+  EXPECT_NEAR(glm::distance(frame.to_local(frame.to_world(local)), local), 0.0, kRoundings);
+  EXPECT_NEAR(glm::distance(frame.to_local(frame.bitangent), {0, 1, 0}), 0.0, kRoundings);
+}
+
 TEST(Frame, IsRightHandedAtRandomNormals) {
   const RandomStream stream("Frame.IsRightHandedAtRandomNormals", 1);
   for (std::uint64_t i = 0; i < 10000; ++i) {

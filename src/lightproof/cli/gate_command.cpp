@@ -162,7 +162,9 @@ void add_sampler_options(CLI::App& command, Options& options) {
   CLI::Option* sampler = command
                              .add_option("--sampler", options.samplers,
                                          "test only this one (may be repeated; see `lightproof "
-                                         "list samplers` and `list mutants`)")
+                                         "list samplers` and `list mutants`); `directions` are "
+                                         "the warps and materials that run without MAP, "
+                                         "`all_directions` every one at every roughness and angle")
                              ->allow_extra_args(false);
   command
       .add_flag("--with-published", options.with_published,

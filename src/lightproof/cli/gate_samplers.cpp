@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "known_names.h"
 #include "lightproof/core/error.h"
@@ -19,15 +21,26 @@ auto find_named(Range& range, const std::string& name) {
                       [&](const auto& item) { return item.name == name; });
 }
 
+/// Many samplers of directions by one name.
+struct Group {
+  std::string name;
+  std::vector<DirectionSampler> (*members)();
+};
+const std::array<Group, 2> kGroups = {{
+    {"directions", direction_samplers},
+    {"all_directions", all_direction_samplers},
+}};
+
 [[noreturn]] void refuse_unknown(const std::string& name) {
   const std::vector<std::string> of_maps = names_of(samplers());
-  const std::vector<std::string> of_directions = names_of(direction_samplers());
+  std::vector<std::string> of_directions = names_of(direction_samplers());
+  for (const Group& group : kGroups) of_directions.push_back(group.name);
   std::vector<std::string> defective = names_of(mutants());
   for (const std::string& mutant : names_of(direction_mutant_samplers())) {
     defective.push_back(mutant);
   }
   std::vector<std::string> all = of_maps;
-  for (const auto& more : {of_directions, defective}) {
+  for (const auto& more : {of_directions, names_of(all_direction_samplers()), defective}) {
     all.insert(all.end(), more.begin(), more.end());
   }
   throw InputError(
@@ -38,7 +51,15 @@ auto find_named(Range& range, const std::string& name) {
 
 /// Adds the samplers or mutants of this name. Throws InputError if there are none.
 void add_named(ChosenSamplers& chosen, const std::string& name) {
-  for (std::vector<DirectionSampler> all : {direction_samplers(), direction_mutant_samplers()}) {
+  for (const Group& group : kGroups) {
+    if (group.name != name) continue;
+    for (DirectionSampler& member : group.members()) {
+      chosen.of_directions.push_back(std::move(member));
+    }
+    return;
+  }
+  for (std::vector<DirectionSampler> all :
+       {all_direction_samplers(), direction_mutant_samplers()}) {
     const auto found = find_named(all, name);
     if (found == all.end()) continue;
     chosen.of_directions.push_back(std::move(*found));
@@ -56,11 +77,12 @@ void add_named(ChosenSamplers& chosen, const std::string& name) {
   }
 }
 
-/// Throws InputError if samplers of directions were named together with maps or a density, which
-/// they have no use for.
-void settle_named_directions(const SamplerChoice& choice, ChosenSamplers& chosen) {
-  if (chosen.of_directions.empty()) return;
-  const std::string names = listed(names_of(chosen.of_directions));
+/// Throws InputError if samplers of directions, by these names, were named together with maps or a
+/// density, which they have no use for.
+void settle_named_directions(const SamplerChoice& choice, const std::vector<std::string>& given,
+                             ChosenSamplers& chosen) {
+  if (given.empty()) return;
+  const std::string names = listed(given);
   if (!choice.density_space.empty()) {
     const std::string reason =
         fmt::format("--density: {} draws directions, which have no density of a map", names);
@@ -81,8 +103,13 @@ void settle_named_directions(const SamplerChoice& choice, ChosenSamplers& chosen
 
 ChosenSamplers choose_samplers(const SamplerChoice& choice) {
   ChosenSamplers chosen;
-  for (const std::string& name : choice.names) add_named(chosen, name);
-  settle_named_directions(choice, chosen);
+  std::vector<std::string> names_of_directions;
+  for (const std::string& name : choice.names) {
+    const std::size_t before = chosen.of_directions.size();
+    add_named(chosen, name);
+    if (chosen.of_directions.size() > before) names_of_directions.push_back(name);
+  }
+  settle_named_directions(choice, names_of_directions, chosen);
   if (choice.names.empty()) {
     chosen.of_maps = all_samplers_under_test();
     if (!choice.with_published) {

@@ -32,6 +32,10 @@ struct Frame {
   Direction to_world(Direction local) const {
     return local.x * tangent + local.y * bitangent + local.z * normal;
   }
+  /// The inverse of to_world.
+  Direction to_local(Direction world) const {
+    return {glm::dot(world, tangent), glm::dot(world, bitangent), glm::dot(world, normal)};
+  }
 };
 
 /// A frame around a unit normal; orthonormal to rounding for every normal, with a jump across

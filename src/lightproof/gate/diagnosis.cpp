@@ -18,7 +18,9 @@ namespace lightproof {
 namespace {
 
 constexpr std::array<Signature, 15> kSignatures = {{
-    {"off-the-map", "samples beside the map or without a density: a sum that ends below 1, a 0/0"},
+    {"off-the-map",
+     "samples beside the map, or where the distribution has none, or without a density: a sum that "
+     "ends below 1, a 0/0, directions that cannot be"},
     {"wrong-at-cdf-entries",
      "wrong only where the random number meets a CDF entry: lower for upper bound"},
     {"same-number", "one random number for both dimensions: the marginals are right"},

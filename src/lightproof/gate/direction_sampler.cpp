@@ -2,29 +2,25 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
-#include <variant>
+#include <utility>
 
-#include "lightproof/gate/alternative_distribution.h"
+#include "lightproof/gate/material_distribution.h"
 #include "lightproof/materials/material.h"
 #include "lightproof/warp/hemisphere.h"
-#include "lightproof/warp/lat_long.h"
-#include "reference/texel_masses.h"
+#include "lightproof/warp/hemisphere_around.h"
 
 namespace lightproof {
 namespace {
 
-using Lobes = std::vector<reference::CosineLobe>;
-
 constexpr Direction kUp = {0.0, 0.0, 1.0};
+/// Below the horizon, where frames take their other branch.
+constexpr Direction kOblique = {0.48, -0.6, -0.64};
 
 DirectionSampler uniform_hemisphere() {
-  return {"uniform_hemisphere",
-          "uniform over the hemisphere",
-          {{kUp, 0.0, 1.0}},
+  return {"uniform_hemisphere", "uniform over the hemisphere", CosineLobes{{kUp, 0.0, 1.0}},
           [](SquarePoint u) {
             const Direction d = uniform_hemisphere_from_square(u);
             return DrawnDirection{d, uniform_hemisphere_pdf(d)};
@@ -33,9 +29,7 @@ DirectionSampler uniform_hemisphere() {
 }
 
 DirectionSampler cosine_hemisphere() {
-  return {"cosine_hemisphere",
-          "the cosine over pi",
-          {{kUp, 1.0, 1.0}},
+  return {"cosine_hemisphere", "the cosine over pi", CosineLobes{{kUp, 1.0, 1.0}},
           [](SquarePoint u) {
             const Direction d = cosine_hemisphere_from_square(u);
             return DrawnDirection{d, cosine_hemisphere_pdf(d)};
@@ -46,7 +40,7 @@ DirectionSampler cosine_hemisphere() {
 DirectionSampler phong_lobe(double exponent) {
   return {fmt::format("phong_lobe_{}", exponent),
           fmt::format("Phong's lobe around the normal, exponent {}", exponent),
-          {{kUp, exponent, 1.0}},
+          CosineLobes{{kUp, exponent, 1.0}},
           [exponent](SquarePoint u) {
             const Direction d = phong_lobe_from_square(u, exponent);
             return DrawnDirection{d, phong_lobe_pdf(d.z, exponent)};
@@ -54,230 +48,169 @@ DirectionSampler phong_lobe(double exponent) {
           [exponent](Direction d) { return phong_lobe_pdf(d.z, exponent); }};
 }
 
-Lobes lobes_of(const Lambert&, Direction /*mirrored*/) { return {{kUp, 1.0, 1.0}}; }
-
-Lobes lobes_of(const ModifiedPhong& phong, Direction mirrored) {
-  const double share = phong.diffuse / (phong.diffuse + phong.specular);
-  return {{kUp, 1.0, share}, {mirrored, phong.exponent, 1.0 - share}};
+/// A warp of the hemisphere around the oblique normal.
+DirectionSampler oblique(std::string name, std::string description, double exponent,
+                         Direction (*draw)(Direction normal, SquarePoint u)) {
+  const auto pdf = [exponent](Direction d) {
+    return phong_lobe_pdf(glm::dot(kOblique, d), exponent);
+  };
+  return {std::move(name), std::move(description),
+          ChartedDensity{reference::cosine_lobe_chart(kOblique, exponent), {}},
+          [draw, pdf](SquarePoint u) {
+            const Direction d = draw(kOblique, u);
+            return DrawnDirection{d, pdf(d)};
+          },
+          pdf};
 }
 
-DirectionSampler seen_from(const MaterialInfo& info, int degrees) {
+std::vector<DirectionSampler> warps() {
+  return {
+      uniform_hemisphere(),
+      cosine_hemisphere(),
+      phong_lobe(1.0),
+      phong_lobe(50.0),
+      phong_lobe(1000.0),
+      oblique("uniform_oblique", "uniform around an oblique normal", 0.0,
+              uniform_hemisphere_around),
+      oblique("cosine_tangent_frame",
+              "the cosine over pi around an oblique normal, by its tangent frame", 1.0,
+              cosine_hemisphere_by_tangent_frame),
+      oblique("cosine_quaternion",
+              "the cosine over pi around an oblique normal, by the quaternion that rotates to it",
+              1.0, cosine_hemisphere_by_quaternion)};
+}
+
+/// A material at one roughness, if it has one.
+struct NamedMaterial {
+  std::string name;
+  std::string description;
+  Material material;
+};
+
+constexpr std::array kDegrees = {0.0, 45.0, 80.0, 89.9};
+
+DirectionSampler seen_from(const NamedMaterial& named, double degrees) {
   const double angle = degrees * kPi / 180.0;
   // Along +x, and the mirrored view along -x; from the normal the mirrored view is +z itself.
   const Direction view = {std::sin(angle), 0.0, std::cos(angle)};
   const ShadingPoint at = {{}, frame_around(kUp), view};
-  const Lobes distribution = std::visit(
-      [&](const auto& material) {
-        return lobes_of(material, {-view.x, 0.0, view.z});
-      },
-      info.material);
-  return {fmt::format("{}_{}", info.name, degrees),
-          fmt::format("{}, seen at {} degrees to the normal", info.description, degrees),
-          distribution,
-          [&info, at](SquarePoint u) {
+  const Material& material = named.material;
+  return {fmt::format("{}_{}", named.name, degrees),
+          fmt::format("{}, seen at {} degrees to the normal", named.description, degrees),
+          distribution_of(material, view),
+          [material, at](SquarePoint u) {
             const DirectionSample sample =
-                std::visit([&](const auto& m) { return m.sample(at, u); }, info.material);
+                std::visit([&](const auto& m) { return m.sample(at, u); }, material);
             return DrawnDirection{sample.direction, sample.scattering.pdf};
           },
-          [&info, at](Direction d) {
-            return std::visit([&](const auto& m) { return m.evaluate(at, d); }, info.material).pdf;
+          [material, at](Direction d) {
+            return std::visit([&](const auto& m) { return m.evaluate(at, d); }, material).pdf;
           }};
 }
 
-/// Both irradiances of the distribution itself, taken as radiance that is constant in each cell;
-/// only where that is at least a tenth of its mean, since light over density grows beyond all
-/// bounds where a lobe ends.
-void add_estimators(Expectation& expectation, const Lobes& distribution) {
-  const auto density = [&distribution](Direction d) { return reference::density(distribution, d); };
-  // The horizons of both normals are edges of cells.
-  const auto never = [](Direction, double) { return false; };
-  for (std::size_t i = 0; i < kMeanCaseCount; ++i) {
-    const reference::Kernel cosine = reference::cosine_kernel(kMeanCases[i].normal);
-    const reference::Kernel kernel = {[&](Direction d) {
-                                        return reference::KernelValue{cosine.at(d).k, density(d)};
-                                      },
-                                      never};
-    const auto moments = reference::light_moments(kernel, {&expectation.luminance, 1});
-    expectation.estimators[i] = moments[0][reference::SampledDensity::material];
-    expectation.uniform[i] = moments[0][reference::SampledDensity::uniform];
-  }
-  Grid<double> bright(expectation.luminance.extent());
-  for (std::size_t i = 0; i < bright.values().size(); ++i) {
-    bright.values()[i] = expectation.luminance.values()[i] > 0.0 ? 1.0 : 0.0;
-  }
-  const reference::Kernel one = {[&](Direction d) {
-                                   return reference::KernelValue{1.0, density(d)};
-                                 },
-                                 never};
-  expectation.inverse_pdf =
-      reference::light_moments(one, {&bright, 1})[0][reference::SampledDensity::material];
-}
+constexpr std::array kRoughnesses = {0.01, 0.1, 0.3, 0.6, 1.0};
 
-Expectation expectation_of(const Lobes& distribution) {
-  Expectation expectation;
-  expectation.masses = reference::cell_masses(distribution, reference::cells_for(distribution));
-  const Extent cells = expectation.masses.extent();
-  expectation.bins =
-      reference::bin_masses(expectation.masses, expectation.density_space, kGateBins);
-  expectation.rows = reference::row_marginal(expectation.masses);
-  expectation.columns = reference::column_marginal(expectation.masses);
-  if (reference::is_around_z(distribution)) {
-    expectation.transform = [distribution](std::span<const TexelSample> samples,
-                                           std::span<const double> /*cosines*/,
-                                           std::span<reference::RosenblattPoint> points) {
-      for (std::size_t i = 0; i < samples.size(); ++i) {
-        points[i] = reference::rosenblatt_point(distribution, samples[i].at);
-      }
-    };
-  }
-  expectation.density = [distribution](SquarePoint at) {
-    return to_square({reference::density(distribution, direction_from_square(at))}, at).value;
-  };
-  expectation.luminance = Grid<double>(cells);
-  double sum = 0.0;
-  for (int y = 0; y < cells.height; ++y) {
-    for (int x = 0; x < cells.width; ++x) {
-      expectation.luminance(x, y) = expectation.masses(x, y) / texel_solid_angle(cells, y);
-      sum += expectation.luminance(x, y);
-    }
-  }
-  expectation.mean_luminance = sum / static_cast<double>(cells.count());
-  for (int y = 0; y < cells.height; ++y) {
-    for (int x = 0; x < cells.width; ++x) {
-      if (!expectation.is_bright(expectation.luminance(x, y))) expectation.luminance(x, y) = 0.0;
-    }
-  }
-  expectation.set_flags();
-  add_estimators(expectation, distribution);
-  return expectation;
-}
-
-struct OtherLobes {
+/// A way to draw microfacets, at any roughness.
+struct MicrofacetInfo {
   std::string_view name;
-  std::string_view diagnosis;
-  Lobes (*change)(Lobes);
+  std::string_view description;
+  Material (*of_roughness)(double roughness);
 };
 
-template <class Change>
-Lobes each(Lobes lobes, const Change& change) {
-  for (reference::CosineLobe& lobe : lobes) change(lobe);
-  return lobes;
+template <MicrofacetSampling kSampling>
+Material ggx_of(double roughness) {
+  return Ggx{roughness, 1.0, SmithMasking::height_correlated, kSampling};
 }
 
-constexpr OtherLobes kOtherLobes[] = {
-    {"cosine-lobe", "the cosine's own lobe whatever the exponent",
-     [](Lobes) {
-       return Lobes{{kUp, 1.0, 1.0}};
+constexpr std::array<MicrofacetInfo, 5> kMicrofacets = {{
+    {"ggx_normals", "GGX's normals", ggx_of<MicrofacetSampling::normals>},
+    {"ggx_visible", "GGX's visible normals by the projected hemisphere",
+     ggx_of<MicrofacetSampling::visible_normals>},
+    {"ggx_caps", "GGX's visible normals by spherical caps",
+     ggx_of<MicrofacetSampling::spherical_caps>},
+    {"ggx_bounded", "GGX's visible normals by bounded spherical caps",
+     ggx_of<MicrofacetSampling::bounded_caps>},
+    {"blinn", "Blinn's half-vector lobe",
+     [](double roughness) -> Material {
+       return BlinnMicrofacet{roughness, 1.0};
      }},
-    {"hemisphere", "uniform over the hemisphere: a missing square root or power",
-     [](Lobes) {
-       return Lobes{{kUp, 0.0, 1.0}};
-     }},
-    {"sphere", "uniform over the whole sphere",
-     [](Lobes) {
-       return Lobes{{kUp, 0.0, 0.5}, {-kUp, 0.0, 0.5}};
-     }},
-    {"exponent-one-less", "an exponent of n where n + 1 belongs: the lobe is that of n - 1",
-     [](Lobes lobes) {
-       return each(std::move(lobes),
-                   [](auto& lobe) { lobe.exponent = std::max(0.0, lobe.exponent - 1.0); });
-     }},
-    {"exponent-one-more", "an exponent of n + 2 where n + 1 belongs: the lobe is that of n + 1",
-     [](Lobes lobes) { return each(std::move(lobes), [](auto& lobe) { lobe.exponent += 1.0; }); }},
-    {"below-horizon", "some samples are mirrored below the horizon",
-     [](Lobes lobes) {
-       const std::size_t count = lobes.size();
-       for (std::size_t i = 0; i < count; ++i) {
-         const reference::CosineLobe lobe = lobes[i];
-         lobes.push_back(
-             {{lobe.axis.x, lobe.axis.y, -lobe.axis.z}, lobe.exponent, 0.01 * lobe.share});
-         lobes[i].share *= 0.99;
-       }
-       return lobes;
-     }},
-    {"lobe-around-normal", "the lobe stands on the normal instead of the mirrored view",
-     [](Lobes lobes) { return each(std::move(lobes), [](auto& lobe) { lobe.axis = kUp; }); }},
-    {"lobe-around-view", "the lobe stands on the view instead of the mirrored one",
-     [](Lobes lobes) {
-       return each(std::move(lobes), [](auto& lobe) { lobe.axis.x = -lobe.axis.x; });
-     }},
-    {"lobes-exchanged", "the lobes chosen with each other's probability",
-     [](Lobes lobes) {
-       if (lobes.size() == 2) std::swap(lobes[0].share, lobes[1].share);
-       return lobes;
-     }},
-    {"lobes-alike", "all lobes chosen equally often, whatever they reflect",
-     [](Lobes lobes) {
-       const double share = 1.0 / static_cast<double>(lobes.size());
-       return each(std::move(lobes), [share](auto& lobe) { lobe.share = share; });
-     }},
-};
+}};
 
-std::vector<Alternative> alternatives_to(const Lobes& distribution) {
-  const auto declared = std::make_shared<const Grid<double>>(
-      reference::cell_masses(distribution, reference::cells_for(distribution)));
-  std::vector<Alternative> alternatives;
-  for (const OtherLobes& other : kOtherLobes) {
-    alternatives.push_back({other.name, other.diagnosis, [declared, distribution, &other] {
-                              return reference::cell_masses(other.change(distribution),
-                                                            declared->extent());
-                            }});
-  }
-  for (const AlternativeDistribution& other : alternative_distributions()) {
-    if (other.reads_map || other.is_example) continue;
-    alternatives.push_back({other.name, other.diagnosis,
-                            [declared, &other] { return other.masses({declared.get()}); }});
-  }
-  return alternatives;
+NamedMaterial at_roughness(const MicrofacetInfo& info, double roughness) {
+  return {fmt::format("{}_{}", info.name, roughness),
+          fmt::format("{}, roughness {}", info.description, roughness),
+          info.of_roughness(roughness)};
 }
 
-/// The nearest point of the square that is inside a cell.
-SquarePoint off_the_poles(SquarePoint at, Extent cells) {
-  const double margin = kCellMargin / cells.height;
-  return {at.s, std::clamp(at.t, margin, 1.0 - margin)};
+/// Every angle at every roughness, or at one each: another one for each angle of a way to draw, and
+/// for each way to draw of an angle.
+void add_microfacets(std::vector<DirectionSampler>& samplers, bool all_roughnesses) {
+  for (std::size_t i = 0; i < kMicrofacets.size(); ++i) {
+    for (std::size_t j = 0; j < kDegrees.size(); ++j) {
+      for (std::size_t k = 0; k < kRoughnesses.size(); ++k) {
+        if (!all_roughnesses && k != (i + 2 * j) % kRoughnesses.size()) continue;
+        samplers.push_back(seen_from(at_roughness(kMicrofacets[i], kRoughnesses[k]), kDegrees[j]));
+      }
+    }
+  }
+}
+
+/// What has no roughness, seen from every angle.
+void add_smooth_lobes(std::vector<DirectionSampler>& samplers) {
+  for (const std::string_view name : {"lambert", "phong"}) {
+    const MaterialInfo& info = material_by_name(name);
+    for (const double degrees : kDegrees) {
+      samplers.push_back(seen_from(
+          {std::string(info.name), std::string(info.description), info.material}, degrees));
+    }
+  }
+}
+
+std::vector<DirectionSampler> samplers_of(bool all_roughnesses) {
+  std::vector<DirectionSampler> samplers = warps();
+  add_smooth_lobes(samplers);
+  add_microfacets(samplers, all_roughnesses);
+  return samplers;
 }
 
 }  // namespace
 
-std::vector<DirectionSampler> direction_samplers() {
-  std::vector<DirectionSampler> samplers = {uniform_hemisphere(), cosine_hemisphere(),
-                                            phong_lobe(1.0), phong_lobe(50.0), phong_lobe(1000.0)};
-  for (const MaterialInfo& info : materials()) {
-    for (const int degrees : {0, 45, 80}) samplers.push_back(seen_from(info, degrees));
-  }
-  return samplers;
-}
+std::vector<DirectionSampler> direction_samplers() { return samplers_of(false); }
 
-BoundSampler bound_directions(const DirectionSampler& sampler, Extent cells) {
-  return {[sample = sampler.sample, cells](std::span<const SquarePoint> points,
-                                           std::span<TexelSample> samples) {
-            for (std::size_t i = 0; i < points.size(); ++i) {
-              const DrawnDirection drawn = sample(points[i]);
-              const SquarePoint at = off_the_poles(square_from_direction(drawn.direction), cells);
-              samples[i] = {at, cell_of(at.s, cells.width), cell_of(at.t, cells.height),
-                            to_square(drawn.pdf, at)};
-            }
-          },
-          [pdf = sampler.pdf](SquarePoint at) {
-            return to_square(pdf(direction_from_square(at)), at);
-          }};
+std::vector<DirectionSampler> all_direction_samplers() { return samplers_of(true); }
+
+BoundSampler bound_directions(const DirectionSampler& sampler) {
+  return std::visit(
+      [&](const auto& distribution) -> BoundSampler {
+        const Extent cells = cells_of(distribution);
+        return {[distribution, cells, sample = sampler.sample](std::span<const SquarePoint> points,
+                                                               std::span<TexelSample> samples) {
+                  for (std::size_t i = 0; i < points.size(); ++i) {
+                    samples[i] = sample_of(distribution, cells, sample(points[i]));
+                  }
+                },
+                [distribution, pdf = sampler.pdf](SquarePoint at) {
+                  const PlacedDirection placed = direction_at(distribution, at);
+                  return PerSquare{pdf(placed.direction).value * placed.solid_angle_per_area};
+                }};
+      },
+      sampler.distribution);
 }
 
 std::vector<TestCase> test_cases_of(std::span<const DirectionSampler> samplers) {
   std::vector<TestCase> test_cases;
   for (const DirectionSampler& sampler : samplers) {
-    const SamplerInstance instance = {sampler.name, false, [sampler] {
-                                        return bound_directions(
-                                            sampler, reference::cells_for(sampler.distribution));
-                                      }};
+    const SamplerInstance instance = {sampler.name, false,
+                                      [sampler] { return bound_directions(sampler); }};
+    const auto claimed = [distribution = sampler.distribution](const auto& function) {
+      return std::visit(function, distribution);
+    };
     test_cases.push_back(
         {std::string(kDirections),
          "",
          "",
-         [distribution = sampler.distribution] {
-           return std::make_shared<const Expectation>(expectation_of(distribution));
-         },
-         [distribution = sampler.distribution] { return alternatives_to(distribution); },
+         [claimed] { return claimed([](const auto& d) { return expectation_of(d); }); },
+         [claimed] { return claimed([](const auto& d) { return alternatives_to(d); }); },
          {instance}});
   }
   return test_cases;

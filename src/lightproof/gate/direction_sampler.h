@@ -7,35 +7,33 @@
 #include <string>
 #include <vector>
 
+#include "lightproof/gate/direction_distribution.h"
 #include "lightproof/gate/sampler_under_test.h"
 #include "lightproof/gate/test_case.h"
-#include "lightproof/materials/shading_point.h"
-#include "reference/cosine_lobes.h"
 
 namespace lightproof {
-
-/// A direction and the density with which it was drawn.
-struct DrawnDirection {
-  Direction direction;
-  PerSteradian pdf;
-};
 
 /// A sampler of directions, and the distribution that it claims to draw.
 struct DirectionSampler {
   std::string name;
   std::string description;
-  std::vector<reference::CosineLobe> distribution;  ///< what it claims to draw
+  DirectionDistribution distribution;  ///< what it claims to draw
   std::function<DrawnDirection(SquarePoint)> sample;
   std::function<PerSteradian(Direction)> pdf;
 };
 
-/// Every warp, and every material seen from the normal, at 45 and at 80 degrees: their names end in
-/// the angle. The normal is +z.
+/// Every warp, around +z and around an oblique normal, and every kind of material seen from the
+/// normal, at 45, at 80 and at 89.9 degrees: their names end in the angle. Each way to draw
+/// microfacets is seen from every angle, at one of the roughnesses of all_direction_samplers().
 std::vector<DirectionSampler> direction_samplers();
 
-/// A sampler of directions as a source of samples over the square, which name cells of a grid. A
-/// direction that is a pole is moved off it by less than any cell: there the square has no density.
-BoundSampler bound_directions(const DirectionSampler& sampler, Extent cells);
+/// All direction samplers: direction_samplers(), and each way to draw microfacets at every roughness
+/// and every angle.
+std::vector<DirectionSampler> all_direction_samplers();
+
+/// A sampler of directions as a source of samples over the square, which name cells of its
+/// distribution.
+BoundSampler bound_directions(const DirectionSampler& sampler);
 
 /// The test cases of samplers of directions, one for each of them.
 std::vector<TestCase> test_cases_of(std::span<const DirectionSampler> samplers);

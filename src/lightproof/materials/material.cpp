@@ -10,11 +10,19 @@
 namespace lightproof {
 namespace {
 
-constexpr std::array<MaterialInfo, 2> kMaterials = {{
-    {"lambert", "Lambert, albedo 0.8", Lambert{0.8}},
-    {"phong", "modified Phong, diffuse 0.3, specular 0.6, exponent 50",
-     ModifiedPhong{0.3, 0.6, 50.0}},
-}};
+constexpr std::array kMaterials = {
+    MaterialInfo{"lambert", "Lambert, albedo 0.8", Lambert{0.8}, true},
+    MaterialInfo{"phong", "modified Phong, diffuse 0.3, specular 0.6, exponent 50",
+                 ModifiedPhong{0.3, 0.6, 50.0}, true},
+    MaterialInfo{"ggx", "GGX, roughness 0.3, reflectance 0.9 at normal incidence", Ggx{0.3, 0.9},
+                 true},
+    MaterialInfo{"ggx_rough", "GGX, roughness 0.8, reflectance 0.9 at normal incidence",
+                 Ggx{0.8, 0.9}, false},
+    MaterialInfo{"blinn",
+                 "Blinn's half-vector lobe, roughness 0.5, reflectance 0.9 at normal "
+                 "incidence",
+                 BlinnMicrofacet{0.5, 0.9}, false},
+};
 
 }  // namespace
 

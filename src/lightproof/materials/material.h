@@ -1,4 +1,4 @@
-// The materials of the studies, once.
+// All materials, once.
 #pragma once
 
 #include <span>
@@ -6,18 +6,21 @@
 #include <variant>
 
 #include "lightproof/materials/lambert.h"
+#include "lightproof/materials/microfacet.h"
 #include "lightproof/materials/modified_phong.h"
 
 namespace lightproof {
 
 /// Visit once per batch, outside the loop. Reflectances are alike in red, green and blue: colour
 /// comes from the map.
-using Material = std::variant<Lambert, ModifiedPhong>;
+using Material = std::variant<Lambert, ModifiedPhong, Ggx, BlinnMicrofacet>;
 
 struct MaterialInfo {
   std::string_view name;
   std::string_view description;
   Material material;
+  bool
+      is_studied;  ///< whether studies measure how estimators converge on it; all others are tested
 };
 
 std::span<const MaterialInfo> materials();

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "lightproof/core/error.h"
+#include "lightproof/materials/material.h"
 #include "lightproof/warp/hemisphere.h"
 
 namespace lightproof {
@@ -14,7 +15,7 @@ constexpr Direction kUp = {0.0, 0.0, 1.0};
 
 /// The sampler of the registry that a mutant claims to be.
 DirectionSampler correct_sampler(std::string_view name) {
-  std::vector<DirectionSampler> all = direction_samplers();
+  std::vector<DirectionSampler> all = all_direction_samplers();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });
   if (found == all.end())
@@ -113,7 +114,7 @@ void add_warps(std::vector<DirectionMutant>& all) {
 
 void add_phong_lobes(std::vector<DirectionMutant>& all) {
   const DirectionSampler lobe = correct_sampler("phong_lobe_50");
-  const double n = lobe.distribution.front().exponent;
+  const double n = std::get<CosineLobes>(lobe.distribution).front().exponent;
   const auto with_exponent = [](double exponent) {
     return [exponent](SquarePoint u) { return phong_lobe_from_square(u, exponent); };
   };
@@ -148,7 +149,7 @@ struct TwoLobes {
 
 TwoLobes two_lobes() {
   const DirectionSampler sampler = correct_sampler("phong_45");
-  const auto& lobes = sampler.distribution;
+  const auto& lobes = std::get<CosineLobes>(sampler.distribution);
   return {lobes[0].share, lobes[1].exponent, frame_around(lobes[1].axis), sampler};
 }
 
@@ -204,6 +205,92 @@ void add_materials(std::vector<DirectionMutant>& all) {
                        }));
 }
 
+/// A material's sample and density as a mutant of microfacets seen at 45 degrees.
+struct Seen {
+  Material material;
+  ShadingPoint at = {{}, frame_around(kUp), {std::sqrt(0.5), 0.0, std::sqrt(0.5)}};
+
+  Sample sample() const {
+    return [*this](SquarePoint u) {
+      const DirectionSample drawn =
+          std::visit([&](const auto& m) { return m.sample(at, u); }, material);
+      return DrawnDirection{drawn.direction, drawn.scattering.pdf};
+    };
+  }
+  Pdf pdf() const {
+    return [*this](Direction d) {
+      return std::visit([&](const auto& m) { return m.evaluate(at, d).pdf; }, material);
+    };
+  }
+};
+
+Seen seen_ggx(double roughness, MicrofacetSampling sampling) {
+  return {Ggx{roughness, 1.0, SmithMasking::height_correlated, sampling}};
+}
+
+Direction turned_around_normal(Direction d) { return {-d.x, -d.y, d.z}; }
+
+void add_ggx(std::vector<DirectionMutant>& all) {
+  constexpr double kRoughness = 0.6;
+  constexpr std::string_view kVisible = "ggx_visible_0.6_45";
+  const auto add = [&](std::string_view claims, std::string name, std::string defect,
+                       std::string_view diagnosis, Oracle oracle, Sample sample, Pdf pdf) {
+    all.push_back(mutant({std::move(name), std::move(defect), claims, diagnosis, oracle},
+                         std::move(sample), std::move(pdf)));
+  };
+  const Seen visible = seen_ggx(kRoughness, MicrofacetSampling::visible_normals);
+  // alpha is the square of what stands here.
+  const Seen rougher = seen_ggx(std::sqrt(kRoughness), MicrofacetSampling::visible_normals);
+  add(kVisible, "ggx-roughness-for-alpha", "alpha is the roughness itself", "roughness-for-alpha",
+      Oracle::reference, rougher.sample(), rougher.pdf());
+  const Seen smoother = seen_ggx(kRoughness * kRoughness, MicrofacetSampling::visible_normals);
+  add(kVisible, "ggx-alpha-squared", "alpha squared in the sampler and its density",
+      "alpha-squared", Oracle::reference, smoother.sample(), smoother.pdf());
+  const auto of_normal = [pdf = visible.pdf(), view = visible.at.view](Direction d) {
+    return PerSteradian{pdf(d).value * 2.0 * glm::length(view + d)};
+  };
+  add(
+      kVisible, "ggx-density-of-normal", "1/(4 v.h) missing from the density",
+      "pdf-of-another-measure", Oracle::check,
+      [sample = visible.sample(), of_normal](SquarePoint u) {
+        const Direction d = sample(u).direction;
+        return DrawnDirection{d, of_normal(d)};
+      },
+      of_normal);
+  add(
+      kVisible, "ggx-wrong-frame", "the light on the side of the view", "lobe-around-view",
+      Oracle::reference,
+      [sample = visible.sample()](SquarePoint u) {
+        const DrawnDirection drawn = sample(u);
+        return DrawnDirection{turned_around_normal(drawn.direction), drawn.pdf};
+      },
+      [pdf = visible.pdf()](Direction d) { return pdf(turned_around_normal(d)); });
+  // Some of these normals face away from the view: no visible one reflects light to there.
+  add(kVisible, "ggx-normals-as-visible", "all normals drawn, the density that of visible ones",
+      "off-the-map", Oracle::check, seen_ggx(kRoughness, MicrofacetSampling::normals).sample(), {});
+  add("ggx_bounded_1_45", "ggx-without-bound",
+      "the whole cap drawn with the density of the bounded", "off-the-map", Oracle::check,
+      seen_ggx(1.0, MicrofacetSampling::spherical_caps).sample(), {});
+}
+
+void add_blinn(std::vector<DirectionMutant>& all) {
+  constexpr double kRoughness = 0.6;
+  constexpr std::string_view kBlinn = "blinn_0.6_45";
+  const Seen blinn = {BlinnMicrofacet{kRoughness, 1.0}};
+  const double shininess = blinn_shininess(kRoughness);
+  all.push_back(mutant({"blinn-lobe-exponent", "the root of S + 1 instead of S + 2", kBlinn,
+                        "exponent-one-less", Oracle::reference},
+                       [=, pdf = blinn.pdf()](SquarePoint u) {
+                         const Direction d =
+                             reflect_about(blinn.at.view, blinn_lobe_from_square(shininess, u));
+                         return DrawnDirection{d, pdf(d)};
+                       }));
+  const DirectionSampler right = correct_sampler(kBlinn);
+  all.push_back(mutant({"blinn-without-two-pi", "a density of the height instead of the direction",
+                        kBlinn, "pdf-scaled", Oracle::check},
+                       scaled(right, 2.0 * kPi), scaled_pdf(right, 2.0 * kPi)));
+}
+
 }  // namespace
 
 std::vector<DirectionMutant> direction_mutants() {
@@ -211,6 +298,8 @@ std::vector<DirectionMutant> direction_mutants() {
   add_warps(all);
   add_phong_lobes(all);
   add_materials(all);
+  add_ggx(all);
+  add_blinn(all);
   return all;
 }
 

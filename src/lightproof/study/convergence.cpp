@@ -321,11 +321,14 @@ std::vector<ConvergenceRecord> study_convergence(std::span<const EnvironmentMap>
     stages.push_back(std::make_unique<Stage>(receiver, options.picture));
   }
   const Progress exact = part_of(progress, 0.0, 0.3);
-  const double pairs = static_cast<double>(stages.size() * materials().size());
+  const auto studied = static_cast<std::size_t>(
+      std::ranges::count(materials(), true, &MaterialInfo::is_studied));
+  const double pairs = static_cast<double>(stages.size() * studied);
   double done = 0.0;
   std::vector<Line> lines;
   for (const auto& stage : stages) {
     for (const MaterialInfo& material : materials()) {
+      if (!material.is_studied) continue;
       if (exact) exact("exact light", done++ / pairs);
       auto more = lines_of(lights, *stage, material, options.estimates);
       std::move(more.begin(), more.end(), std::back_inserter(lines));
