@@ -49,7 +49,7 @@ double by_nodes(const PeakedDensity& density, const Cell& cell, std::span<const 
 }
 
 double integral(const PeakedDensity& density, const Cell& cell) {
-  constexpr double kLeastOnHorizon = 1e-3;
+  const double least_on_horizon = density.jumps ? 1e-3 : 2e-2;
   const Direction centre = direction_from_square({cell.s, cell.t});
   const double widest = std::max({sin_theta(cell.t - 0.5 * cell.height), sin_theta(cell.t),
                                   sin_theta(cell.t + 0.5 * cell.height)});
@@ -57,7 +57,7 @@ double integral(const PeakedDensity& density, const Cell& cell) {
   const double distance = std::max(0.0, angle_between(centre, density.peak) - 0.5 * size);
   const double above = glm::dot(centre, density.normal);
   if (above < -0.5 * size) return 0.0;
-  const bool on_horizon = above < 0.5 * size && size > kLeastOnHorizon;
+  const bool on_horizon = above < 0.5 * size && size > least_on_horizon;
   const double smooth = std::hypot(distance, density.width);
   if (!on_horizon && size < 0.05 * smooth) return by_nodes(density, cell, kTwoNodes);
   if (!on_horizon && size < 0.33 * smooth) return by_nodes(density, cell, kThreeNodes);
@@ -73,7 +73,7 @@ double integral(const PeakedDensity& density, const Cell& cell) {
 
 PeakedDensity around(const Lobe& lobe, Direction axis) {
   return {[&lobe, axis](Direction light) { return lobe.value(light, axis); }, axis, lobe.width,
-          axis};
+          axis, lobe.jumps};
 }
 
 /// D of Trowbridge and Reitz.
@@ -154,7 +154,7 @@ Lobe phong_lobe(double exponent) {
             const double cosine = glm::dot(light, axis);
             return cosine > 0.0 ? std::pow(cosine, exponent) : 0.0;
           },
-          1.0 / std::sqrt(exponent + 1.0)};
+          1.0 / std::sqrt(exponent + 1.0), exponent < 1.0};
 }
 
 Lobe ggx_lobe(double alpha) {
@@ -184,7 +184,7 @@ Lobe half_vector_lobe(double shininess) {
             if (!(glm::dot(light, axis) > 0.0)) return 0.0;
             return std::pow(glm::dot(glm::normalize(light + axis), axis), shininess);
           },
-          2.0 / std::sqrt(shininess + 1.0)};
+          2.0 / std::sqrt(shininess + 1.0), true};
 }
 
 glm::dvec3 prefiltered(const Grid<Rgb>& map, const Lobe& lobe, Direction axis) {

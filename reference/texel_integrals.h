@@ -16,6 +16,7 @@ struct PeakedDensity {
   Direction peak;    ///< unit vector
   double width;      ///< of the peak, in radians
   Direction normal;  ///< unit vector
+  bool jumps;        ///< whether it ends at the horizon with a jump; else with a kink at the most
 };
 
 /// The integral over each texel, in steradian times the density's unit. A cell is divided in four
@@ -30,6 +31,7 @@ Grid<double> texel_integrals(const PeakedDensity& density, Extent extent);
 struct Lobe {
   std::function<double(Direction light, Direction axis)> value;
   double width;  ///< in radians
+  bool jumps = false;
 };
 
 /// (n·l)^exponent.

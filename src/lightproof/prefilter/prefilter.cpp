@@ -153,10 +153,9 @@ std::vector<Rgb> by_harmonics(const Grid<Rgb>& map, const Lobe& lobe,
                               const PrefilterSettings& settings) {
   const LobePlan plan = plan_of(lobe, settings);
   if (plan.factors.empty()) {
-    // Summed over texels as a whole.
-    Grid<Rgb> grid(interpolation_grid(0));
-    add_local_sums(grid, map, plan);
-    return at_all(directions, [&](Direction axis) { return interpolate_smooth(grid, axis); });
+    return at_all(directions, [&](Direction axis) {
+      return local_sum(map, *plan.local, plan.local_share, axis);
+    });
   }
   const ZonalFilter filter = {plan.factors, interpolation_grid(plan.factors.size())};
   const Grid<Rgb> grid = std::move(convolve(map, {&filter, 1}).front());

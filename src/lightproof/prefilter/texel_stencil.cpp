@@ -33,11 +33,23 @@ double squared_sine_of_half(double angle) {
   return sine * sine;
 }
 
+/// The share of the square [-1,1]^2 of (u, v) where along u + across v < inside.
+double share_below(double inside, double along, double across) {
+  // Of a line along a side only the other number counts.
+  constexpr double kLeast = 1e-9;
+  const double p = std::max(along, kLeast);
+  const double q = std::max(across, kLeast);
+  const auto ramp = [](double x) { return x > 0.0 ? 0.5 * x * x : 0.0; };
+  const double area =
+      ramp(inside + p + q) - ramp(inside + p - q) - ramp(inside - p + q) + ramp(inside - p - q);
+  return std::clamp(area / (4.0 * p * q), 0.0, 1.0);
+}
+
 /// Integrates a kernel around one axis.
 class CellIntegral {
  public:
-  CellIntegral(const ZonalKernel& kernel, SquarePoint axis, double least_size)
-      : kernel_(kernel), axis_(axis), sine_(sin_theta(axis.t)), least_size_(least_size) {}
+  CellIntegral(const ZonalKernel& kernel, SquarePoint axis)
+      : kernel_(kernel), axis_(axis), sine_(sin_theta(axis.t)) {}
 
   /// The largest distance of a point of the cell from its centre, in radians, from above.
   static double radius(const Cell& cell) {
@@ -51,13 +63,13 @@ class CellIntegral {
     const double s = 0.5 * (cell.s_low + cell.s_high);
     const double t = 0.5 * (cell.t_low + cell.t_high);
     const double reach = radius(cell);
-    const double distance =
-        2.0 * std::asin(std::sqrt(std::min(1.0, haversine(s, t, sin_theta(t)))));
+    const double distance = angle(s, t);
     if (distance - reach > kernel_.support.value) return 0.0;
     const double smooth =
         std::max(kernel_.width.value, std::min(distance - reach, kernel_.support.value));
-    const bool on_edge = kernel_.has_edge && distance + reach > kernel_.support.value;
-    if (!(on_edge && 2.0 * reach > least_size_)) {
+    if (kernel_.has_edge && distance + reach > kernel_.support.value) {
+      if (2.0 * reach <= kStraight) return by_cut(cell, distance);
+    } else {
       if (2.0 * reach <= kTiny * smooth) return by_centre(cell);
       if (2.0 * reach <= kSmall * smooth) return by_nodes(cell);
     }
@@ -68,6 +80,12 @@ class CellIntegral {
  private:
   static constexpr double kSmall = 0.25;
   static constexpr double kTiny = 0.02;
+  /// Radians over which an edge is taken for a straight line.
+  static constexpr double kStraight = 0.02;
+
+  double angle(double s, double t) const {
+    return 2.0 * std::asin(std::sqrt(std::min(1.0, haversine(s, t, sin_theta(t)))));
+  }
 
   double haversine(double s, double t, double sine) const {
     return squared_sine_of_half(kPi * (t - axis_.t)) +
@@ -79,6 +97,21 @@ class CellIntegral {
     const double t = 0.5 * (cell.t_low + cell.t_high);
     return (cell.s_high - cell.s_low) * (cell.t_high - cell.t_low) * solid_angle_per_square(t) *
            kernel_.value(haversine(s, t, sin_theta(t)));
+  }
+
+  /// A small cell that the edge cuts: the part within the support, with the kernel's value in the
+  /// middle of that part.
+  double by_cut(const Cell& cell, double distance) const {
+    const double s = 0.5 * (cell.s_low + cell.s_high);
+    const double t = 0.5 * (cell.t_low + cell.t_high);
+    const double along = 0.5 * std::abs(angle(s, cell.t_high) - angle(s, cell.t_low));
+    const double across = 0.5 * std::abs(angle(cell.s_high, t) - angle(cell.s_low, t));
+    const double inside = kernel_.support.value - distance;
+    const double nearest = distance - along - across;
+    const double farthest = std::min(distance + along + across, kernel_.support.value);
+    const double middle = std::sin(0.25 * (nearest + farthest));
+    return (cell.s_high - cell.s_low) * (cell.t_high - cell.t_low) * solid_angle_per_square(t) *
+           share_below(inside, along, across) * kernel_.value(middle * middle);
   }
 
   double by_nodes(const Cell& cell) const {
@@ -100,7 +133,6 @@ class CellIntegral {
   const ZonalKernel& kernel_;
   SquarePoint axis_;
   double sine_;
-  double least_size_;
 };
 
 /// Columns on either side of the axis that a row's part of the support reaches.
@@ -129,8 +161,7 @@ Phase phase_of(int x, int width_in, int width_out) {
 
 TexelStencil::TexelStencil(const ZonalKernel& kernel, Extent extent, SquarePoint axis,
                            double whole) {
-  constexpr double kEdgeCells = 8.0;
-  const CellIntegral integral(kernel, axis, kPi / extent.height / kEdgeCells);
+  const CellIntegral integral(kernel, axis);
   const double reach_t = kernel.support.value / kPi;
   const int first_row = std::max(0, static_cast<int>((axis.t - reach_t) * extent.height));
   const int last_row =

@@ -26,8 +26,8 @@ class TexelStencil {
   /// Of a map of this size, for an axis in column 0 at s = offset/width, offset in [0,1), and at t.
   /// Cells are divided until they are a quarter of the kernel's width, or of their distance to the
   /// axis, and integrated with 3 x 3 Gauss-Legendre nodes, or with one where they are a fiftieth of
-  /// it; at an edge of the kernel they are divided to an eighth of a texel. The weights are scaled
-  /// to the sum `whole`.
+  /// it; at an edge of the kernel they are divided to 0.02 radians and cut by a straight line. The
+  /// weights are scaled to the sum `whole`.
   TexelStencil(const ZonalKernel& kernel, Extent extent, SquarePoint axis, double whole);
 
   /// The weighted sum over a map of that size, for an axis that lies `column` columns further on.
