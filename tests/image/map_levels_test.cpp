@@ -67,6 +67,13 @@ TEST(MapLevels, FindEveryTexelByItsCentre) {
   }
 }
 
+TEST(MapLevels, HoldThePolesInTheirFirstAndLastRows) {
+  for (const Extent extent : sizes_of(Projection::lat_long)) {
+    EXPECT_EQ(texel_at(Projection::lat_long, extent, {0, 0, 1}).row, 0);
+    EXPECT_EQ(texel_at(Projection::lat_long, extent, {0, 0, -1}).row, extent.height - 1);
+  }
+}
+
 TEST(MapLevels, FillTheSphere) {
   for (const Projection projection : kAll) {
     for (const Extent extent : sizes_of(projection)) {
@@ -256,6 +263,9 @@ TEST(MapLevels, ArePyramidsOrNot) {
   MapLevels map = pyramid(Projection::cube, {8, 8}, 2);
   map.levels[1].faces.pop_back();
   EXPECT_FALSE(is_pyramid(map)) << "five faces";
+  map = pyramid(Projection::cube, {8, 8}, 1);
+  map.levels[0].faces.pop_back();
+  EXPECT_FALSE(is_pyramid(map)) << "five faces of level 0";
   map = pyramid(Projection::lat_long, {8, 8}, 2);
   map.levels[1].faces[0] = Grid<Rgb>({8, 8});
   EXPECT_FALSE(is_pyramid(map)) << "not halved";
