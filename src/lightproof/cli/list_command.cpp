@@ -19,6 +19,7 @@
 #include "lightproof/samplers/registry.h"
 #include "lightproof/self_test/direction_mutant.h"
 #include "lightproof/self_test/mutant.h"
+#include "lightproof/systems/registry.h"
 #include "lightproof/warp/preset.h"
 
 namespace lightproof::cli {
@@ -99,6 +100,19 @@ std::vector<Entry> point_set_entries() {
   return entries;
 }
 
+std::vector<Entry> system_entries() {
+  std::vector<Entry> entries;
+  for (const SystemInfo& system : systems()) {
+    const std::string_view document = document_of(system);
+    entries.push_back(
+        {std::string(system.id),
+         fmt::format("{}; {}{}; test {}", system.name, document,
+                     system.is_inferred ? " (inferred)" : "", system.test),
+         {{"document", document}, {"inferred", system.is_inferred}, {"test", system.test}}});
+  }
+  return entries;
+}
+
 std::vector<Entry> entries_of(const std::string& registry) {
   if (registry == "samplers") return sampler_entries();
   if (registry == "mutants") return mutant_entries();
@@ -107,11 +121,13 @@ std::vector<Entry> entries_of(const std::string& registry) {
   if (registry == "materials") return described(materials());
   if (registry == "receivers") return described(receivers());
   if (registry == "points") return point_set_entries();
+  if (registry == "systems") return system_entries();
   return estimator_entries();
 }
 
-const std::vector<std::string> kRegistries = {"samplers",  "mutants",   "maps",       "presets",
-                                              "materials", "receivers", "estimators", "points"};
+const std::vector<std::string> kRegistries = {"samplers",   "mutants",   "maps",
+                                              "presets",    "materials", "receivers",
+                                              "estimators", "points",    "systems"};
 
 /// Version of the format of `list --json` (docs/schema/list.schema.json).
 constexpr int kListFormatVersion = 1;

@@ -120,7 +120,7 @@ void write_maps(Precomputation& made, const Options& options, MapFormat format,
     if (!lost.empty()) {
       if (loss.is_refused() && !options.clamp) {
         throw Refusal(fmt::format("{}: {} Take another --format, or --clamp them", map.name, lost),
-                      with_flags(options.command_line, {"--clamp"}));
+                      with_flags(options.command_line, {"--clamp", "--resume"}));
       }
       map.notes.push_back(lost);
       if (!options.quiet) fmt::print(stderr, "{}: {}\n", map.name, terminal_text(lost));

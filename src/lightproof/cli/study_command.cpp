@@ -16,6 +16,7 @@
 #include "lightproof/report/report.h"
 #include "lightproof/self_test/self_test.h"
 #include "lightproof/study/study.h"
+#include "lightproof/systems/comparisons.h"
 #include "outputs.h"
 #include "whole_number.h"
 
@@ -69,6 +70,7 @@ StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
   const Progress progress = progress_of(options);
   StudyResult result = run_study(std::move(maps), options.study, progress);
   result.gate.input_options = input_options(options);
+  result.published_forms = system_comparisons();
   if (!options.no_self_test) {
     result.self_test = run_self_test(result.maps, options.seed, progress);
   }

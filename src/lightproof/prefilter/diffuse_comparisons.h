@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lightproof/prefilter/published_comparison.h"
+#include "lightproof/results/published_comparison.h"
 #include "lightproof/prefilter/riemann_irradiance.h"
 
 namespace lightproof {

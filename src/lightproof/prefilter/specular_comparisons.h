@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lightproof/prefilter/published_comparison.h"
+#include "lightproof/results/published_comparison.h"
 
 namespace lightproof {
 

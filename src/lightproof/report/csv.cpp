@@ -188,4 +188,12 @@ std::string maps_csv(const std::vector<MapRecord>& records) {
   return csv;
 }
 
+std::string published_csv(const std::vector<PublishedComparison>& comparisons) {
+  std::string csv = "system,quantity,exact,published,corrected\n";
+  for (const PublishedComparison& c : comparisons) {
+    csv += row(c.system, c.what, c.exact, c.published, c.corrected);
+  }
+  return csv;
+}
+
 }  // namespace lightproof

@@ -10,6 +10,7 @@
 #include "lightproof/results/gate_result.h"
 #include "lightproof/results/growth_fit.h"
 #include "lightproof/results/map_record.h"
+#include "lightproof/results/published_comparison.h"
 #include "lightproof/results/render_record.h"
 #include "lightproof/results/self_test_result.h"
 #include "lightproof/results/throughput_record.h"
@@ -37,5 +38,7 @@ std::string renders_csv(const std::vector<RenderRecord>& records);
 std::string mutants_csv(const std::vector<KillRecord>& mutants);
 /// Maps: one row per map.
 std::string maps_csv(const std::vector<MapRecord>& records);
+/// A line for each published form that is wrong or incomplete.
+std::string published_csv(const std::vector<PublishedComparison>& comparisons);
 
 }  // namespace lightproof

@@ -41,6 +41,14 @@ Json json_of(const std::optional<Value>& value) {
   return value ? json_of(*value) : Json(nullptr);
 }
 
+Json json_of(const PublishedComparison& c) {
+  return {{"system", c.system},
+          {"quantity", c.what},
+          {"exact", number(c.exact)},
+          {"published", number(c.published)},
+          {"corrected", number(c.corrected)}};
+}
+
 Json json_of(const TestRecord& t) {
   return {{"sampler", t.sampler},
           {"density", t.density_space},
@@ -317,6 +325,7 @@ std::string study_json(const StudyResult& study, const RunDescription& run) {
                   {"maps", list_of(study.maps)},
                   {"gate", json_of(study.gate, verdict)},
                   {"self_test", self_test_json(study.self_test)},
+                  {"published_forms", list_of(study.published_forms)},
                   {"convergence", list_of(study.convergence)},
                   {"throughput", list_of(study.throughput)},
                   {"throughput_origin", study.throughput_origin},

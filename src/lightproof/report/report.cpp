@@ -50,6 +50,7 @@ NamedTables tables_of(const StudyResult& study) {
           {"tables.csv", tables_csv(study.tables)},
           {"renders.csv", renders_csv(study.renders)},
           {"maps.csv", maps_csv(study.maps)},
+          {"published.csv", published_csv(study.published_forms)},
           {"mutants.csv", mutants_csv(self_test.mutants)}};
 }
 

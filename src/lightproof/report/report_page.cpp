@@ -16,6 +16,7 @@ constexpr std::string_view kNavigation = R"(<nav aria-label="Sections"><ul>
 <li><a href="#variance">Variance</a></li>
 <li><a href="#throughput">Throughput</a></li>
 <li><a href="#renders">Renders</a></li>
+<li><a href="#published">Published forms</a></li>
 </ul></nav>
 )";
 
@@ -26,7 +27,7 @@ std::string report_page(const StudyResult& study) {
                            self_test_section(study.self_test) + map_section(study.maps) +
                            convergence_section(study.convergence) +
                            variance_section(study.convergence) + throughput_section(study) +
-                           render_section(study.renders);
+                           render_section(study.renders) + published_section(study.published_forms);
   return html_document("Lightproof: " + headline(study), kNavigation, body, study.version);
 }
 

@@ -10,6 +10,7 @@
 #include "lightproof/results/gate_result.h"
 #include "lightproof/results/growth_fit.h"
 #include "lightproof/results/map_record.h"
+#include "lightproof/results/published_comparison.h"
 #include "lightproof/results/render_record.h"
 #include "lightproof/results/self_test_result.h"
 #include "lightproof/results/throughput_record.h"
@@ -31,6 +32,7 @@ struct StudyResult {
   std::vector<TableRecord> tables;
   std::vector<RenderRecord> renders;
   std::optional<SelfTestResult> self_test = {};
+  std::vector<PublishedComparison> published_forms = {};
 };
 
 }  // namespace lightproof
