@@ -4,18 +4,17 @@
 #include <cassert>
 #include <cmath>
 #include <complex>
-#include <kissfft/kissfft.hh>
 
 #include "lightproof/core/huge_pages.h"
 #include "lightproof/core/measure.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/prefilter/fourier_transform.h"
 #include "lightproof/prefilter/legendre_transform.h"
 
 namespace lightproof {
 namespace {
 
 using Complex = std::complex<double>;
-using Transform = kissfft<double>;
 constexpr int kChannels = 3;
 
 /// Folded rows of all orders: [m][even, odd][part][slot].
@@ -60,11 +59,6 @@ std::vector<Complex> column_integrals(int width, int degree) {
 /// Slots that a task does together: a line of the cache of each part.
 constexpr std::size_t kSlots = 8;
 
-/// Without the cases of infinities that std::complex looks after.
-Complex product(Complex a, Complex b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
 /// The Fourier integrals over longitude of the rows of a map, folded at the equator. Two real rows
 /// go through one complex transform.
 class RowAnalysis {
@@ -80,10 +74,10 @@ class RowAnalysis {
     const auto width = static_cast<std::size_t>(map_.extent().width);
     const std::size_t count = std::min(kSlots, bands_.slots() - first);
     std::vector<Complex> spectra(count * width);
-    const Transform transform = transform_;  // its scratch memory is for one thread
     for (int channel = 0; channel < kChannels; ++channel) {
       for (std::size_t i = 0; i < count; ++i) {
-        transform_pair(transform, bands_.row_of(first + i), channel, spectra.data() + i * width);
+        transform_pair(bands_.row_of(first + i), channel,
+                       std::span(spectra).subspan(i * width, width));
       }
       const std::size_t at = 2 * static_cast<std::size_t>(channel) * bands_.slots() + first;
       for (std::size_t m = 0; m < columns_.size(); ++m) {
@@ -97,10 +91,10 @@ class RowAnalysis {
  private:
   /// The transform of row `row` plus i times that of the row opposite the equator; 0 of an empty
   /// slot.
-  void transform_pair(const Transform& transform, int row, int channel, Complex* spectrum) const {
+  void transform_pair(int row, int channel, std::span<Complex> spectrum) const {
     const auto width = static_cast<std::size_t>(map_.extent().width);
     if (row >= bands_.rows()) {
-      std::fill_n(spectrum, width, Complex());
+      std::fill(spectrum.begin(), spectrum.end(), Complex());
       return;
     }
     const auto lower = map_.row(row);
@@ -109,7 +103,7 @@ class RowAnalysis {
     for (std::size_t x = 0; x < width; ++x) {
       rows[x] = {value_of(lower[x], channel), value_of(upper[x], channel)};
     }
-    transform.transform(rows.data(), spectrum);
+    transform_(rows, spectrum);
   }
 
   void fold(std::span<const Complex> spectra, std::size_t m, std::span<double> even,
@@ -123,8 +117,8 @@ class RowAnalysis {
       // The spectra of the two rows are (z + mirrored)/2 and (z - mirrored)/2i.
       const Complex sum = 0.5 * (z + mirrored);
       const Complex difference = {0.5 * (z - mirrored).imag(), -0.5 * (z - mirrored).real()};
-      const Complex of_even = product(sum + difference, columns_[m]);
-      const Complex of_odd = product(sum - difference, columns_[m]);
+      const Complex of_even = finite_product(sum + difference, columns_[m]);
+      const Complex of_odd = finite_product(sum - difference, columns_[m]);
       even[i] = of_even.real();
       even[i + bands_.slots()] = of_even.imag();
       odd[i] = of_odd.real();
@@ -134,7 +128,7 @@ class RowAnalysis {
 
   const Grid<Rgb>& map_;
   const BandTransform& bands_;
-  Transform transform_;
+  FourierTransform transform_;
   std::vector<Complex> columns_;
 };
 
@@ -155,7 +149,6 @@ class RowSynthesis {
     const auto width = static_cast<std::size_t>(output_.extent().width);
     const std::size_t count = std::min(kSlots, static_cast<std::size_t>(latitudes_.rows()) - first);
     std::vector<Complex> spectra(count * width);
-    const Transform transform = transform_;  // its scratch memory is for one thread
     for (int channel = 0; channel < kChannels; ++channel) {
       std::fill(spectra.begin(), spectra.end(), Complex());
       const std::size_t at = 2 * static_cast<std::size_t>(channel) * latitudes_.slots() + first;
@@ -164,7 +157,8 @@ class RowSynthesis {
                orders.odd(static_cast<int>(m)).subspan(at), m, spectra);
       }
       for (std::size_t i = 0; i < count; ++i) {
-        write_pair(transform, static_cast<int>(first + i), channel, spectra.data() + i * width);
+        write_pair(static_cast<int>(first + i), channel,
+                   std::span(spectra).subspan(i * width, width));
       }
     }
   }
@@ -180,19 +174,19 @@ class RowSynthesis {
     for (std::size_t i = 0; i * width < spectra.size(); ++i) {
       const Complex of_even = {even[i], even[i + imaginary]};
       const Complex of_odd = {odd[i], odd[i + imaginary]};
-      const Complex low = product(of_even + of_odd, phases_[m]);
-      const Complex high = product(of_even - of_odd, phases_[m]);
+      const Complex low = finite_product(of_even + of_odd, phases_[m]);
+      const Complex high = finite_product(of_even - of_odd, phases_[m]);
       spectra[i * width + at] += Complex(low.real() - high.imag(), low.imag() + high.real());
       if (m == 0) continue;
       spectra[i * width + opposite] += Complex(low.real() + high.imag(), high.real() - low.imag());
     }
   }
 
-  void write_pair(const Transform& transform, int row, int channel, const Complex* spectrum) const {
+  void write_pair(int row, int channel, std::span<const Complex> spectrum) const {
     const auto lower = output_.row(row);
     const auto upper = output_.row(output_.extent().height - 1 - row);
     std::vector<Complex> rows(lower.size());
-    transform.transform(spectrum, rows.data());
+    transform_(spectrum, rows);
     for (std::size_t x = 0; x < rows.size(); ++x) {
       lower[x][channel] = static_cast<float>(rows[x].real());
       upper[x][channel] = static_cast<float>(rows[x].imag());
@@ -201,7 +195,7 @@ class RowSynthesis {
 
   Grid<Rgb>& output_;
   const LatitudeTransform& latitudes_;
-  Transform transform_;
+  FourierTransform transform_;
   std::vector<Complex> phases_;
 };
 
