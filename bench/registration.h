@@ -12,6 +12,7 @@ void register_build_benchmarks();
 void register_render_benchmarks();
 void register_histogram_benchmarks();
 void register_count_benchmarks();
+void register_irradiance_benchmarks();
 void register_prefilter_benchmarks();
 
 /// Machine, compiler, flags and commit, beside what Google Benchmark says of itself.

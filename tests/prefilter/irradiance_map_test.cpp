@@ -8,7 +8,7 @@
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
-#include "lightproof/image/synthetic.h"
+#include "lightproof/prefilter/two_sided_irradiance.h"
 #include "reference/irradiance.h"
 #include "tests/prefilter/maps.h"
 
@@ -23,28 +23,37 @@ void expect_near(glm::dvec3 actual, glm::dvec3 expected, double tolerance) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(actual[c], expected[c], tolerance);
 }
 
+/// Holds the map of `normals` against the irradiance of each, at every so manieth row.
+void expect_irradiances(Extent source, Extent normals, int rows = 1) {
+  SCOPED_TRACE(testing::Message() << source.width << 'x' << source.height << " to " << normals.width
+                                  << 'x' << normals.height);
+  const EnvironmentMap map = random_map_with_sun(source);
+  const IrradianceMap actual = irradiance_map(map, normals);
+  ASSERT_EQ(actual.irradiance.extent(), normals);
+  for (int y = 0; y < normals.height; y += rows) {
+    for (int x = 0; x < normals.width; ++x) {
+      const Direction normal =
+          direction_from_square({(x + 0.5) / normals.width, (y + 0.5) / normals.height});
+      expect_near(actual.irradiance(x, y), irradiance(map, normal).rgb, rounding(map));
+    }
+  }
+}
+
 TEST(IrradianceMap, HoldsTheIrradianceOfEveryNormal) {
   // Widths that divide each other, that share some divisors or none; odd and even ones; poles' rows
   // and a row at the horizon.
   const std::pair<Extent, Extent> sizes[] = {
-      {{1, 1}, {1, 1}},   {{1, 1}, {4, 2}},    {{2, 1}, {2, 2}},    {{1, 2}, {3, 3}},
-      {{3, 2}, {4, 4}},   {{3, 2}, {1, 1}},    {{4, 2}, {8, 4}},    {{7, 5}, {6, 3}},
-      {{8, 4}, {4, 2}},   {{12, 6}, {8, 4}},   {{33, 17}, {16, 8}}, {{64, 32}, {16, 9}},
-      {{64, 31}, {7, 4}}, {{30, 15}, {12, 6}}, {{100, 50}, {10, 5}}};
-  for (const auto& [source, normals] : sizes) {
-    SCOPED_TRACE(testing::Message() << source.width << 'x' << source.height << " to "
-                                    << normals.width << 'x' << normals.height);
-    const EnvironmentMap map = random_map_with_sun(source);
-    const IrradianceMap actual = irradiance_map(map, normals);
-    ASSERT_EQ(actual.irradiance.extent(), normals);
-    for (int y = 0; y < normals.height; ++y) {
-      for (int x = 0; x < normals.width; ++x) {
-        const Direction normal =
-            direction_from_square({(x + 0.5) / normals.width, (y + 0.5) / normals.height});
-        expect_near(actual.irradiance(x, y), irradiance(map, normal).rgb, rounding(map));
-      }
-    }
-  }
+      {{1, 1}, {1, 1}},    {{1, 1}, {4, 2}},   {{2, 1}, {2, 2}},    {{1, 2}, {3, 3}},
+      {{3, 2}, {4, 4}},    {{3, 2}, {1, 1}},   {{4, 2}, {8, 4}},    {{7, 5}, {6, 3}},
+      {{8, 4}, {4, 2}},    {{12, 6}, {8, 4}},  {{33, 17}, {16, 8}}, {{64, 32}, {16, 9}},
+      {{30, 15}, {15, 7}}, {{60, 30}, {9, 5}}, {{64, 31}, {7, 4}},  {{30, 15}, {12, 6}},
+      {{100, 50}, {10, 5}}};
+  for (const auto& [source, normals] : sizes) expect_irradiances(source, normals);
+}
+
+TEST(IrradianceMap, OfTheSizesOfAnEngineHoldsTheIrradianceOfEveryNormal) {
+  expect_irradiances({512, 256}, {64, 32}, 3);
+  expect_irradiances({500, 250}, {64, 32}, 8);
 }
 
 TEST(IrradianceMap, SeesOneBrightTexelAtSeamAndPoles) {
@@ -111,6 +120,27 @@ TEST(IrradianceMap, HasNoSizeThatItRefusesButNone) {
     EXPECT_THAT(error.what(), testing::HasSubstr("0 x 4"));
   }
   EXPECT_THROW(irradiance_map(map, {4, -1}), InputError);
+}
+
+TEST(TwoSidedIrradiance, IsThatOfACombFromAnyLongitude) {
+  const EnvironmentMap map = random_map_with_sun({24, 12});
+  const FoldedLattice lattice(map.radiance.extent());
+  for (const int teeth : {1, 2, 3, 8, 24}) {
+    for (const double first : {-7.0, 0.0, 0.9, 2.0, 3.1, 4.0, 5.9, 6.2, 9.5}) {
+      for (const double tilt : {0.0, 0.1, 0.7, 1.3, 1.5, 0.5 * kPi}) {
+        const NormalComb comb{{std::sin(tilt), std::cos(tilt)}, first, teeth};
+        const auto both = two_sided_irradiance(map, lattice, std::span(&comb, 1));
+        ASSERT_EQ(both.size(), static_cast<std::size_t>(teeth));
+        for (std::size_t i = 0; i < both.size(); ++i) {
+          const double phi = kPi - first - 2.0 * kPi * static_cast<double>(i) / teeth;
+          const Direction normal = {std::sin(tilt) * std::cos(phi), std::sin(tilt) * std::sin(phi),
+                                    std::cos(tilt)};
+          expect_near(both[i].upper, irradiance(map, normal).rgb, rounding(map));
+          expect_near(both[i].lower, irradiance(map, -normal).rgb, rounding(map));
+        }
+      }
+    }
+  }
 }
 
 TEST(Irradiances, AreThoseOfEachNormal) {

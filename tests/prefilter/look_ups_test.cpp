@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "lightproof/core/random.h"
-#include "lightproof/prefilter/hammersley.h"
 #include "lightproof/prefilter/mip_pyramid.h"
 #include "lightproof/prefilter/resample.h"
 #include "lightproof/prefilter/sphere_interpolation.h"
@@ -100,17 +99,6 @@ TEST(SphereInterpolation, FollowsASphericalHarmonic) {
     EXPECT_NEAR(interpolate_smooth(samples, pole).x,
                 boost::math::legendre_p(12, glm::dot(axis, pole)), 4e-5);
   }
-}
-
-TEST(Hammersley, MirrorsTheBitsOfItsIndex) {
-  EXPECT_EQ(mirrored_bits(0), 0.0);
-  EXPECT_EQ(mirrored_bits(1), 0.5);
-  EXPECT_EQ(mirrored_bits(2), 0.25);
-  EXPECT_EQ(mirrored_bits(3), 0.75);
-  EXPECT_EQ(mirrored_bits(6), 0.375);
-  EXPECT_EQ(mirrored_bits(0xffffffffU), 1.0 - 0x1p-32);
-  EXPECT_EQ(hammersley(3, 4), (SquarePoint{0.75, 0.75}));
-  EXPECT_EQ(hammersley(4, 4), (SquarePoint{1.0, 0.125})) << "the last one of 1 to N";
 }
 
 }  // namespace

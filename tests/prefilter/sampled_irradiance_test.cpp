@@ -98,7 +98,7 @@ TEST(SampledIrradianceMap, HasTheErrorThatItsVariancePredicts) {
   // The variance of pi L under cosine sampling is pi ∫ L² cos - E²: twice an exact irradiance. The
   // mean of z² over 512 normals is 1, with a standard deviation of sqrt(2/512) and, of sums of 256
   // samples that are bounded by some standard deviations, little more.
-  const EnvironmentMap map = random_map({32, 16});
+  const EnvironmentMap map = make_synthetic_map("gradient", {32, 16});
   EnvironmentMap squares = map;
   for (Rgb& texel : squares.radiance.values()) texel *= texel;
   const Extent normals = {32, 16};
@@ -108,15 +108,20 @@ TEST(SampledIrradianceMap, HasTheErrorThatItsVariancePredicts) {
   const IrradianceMap square = irradiance_map(squares, normals);
   Moments deviations;
   Moments squared_deviations;
+  Moments products;  // of neighbours, which see much the same light but draw on their own
+  double before = 0.0;
   for (std::size_t i = 0; i < normals.count(); ++i) {
     const double mean = exact.irradiance.values()[i].r;
     const double variance = (kPi * square.irradiance.values()[i].r - mean * mean) / kSamples;
     const double z = (sampled.irradiance.values()[i].r - mean) / std::sqrt(variance);
     deviations.add(z);
     squared_deviations.add(z * z);
+    if (i > 0) products.add(z * before);
+    before = z;
   }
   EXPECT_NEAR(deviations.mean(), 0.0, 6.0 / std::sqrt(512.0));
   EXPECT_NEAR(squared_deviations.mean(), 1.0, 6.0 * std::sqrt(2.1 / 512.0));
+  EXPECT_NEAR(products.mean(), 0.0, 6.0 * products.standard_error());
 }
 
 TEST(SampledIrradianceMap, HasTheSameBitsForAnyNumberOfThreadsAndOthersForAnotherSeed) {

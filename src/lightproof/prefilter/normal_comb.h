@@ -12,7 +12,7 @@ namespace lightproof {
 /// Normals of the upper hemisphere, `teeth` of them, all around.
 struct NormalComb {
   NormalTilt tilt;
-  double first;  ///< longitude 2 pi s of the first one, in [0, 2 pi)
+  double first;  ///< longitude 2 pi s of the first one, by any whole turns
   int teeth;     ///< a divisor of the folded map's columns
 };
 
