@@ -66,18 +66,23 @@ TEST_F(ExrWriter, KeepsEveryLevel) {
 }
 
 TEST_F(ExrWriter, FillsTheLevelsThatTheMapDoesNotHave) {
-  MapLevels map = numbered_pyramid({8, 4}, 2);
+  const MapLevels map = numbered_pyramid({16, 8}, 2);
   const auto input = OIIO::ImageInput::open(write(exr_mipmap_bytes(map)).string());
   ASSERT_TRUE(input) << OIIO::geterror();
   expect_equal(level_of(*input, 1), map.levels[1].faces[0], 1);
-  // numbered_picture counts on by 1 from texel to texel: over 4 x 2 texels from 1001 on, the mean
-  // of 2 x 2 is 2 + 1/2 above the upper left one; the last level is the mean of all eight, 4.5.
+  // Level 1 has 8 x 4 texels, numbered from 1001 on: 1001 + x + 8 y. The mean of 2 x 2 is 4.5 above
+  // the upper left one.
+  const Rgb channels = {0.0F, 0.25F, 0.5F};
   const Grid<Rgb> third = level_of(*input, 2);
-  ASSERT_EQ(third.extent(), (Extent{2, 1}));
-  EXPECT_EQ(third(0, 0), Rgb(1001.0F + 2.5F) + Rgb(0.0F, 0.25F, 0.5F));
-  EXPECT_EQ(third(1, 0), Rgb(1003.0F + 2.5F) + Rgb(0.0F, 0.25F, 0.5F));
-  EXPECT_EQ(level_of(*input, 3)(0, 0), Rgb(1004.5F) + Rgb(0.0F, 0.25F, 0.5F));
-  EXPECT_FALSE(input->seek_subimage(0, 4));
+  ASSERT_EQ(third.extent(), (Extent{4, 2}));
+  for (int y = 0; y < 2; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      const auto first = static_cast<float>(1001 + 2 * x + 16 * y);
+      EXPECT_EQ(third(x, y), Rgb(first + 4.5F) + channels);
+    }
+  }
+  EXPECT_EQ(level_of(*input, 4)(0, 0), Rgb(1016.5F) + channels) << "the mean of 1001 to 1032";
+  EXPECT_FALSE(input->seek_subimage(0, 5));
   EXPECT_EQ(input->spec(0, 0).get_string_attribute("lightproof.levels"), "2");
 }
 
