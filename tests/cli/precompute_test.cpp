@@ -63,8 +63,9 @@ TEST_F(PrecomputeCommand, MakesEveryMapWithAPageAndFiguresThatFollowTheSchema) {
 }
 
 TEST_F(PrecomputeCommand, WritesOneKtx2FileWithAllFacesAndLevels) {
-  const Finished finished = precompute(
-      {"--specular", "--projection", "cube", "--format", "ktx2", "--size", "8x8", "--levels", "3"});
+  const Finished finished =
+      lightproof({"precompute", "gradient", "-o", path("made"), "--specular", "--projection",
+                  "cube", "--format", "ktx2", "--size", "8x8", "--levels", "3"});
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_THAT(made(), Contains("specular.ktx2"));
   EXPECT_EQ(results().at("precomputed").at(0).at("levels").size(), 3U);
