@@ -74,7 +74,8 @@ std::vector<ChartNode> nodes_of(const reference::UniformChart& chart) {
       const auto along = static_cast<std::size_t>(i / kNodes);
       const auto across = static_cast<std::size_t>(i % kNodes);
       const auto place = [&](std::size_t node) {
-        return 0.5 * (static_cast<double>(node / 3) + kPlaces[node % 3]);
+        const std::size_t half = node / 3;
+        return 0.5 * (static_cast<double>(half) + kPlaces[node % 3]);
       };
       const SquarePoint at = {(x + place(across)) / kCells.width,
                               (y + place(along)) / kCells.height};
@@ -124,8 +125,8 @@ TexelSample sample_of(const ChartedDensity& density, Extent cells, const DrawnDi
 }
 
 std::shared_ptr<const Expectation> expectation_of(const ChartedDensity& /*density*/) {
-  static const auto kExpectation = std::make_shared<const Expectation>(uniform_expectation());
-  return kExpectation;
+  static const auto expectation = std::make_shared<const Expectation>(uniform_expectation());
+  return expectation;
 }
 
 std::vector<Alternative> alternatives_to(const ChartedDensity& density) {

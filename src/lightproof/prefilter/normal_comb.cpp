@@ -6,7 +6,7 @@
 namespace lightproof {
 
 NormalCombView::NormalCombView(const NormalComb& comb, const FoldedLattice& lattice)
-    : comb_(comb), columns_(lattice.columns), first_edge_(edge_before(0.5 * kPi)), rows_seen_(0) {
+    : comb_(comb), columns_(lattice.columns), first_edge_(edge_before(0.5 * kPi)) {
   const int last_edge = edge_before(1.5 * kPi) + 1;
   for (int e = first_edge_; e <= last_edge; ++e) {
     edges_.emplace_back(comb.tilt, 2.0 * kPi * e / columns_ - comb.first);

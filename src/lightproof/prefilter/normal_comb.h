@@ -60,7 +60,7 @@ class NormalCombView {
   int first_edge_;
   std::vector<Meridian> edges_;
   std::vector<Parallel> parallels_;
-  int rows_seen_;
+  int rows_seen_ = 0;
 };
 
 }  // namespace lightproof

@@ -18,8 +18,9 @@ constexpr std::size_t kTexelsOfTask = 64;
 
 Direction texel_centre(std::size_t texel, Extent extent) {
   const auto width = static_cast<std::size_t>(extent.width);
+  const std::size_t row = texel / width;
   return direction_from_square({(static_cast<double>(texel % width) + 0.5) / extent.width,
-                                (static_cast<double>(texel / width) + 0.5) / extent.height});
+                                (static_cast<double>(row) + 0.5) / extent.height});
 }
 
 /// What the map shows from around an axis.

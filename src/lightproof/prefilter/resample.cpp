@@ -44,6 +44,20 @@ double band(double low, double high) {
   return sin_theta(0.5 * (low + high)) * std::sin(0.5 * kPi * (high - low));
 }
 
+/// The mean of the map over the columns and rows that one texel covers.
+glm::dvec3 mean_over(const Grid<Rgb>& map, const Overlap& columns, const Overlap& rows) {
+  glm::dvec3 sum(0.0);
+  for (std::size_t j = 0; j < rows.shares.size(); ++j) {
+    const auto row = map.row(rows.first + static_cast<int>(j));
+    glm::dvec3 along(0.0);
+    for (std::size_t i = 0; i < columns.shares.size(); ++i) {
+      along += columns.shares[i] * glm::dvec3(row[static_cast<std::size_t>(columns.first) + i]);
+    }
+    sum += rows.shares[j] * along;
+  }
+  return sum;
+}
+
 }  // namespace
 
 Grid<Rgb> resampled(const Grid<Rgb>& map, Extent extent) {
@@ -54,17 +68,7 @@ Grid<Rgb> resampled(const Grid<Rgb>& map, Extent extent) {
   auto result = Grid<Rgb>::without_values(extent);
   parallel_for(rows.size(), [&](std::size_t y) {
     for (std::size_t x = 0; x < columns.size(); ++x) {
-      glm::dvec3 sum(0.0);
-      for (std::size_t j = 0; j < rows[y].shares.size(); ++j) {
-        const auto row = map.row(rows[y].first + static_cast<int>(j));
-        glm::dvec3 along(0.0);
-        for (std::size_t i = 0; i < columns[x].shares.size(); ++i) {
-          along += columns[x].shares[i] *
-                   glm::dvec3(row[static_cast<std::size_t>(columns[x].first) + i]);
-        }
-        sum += rows[y].shares[j] * along;
-      }
-      result(static_cast<int>(x), static_cast<int>(y)) = Rgb(sum);
+      result(static_cast<int>(x), static_cast<int>(y)) = Rgb(mean_over(map, columns[x], rows[y]));
     }
   });
   return result;

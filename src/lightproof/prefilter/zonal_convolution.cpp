@@ -213,9 +213,9 @@ struct Output {
   void synthesise(const LegendreRecursion& recursion, int order,
                   std::span<const double> coefficients) {
     if (order > transform.degree()) return;
-    std::vector<double> filtered(
-        coefficients.begin(),
-        coefficients.begin() + (transform.degree() - order + 1) * static_cast<int>(kParts));
+    const auto degrees = static_cast<std::size_t>(transform.degree() - order) + 1;
+    const auto kept = coefficients.first(degrees * kParts);
+    std::vector<double> filtered(kept.begin(), kept.end());
     for (std::size_t i = 0; i < filtered.size(); ++i) {
       filtered[i] *= filter->factors[static_cast<std::size_t>(order) + i / kParts];
     }

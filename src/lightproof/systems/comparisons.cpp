@@ -1,13 +1,14 @@
 #include "lightproof/systems/comparisons.h"
 
 #include <algorithm>
-#include <charconv>
-#include <utility>
+#include <cstddef>
+#include <string_view>
 
 #include "lightproof/points/float_decay.h"
 #include "lightproof/points/registry.h"
 #include "lightproof/prefilter/diffuse_comparisons.h"
 #include "lightproof/prefilter/specular_comparisons.h"
+#include "lightproof/systems/registry.h"
 
 namespace lightproof {
 namespace {
@@ -22,12 +23,12 @@ PublishedComparison distinct_points_comparison() {
           static_cast<double>(kWindow), distinct("R2 float"), distinct("R2")};
 }
 
-/// "004-12" as (4, 12): in the order of numbers.
-std::pair<int, int> order_of(std::string_view id) {
-  std::pair<int, int> order;
-  std::from_chars(id.data(), id.data() + 3, order.first);
-  std::from_chars(id.data() + 4, id.data() + id.size(), order.second);
-  return order;
+/// The system's place in their list.
+std::ptrdiff_t place_of(std::string_view id) {
+  const auto all = systems();
+  return std::find_if(all.begin(), all.end(),
+                      [&](const SystemInfo& info) { return info.id == id; }) -
+         all.begin();
 }
 
 }  // namespace
@@ -37,7 +38,7 @@ std::vector<PublishedComparison> system_comparisons() {
   for (const PublishedComparison& specular : specular_comparisons()) all.push_back(specular);
   all.push_back(distinct_points_comparison());
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    return order_of(a.system) < order_of(b.system);
+    return place_of(a.system) < place_of(b.system);
   });
   return all;
 }
