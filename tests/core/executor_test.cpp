@@ -35,7 +35,7 @@ Moments folded(const CellResults<Moments>& results) {
 }
 
 std::string bits_of(const Moments& moments) {
-  ByteWriter writer;
+  ValueWriter writer;
   writer.add(moments);
   return writer.take();
 }
@@ -73,8 +73,8 @@ TEST(Executor, GivesTheSameBitsForAnyNumberOfShares) {
 TEST(Executor, DealsCellsOutByTheOrderOfTheirKeys) {
   const std::vector<WorkCell<Moments>> cells = moment_cells();
   EXPECT_THAT(keys_of(compute_cells<Moments>(cells)), ElementsAre("a", "b", "c", "d", "e"));
-  EXPECT_THAT(keys_of(compute_cells<Moments>(cells, {0, 2})), ElementsAre("a", "c", "e"));
-  EXPECT_THAT(keys_of(compute_cells<Moments>(cells, {1, 2})), ElementsAre("b", "d"));
+  EXPECT_THAT(keys_of(compute_cells<Moments>(cells, {0, 2})), ElementsAre("a", "b"));
+  EXPECT_THAT(keys_of(compute_cells<Moments>(cells, {1, 2})), ElementsAre("c", "d", "e"));
 }
 
 TEST(Executor, RefusesAKeyThatIsThereTwice) {
@@ -91,7 +91,7 @@ TEST(Executor, TellsHowFarItIs) {
     EXPECT_EQ(step, "moments");
     seen.push_back(fraction);
   };
-  compute_cells<Moments>(moment_cells(), {0, 2}, progress, "moments");
+  compute_cells<Moments>(moment_cells(), {1, 2}, progress, "moments");
   EXPECT_THAT(seen, ElementsAre(1.0 / 3.0, 2.0 / 3.0, 1.0));
 }
 
@@ -106,13 +106,13 @@ TEST(Executor, RefusesBytesThatAreCutOffOrTooMany) {
 TEST(Serialised, NumbersComeBackToTheLastBit) {
   const std::vector<double> numbers = {
       0.0, -0.0, 0.1, -1e308, std::numeric_limits<double>::denorm_min(), INFINITY, std::nan("")};
-  ByteWriter writer;
+  ValueWriter writer;
   writer.add(numbers);
   writer.add(std::uint64_t{0xfedcba9876543210U});
   writer.add(std::string_view("a\0b", 3));
   const std::string bytes = writer.take();
-  ByteReader reader(bytes);
-  const std::vector<double> read = reader.reals();
+  ValueReader reader(bytes);
+  const std::vector<double> read = reader.value<std::vector<double>>();
   ASSERT_EQ(read.size(), numbers.size());
   for (std::size_t i = 0; i < read.size(); ++i) {
     EXPECT_EQ(std::bit_cast<std::uint64_t>(read[i]), std::bit_cast<std::uint64_t>(numbers[i]));

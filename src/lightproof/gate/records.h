@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lightproof/gate/detectable_effect.h"
 #include "lightproof/gate/draws.h"
 #include "lightproof/gate/exact_checks.h"
 #include "lightproof/gate/test_run.h"
@@ -44,9 +45,7 @@ class Records {
   /// `share`: of the other sample, of both.
   void add_two_samples(TestId test, const GoodnessOfFit& fit, double share);
 
-  /// `minimum_detectable`: the distance that is found at a level, with a power, by so many samples.
-  void add_uniformity(TestId test, const UniformityTest& uniformity,
-                      double (*minimum_detectable)(double level, double power, double samples));
+  void add_uniformity(TestId test, const UniformityTest& uniformity, DetectableEffect detectable);
 
   void add_worst(TestId test, std::span<const std::uint64_t> observed,
                  std::span<const double> probability);

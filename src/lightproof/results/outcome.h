@@ -1,6 +1,10 @@
 // Judging, apart from measuring.
 #pragma once
 
+#include <cstddef>
+
+#include "lightproof/core/enumeration.h"
+
 namespace lightproof {
 
 enum class Outcome {
@@ -13,6 +17,9 @@ enum class Outcome {
   /// The sampler cannot serve the test, or gave it too little: it decides nothing.
   not_run,
 };
+
+template <>
+inline constexpr std::size_t kValuesOf<Outcome> = 5;
 
 constexpr const char* to_string(Outcome outcome) {
   switch (outcome) {

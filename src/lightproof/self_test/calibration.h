@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lightproof/core/executor.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/results/self_test_result.h"
 
@@ -21,7 +22,9 @@ struct CalibrationOptions {
 };
 
 /// Draws from a distribution whose masses are known to the last bit, by inversion in double, and
-/// keeps what the gate's tests make of it. The same bits for any number of threads.
-CalibrationResult calibrate(const CalibrationOptions& options, const Progress& progress = {});
+/// keeps what the gate's tests make of it. The same bits for any number of threads or of processes,
+/// which share the replicates and all get the whole result.
+CalibrationResult calibrate(const CalibrationOptions& options, const Progress& progress = {},
+                            const Communicator& communicator = {});
 
 }  // namespace lightproof

@@ -45,7 +45,8 @@ std::vector<TestCase> test_cases_for_all_seeds(
 }  // namespace
 
 std::vector<NamingRecord> measure_naming(std::span<const MapRecord> maps,
-                                         const NamingOptions& options, const Progress& progress) {
+                                         const NamingOptions& options, const Progress& progress,
+                                         const Communicator& communicator) {
   std::vector<NamingRecord> records;
   for (const Mutant& mutant : mutants()) {
     records.push_back({.mutant = std::string(mutant.name),
@@ -60,7 +61,7 @@ std::vector<NamingRecord> measure_naming(std::span<const MapRecord> maps,
     for (std::uint64_t i = 0; i < options.seeds; ++i, ++done) {
       const GateResult result =
           run_gate(test_cases, {.samples = options.samples, .seed = options.seed + i},
-                   part_of(progress, done / rounds, (done + 1.0) / rounds));
+                   part_of(progress, done / rounds, (done + 1.0) / rounds), communicator);
       for (const Rejection& rejection : result.rejections) count(records, rejection);
     }
   }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "lightproof/core/executor.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/results/map_record.h"
 #include "lightproof/results/self_test_result.h"
@@ -19,8 +20,10 @@ struct NamingOptions {
 
 /// Every mutant of maps under both densities on every map, with every seed; those that the gate
 /// accepts there are in no count: the samples were too few, or the map lacks what the defect needs.
+/// The same bits for any number of processes, which share the runs and all get the whole result.
 std::vector<NamingRecord> measure_naming(std::span<const MapRecord> maps,
                                          const NamingOptions& options,
-                                         const Progress& progress = {});
+                                         const Progress& progress = {},
+                                         const Communicator& communicator = {});
 
 }  // namespace lightproof

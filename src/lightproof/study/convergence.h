@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "lightproof/core/executor.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/image/environment_map.h"
 #include "lightproof/results/convergence_record.h"
@@ -23,9 +24,11 @@ struct ConvergenceOptions {
 
 /// Every map, receiver and material, and every estimator whose exact moments are known: errors of
 /// independent estimates against quadrature, beside the exact variance. The same bits for any
-/// number of threads. Throws std::logic_error if two maps have one name.
+/// number of threads or of processes, which share the estimates. Throws std::logic_error if two
+/// maps have one name.
 std::vector<ConvergenceRecord> study_convergence(std::span<const EnvironmentMap> maps,
                                                  const ConvergenceOptions& options,
-                                                 const Progress& progress = {});
+                                                 const Progress& progress = {},
+                                                 const Communicator& communicator = {});
 
 }  // namespace lightproof
