@@ -104,7 +104,10 @@ class ValueReader {
   bool is_at_end() const { return bytes_.empty(); }
 
  private:
-  double read(std::type_identity<double> /*type*/) { return real(); }
+  template <std::floating_point Number>
+  Number read(std::type_identity<Number> /*type*/) {
+    return static_cast<Number>(real());
+  }
   std::string read(std::type_identity<std::string> /*type*/) { return text(); }
   template <std::integral Number>
   Number read(std::type_identity<Number> /*type*/) {

@@ -159,6 +159,7 @@ class TwoStages {
       state.is_confirmed =
           std::any_of(state.tests.begin(), state.tests.end(), judge.confirmation()) &&
           state.tests.front().stages.confirmation > 0;
+      if (state.is_confirmed) state.draws.reset();  // whoever draws the second stage has its own
     });
     run_stage(
         {"confirmation", kSecondStage * options_.samples}, {},

@@ -111,6 +111,16 @@ struct SelfTestResult {
   std::vector<PowerRecord> power;
   std::vector<KillRecord> mutants;
   std::vector<NamingRecord> naming = {};
+  /// When, where and of what calibration, power and mutants were measured; empty if it is not
+  /// known.
+  std::string origin = {};
+  /// The same of `naming`, of the map that was measured first.
+  std::string naming_origin = {};
+
+  static auto fields(auto& result) {
+    return std::tie(result.calibration, result.power, result.mutants, result.naming, result.origin,
+                    result.naming_origin);
+  }
 };
 
 }  // namespace lightproof

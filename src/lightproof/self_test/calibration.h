@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "lightproof/core/executor.h"
@@ -19,6 +20,11 @@ struct CalibrationOptions {
   std::uint64_t run_samples = 4096;
   double family_alpha = 0.05;    ///< scaled up, so that false alarms can be counted
   double screening_level = 0.3;  ///< likewise: at 1e-3 hardly a run has a second stage
+
+  static auto fields(auto& options) {
+    return std::tie(options.seed, options.replicates, options.samples, options.runs,
+                    options.run_samples, options.family_alpha, options.screening_level);
+  }
 };
 
 /// Draws from a distribution whose masses are known to the last bit, by inversion in double, and

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "lightproof/core/executor.h"
@@ -16,6 +17,10 @@ struct NamingOptions {
   std::uint64_t seed = 1;  ///< the first of `seeds` in a row
   std::uint64_t seeds = 3;
   std::uint64_t samples = std::uint64_t{1} << 17U;
+
+  static auto fields(auto& options) {
+    return std::tie(options.seed, options.seeds, options.samples);
+  }
 };
 
 /// Every mutant of maps under both densities on every map, with every seed; those that the gate
@@ -25,5 +30,8 @@ std::vector<NamingRecord> measure_naming(std::span<const MapRecord> maps,
                                          const NamingOptions& options,
                                          const Progress& progress = {},
                                          const Communicator& communicator = {});
+
+/// Adds what measure_naming() counted on other maps; of none at first.
+void merge_naming(std::vector<NamingRecord>& records, const std::vector<NamingRecord>& others);
 
 }  // namespace lightproof

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "lightproof/core/executor.h"
@@ -15,6 +16,8 @@ namespace lightproof {
 struct PowerOptions {
   std::uint64_t seed = 1;
   std::uint64_t replicates = 1000;  ///< for each point
+
+  static auto fields(auto& options) { return std::tie(options.seed, options.replicates); }
 };
 
 /// Injects defects as large as the gate says that it detects, and lets it judge them with both of
