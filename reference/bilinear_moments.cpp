@@ -11,6 +11,7 @@
 #include "lightproof/warp/lat_long.h"
 #include "reference/bilinear_distribution.h"
 #include "reference/gauss_rule.h"
+#include "reference/kernel_nodes.h"
 #include "reference/quadrature.h"
 
 namespace lightproof::reference {
@@ -93,11 +94,9 @@ class CellMoments {
 
   void add_cell(LightMoments& moments, const Cell& cell) const {
     if (!(cell.brightest() > 0.0)) return;
-    const bool split = kernel_->straddles(quadrature_.centre(cell.i, cell.j), quadrature_.radius());
-    quadrature_.visit(cell.i, cell.j, split, [&](const Node& node) {
-      const KernelValue value = kernel_->at(node.direction);
-      if (value.k > 0.0) add_node(moments, node, value, cell);
-    });
+    visit_kernel(
+        *kernel_, quadrature_, cell.i, cell.j,
+        [&](const Node& node, const KernelValue& value) { add_node(moments, node, value, cell); });
   }
 
   void add_node(LightMoments& moments, const Node& node, KernelValue value,

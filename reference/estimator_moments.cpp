@@ -7,6 +7,7 @@
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/warp/lat_long.h"
+#include "reference/kernel_nodes.h"
 #include "reference/quadrature.h"
 
 namespace lightproof::reference {
@@ -43,14 +44,10 @@ struct TexelIntegrals {
 TexelIntegrals integrate(const Kernel& kernel, const SphereQuadrature& quadrature, Extent parts,
                          int x, int y) {
   TexelIntegrals texel;
-  const auto add_node = [&](const Node& node) {
-    const KernelValue value = kernel.at(node.direction);
-    if (value.k > 0.0) texel.add(value, node);
-  };
+  const auto add_node = [&](const Node& node, const KernelValue& value) { texel.add(value, node); };
   for (int j = y * parts.height; j < (y + 1) * parts.height; ++j) {
     for (int i = x * parts.width; i < (x + 1) * parts.width; ++i) {
-      const bool split = kernel.straddles(quadrature.centre(i, j), quadrature.radius());
-      quadrature.visit(i, j, split, add_node);
+      visit_kernel(kernel, quadrature, i, j, add_node);
     }
   }
   return texel;

@@ -26,6 +26,9 @@ struct Kernel {
   /// Whether an edge of k (a horizon, a silhouette) may cross the cap of this angle in radians
   /// around the direction; such texels are split.
   std::function<bool(Direction, double)> straddles;
+  /// Whether light arrives from a direction at all, neither from below a horizon nor from behind
+  /// something: one answer all over a cap that no edge crosses. Empty if `at` takes care of it.
+  std::function<bool(Direction)> is_lit = {};
 };
 
 /// The kernel (n·omega)+ of irradiance without occlusion; no material draws from it, so that its

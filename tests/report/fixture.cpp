@@ -251,6 +251,8 @@ SelfTestResult self_test() {
                      "pdf-scaled",
                      {{TestId::pdf_integral, 4096}},
                      {}}};
+  result.origin = "2024-06-07T13:41:08+00:00, synthetic processor, GNU 12.2.0";
+  result.naming_origin = "2024-06-08T13:41:08+00:00, synthetic processor, GNU 12.2.0";
   return result;
 }
 

@@ -14,7 +14,7 @@
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/text_escapes.h"
 #include "lightproof/report/report.h"
-#include "lightproof/self_test/self_test.h"
+#include "lightproof/self_test/kept_self_test.h"
 #include "lightproof/study/study.h"
 #include "lightproof/systems/comparisons.h"
 #include "outputs.h"
@@ -23,6 +23,8 @@
 namespace lightproof::cli {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr const char* kThisProgram = "/proc/self/exe";
 
 struct Options : CommonOptions {
   std::string output = "out";
@@ -44,8 +46,7 @@ std::string path_text(const fs::path& path) {
 std::optional<fs::path> benchmark_program(const Options& options) {
   if (options.no_throughput || !options.throughput.empty()) return std::nullopt;
   std::error_code error;
-  const fs::path program =
-      fs::read_symlink("/proc/self/exe", error).parent_path() / "lightproof_bench";
+  const fs::path program = fs::read_symlink(kThisProgram, error).parent_path() / "lightproof_bench";
   if (!error && fs::exists(program)) return program;
   throw InputError(fmt::format(
       "{}: the benchmark program is not there; give its results with --throughput FILE or leave "
@@ -66,13 +67,16 @@ fs::path cache_folder() {
 }
 
 /// All that goes into the report. Progress is shown until it returns.
-StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
+StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options,
+                   const std::string& commit) {
   const Progress progress = progress_of(options);
   StudyResult result = run_study(std::move(maps), options.study, progress);
   result.gate.input_options = input_options(options);
   result.published_forms = system_comparisons();
   if (!options.no_self_test) {
-    result.self_test = run_self_test(result.maps, options.seed, progress);
+    result.self_test =
+        kept_self_test(result.maps, self_test_options(options.seed),
+                       {cache_folder(), kThisProgram, commit, options.measure_again}, progress);
   }
   return result;
 }
@@ -90,7 +94,7 @@ int run(Options options) {
   std::vector<EnvironmentMap> maps = load_maps(options);
   check_folder(options.output, options.force, report_file_names(), options.command_line);
   const RunDescription description = describe_run(options, maps);
-  StudyResult result = run_on(std::move(maps), options);
+  StudyResult result = run_on(std::move(maps), options, description.commit);
   if (!throughput.samplers.empty()) set_throughput(result, std::move(throughput));
   write_report(result, options.output, description, overwriting(options.force));
   if (!options.quiet) fmt::print("{}\n", path_text(fs::path(options.output) / "report.html"));
@@ -119,8 +123,9 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
              "width of the largest map that throughput is measured on; 16384 takes 8 GB")
       ->excludes(file);
   command
-      ->add_flag("--measure-again", options->measure_again,
-                 "measure the throughput, even if it is kept of this program and machine")
+      ->add_flag(
+          "--measure-again", options->measure_again,
+          "measure throughput and self-test, even if they are kept of this program and machine")
       ->excludes(file);
   command->add_flag("--no-self-test", options->no_self_test,
                     "leave out the test of the gate itself (mutants, calibration, power)");

@@ -9,9 +9,11 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,44 +30,100 @@ struct WorkCell {
   std::function<Result()> compute;
 };
 
-/// The part of all cells that one process computes: those whose rank among all keys leaves `index`
-/// when divided by `of`.
+/// Cells that share what is expensive to make, the exact side of a test for example. It is made
+/// once by each process that computes any of them, and kept while it does.
+template <class Shared, class Result>
+struct WorkGroup {
+  struct Cell {
+    std::string key;
+    std::function<Result(const Shared&)> compute;
+  };
+  std::function<Shared()> prepare;
+  std::vector<Cell> cells;
+};
+
+/// The part of all cells that one process computes. In the order of their keys they are cut into
+/// `of` equal parts: neighbours, which are likely to share something, stay together.
 struct WorkShare {
   std::size_t index = 0;
   std::size_t of = 1;  ///< at least 1
+
+  bool holds(std::size_t rank, std::size_t count) const {
+    return index * count / of <= rank && rank < (index + 1) * count / of;
+  }
+};
+
+/// The processes among which cells are shared out, as one of them sees it. By default it is alone.
+struct Communicator {
+  WorkShare share = {};
+  /// Gives these bytes to all processes and returns those of each, its own among them. All
+  /// processes call it equally often and outside of parallel loops. Empty for one that is alone.
+  std::function<std::vector<std::string>(std::string bytes)> all_gather = {};
 };
 
 /// By key, and so in the order in which they are folded.
 template <class Result>
 using CellResults = std::map<std::string, Result>;
 
-/// Computes a share of the cells, in parallel. Throws std::logic_error if two have one key.
-/// `progress` is told the step and the fraction of the share that is done.
+/// The keys that fall into a share. Throws std::logic_error if two are the same.
+inline std::set<std::string_view> keys_of_share(std::vector<std::string_view> keys,
+                                                WorkShare share) {
+  std::sort(keys.begin(), keys.end());
+  const auto twice = std::adjacent_find(keys.begin(), keys.end());
+  if (twice != keys.end()) {
+    throw std::logic_error("two cells of work have the key " + std::string(*twice));
+  }
+  std::set<std::string_view> mine;
+  for (std::size_t rank = 0; rank < keys.size(); ++rank) {
+    if (share.holds(rank, keys.size())) mine.insert(mine.end(), keys[rank]);
+  }
+  return mine;
+}
+
+/// Computes a share of the cells of all groups, in parallel. Throws std::logic_error if two have
+/// one key. `progress` is told the step and the fraction of the share that is done.
+template <class Shared, class Result>
+CellResults<Result> compute_groups(std::span<const WorkGroup<Shared, Result>> groups,
+                                   WorkShare share = {}, const Progress& progress = {},
+                                   std::string_view step = {}) {
+  std::vector<std::string_view> keys;
+  for (const auto& group : groups) {
+    for (const auto& cell : group.cells) keys.emplace_back(cell.key);
+  }
+  const std::set<std::string_view> mine = keys_of_share(std::move(keys), share);
+  CellResults<Result> results;
+  std::mutex mutex;
+  parallel_for(groups.size(), [&](std::size_t g) {
+    std::vector<const typename WorkGroup<Shared, Result>::Cell*> cells;
+    for (const auto& cell : groups[g].cells) {
+      if (mine.contains(cell.key)) cells.push_back(&cell);
+    }
+    if (cells.empty()) return;
+    const Shared shared = groups[g].prepare();
+    parallel_for(cells.size(), [&](std::size_t i) {
+      Result result = cells[i]->compute(shared);
+      const std::lock_guard lock(mutex);
+      results.emplace(cells[i]->key, std::move(result));
+      if (progress) {
+        progress(step, static_cast<double>(results.size()) / static_cast<double>(mine.size()));
+      }
+    });
+  });
+  return results;
+}
+
+/// Computes a share of cells that share nothing, in parallel. Throws std::logic_error if two have
+/// one key. `progress` is told the step and the fraction of the share that is done.
 template <class Result>
 CellResults<Result> compute_cells(std::span<const WorkCell<Result>> cells, WorkShare share = {},
                                   const Progress& progress = {}, std::string_view step = {}) {
-  std::vector<const WorkCell<Result>*> sorted;
-  for (const WorkCell<Result>& cell : cells) sorted.push_back(&cell);
-  std::sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->key < b->key; });
-  std::vector<const WorkCell<Result>*> mine;
-  for (std::size_t rank = 0; rank < sorted.size(); ++rank) {
-    if (rank > 0 && sorted[rank]->key == sorted[rank - 1]->key) {
-      throw std::logic_error("two cells of work have the key " + sorted[rank]->key);
-    }
-    if (rank % share.of == share.index) mine.push_back(sorted[rank]);
+  struct Nothing {};
+  std::vector<WorkGroup<Nothing, Result>> groups;
+  for (const WorkCell<Result>& cell : cells) {
+    groups.push_back({[] { return Nothing(); },
+                      {{cell.key, [&cell](const Nothing&) { return cell.compute(); }}}});
   }
-  std::vector<Result> results(mine.size());
-  std::mutex mutex;
-  std::size_t done = 0;
-  parallel_for(mine.size(), [&](std::size_t i) {
-    results[i] = mine[i]->compute();
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (progress) progress(step, static_cast<double>(done) / static_cast<double>(mine.size()));
-  });
-  CellResults<Result> by_key;
-  for (std::size_t i = 0; i < mine.size(); ++i) by_key.emplace(mine[i]->key, std::move(results[i]));
-  return by_key;
+  return compute_groups<Nothing, Result>(groups, share, progress, step);
 }
 
 /// Adds the results of another share. Throws std::logic_error if a key is in both.
@@ -77,14 +135,13 @@ void join(CellResults<Result>& results, CellResults<Result> more) {
   }
 }
 
-/// Results as bytes, for another process. A Result has a default constructor, write(ByteWriter&)
-/// and a static read(ByteReader&).
+/// Results as bytes, for another process. A Result is what ValueWriter and ValueReader know.
 template <class Result>
 std::string bytes_of(const CellResults<Result>& results) {
-  ByteWriter writer;
-  writer.add(std::uint64_t{results.size()});
+  ValueWriter writer;
+  writer.add(results.size());
   for (const auto& [key, result] : results) {
-    writer.add(std::string_view(key));
+    writer.add(key);
     writer.add(result);
   }
   return writer.take();
@@ -94,15 +151,26 @@ std::string bytes_of(const CellResults<Result>& results) {
 /// are left or a key is there twice.
 template <class Result>
 CellResults<Result> results_of(std::string_view bytes) {
-  ByteReader reader(bytes);
+  ValueReader reader(bytes);
   CellResults<Result> results;
   for (std::uint64_t left = reader.number(); left > 0; --left) {
     std::string key = reader.text();
-    const auto [at, is_new] = results.emplace(std::move(key), Result::read(reader));
+    const auto [at, is_new] = results.emplace(std::move(key), reader.value<Result>());
     if (!is_new) throw std::logic_error("the cell of work " + at->first + " is there twice");
   }
   if (!reader.is_at_end()) throw std::logic_error("bytes are left behind the last cell of work");
   return results;
+}
+
+/// The results of the shares of all processes, at each of them.
+template <class Result>
+CellResults<Result> gather(CellResults<Result> own, const Communicator& communicator) {
+  if (!communicator.all_gather) return own;
+  CellResults<Result> all;
+  for (const std::string& bytes : communicator.all_gather(bytes_of(own))) {
+    join(all, results_of<Result>(bytes));
+  }
+  return all;
 }
 
 }  // namespace lightproof

@@ -70,11 +70,11 @@ class Moments {
     count_ += other.count_;
   }
 
-  void write(ByteWriter& writer) const {
+  void write(ValueWriter& writer) const {
     writer.add(count_);
     for (const double value : {mean_, m2_, m3_, m4_}) writer.add(value);
   }
-  static Moments read(ByteReader& reader) {
+  static Moments read(ValueReader& reader) {
     Moments moments;
     moments.count_ = reader.number();
     for (double* value : {&moments.mean_, &moments.m2_, &moments.m3_, &moments.m4_}) {

@@ -3,35 +3,73 @@
 #pragma once
 
 #include <bit>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
+
+#include "lightproof/core/enumeration.h"
 
 namespace lightproof {
 
-/// Appends values to a string of bytes. A type takes part by `void write(ByteWriter&) const`.
-class ByteWriter {
+/// Appends values to a string of bytes. A type takes part by `void write(ValueWriter&) const`, or
+/// by a static `fields(value)`, which ties all that makes it up.
+class ValueWriter {
  public:
-  void add(std::uint64_t value) {
+  template <std::integral Number>
+  void add(Number number) {
+    const auto value = static_cast<std::uint64_t>(number);
     for (int byte = 0; byte < 8; ++byte) bytes_ += static_cast<char>(value >> (8 * byte) & 0xffU);
   }
   void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
   void add(std::string_view text) {
-    add(std::uint64_t{text.size()});
+    add(text.size());
     bytes_ += text;
+  }
+  template <class Enumeration>
+  requires std::is_enum_v<Enumeration>
+  void add(Enumeration value) {
+    static_assert(kValuesOf<Enumeration> > 0);
+    add(static_cast<std::uint64_t>(value));
   }
   template <class Value>
   void add(const std::vector<Value>& values) {
-    add(std::uint64_t{values.size()});
+    add(values.size());
     for (const Value& value : values) add(value);
   }
   template <class Value>
-  requires requires(const Value& value, ByteWriter& writer) { value.write(writer); }
+  void add(const std::optional<Value>& value) {
+    add(value.has_value());
+    if (value) add(*value);
+  }
+  template <class... Values>
+  void add(const std::variant<Values...>& value) {
+    add(value.index());
+    std::visit([this](const auto& chosen) { add(chosen); }, value);
+  }
+  template <class Grid>
+  requires requires(const Grid& grid) { grid.extent().width; }
+  void add(const Grid& grid) {
+    add(grid.extent().width);
+    add(grid.extent().height);
+    for (const auto& value : grid.values()) add(value);
+  }
+  template <class Value>
+  requires requires(const Value& value, ValueWriter& writer) { value.write(writer); }
   void add(const Value& value) { value.write(*this); }
+  template <class Value>
+  requires requires(const Value& value) { Value::fields(value); }
+  void add(const Value& value) {
+    std::apply([this](const auto&... fields) { (add(fields), ...); }, Value::fields(value));
+  }
 
   std::string take() { return std::move(bytes_); }
 
@@ -39,12 +77,12 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads values from the bytes of a ByteWriter, in the order in which they were added. A type takes
-/// part by `static Value read(ByteReader&)`. Throws std::out_of_range where the bytes end too
-/// early.
-class ByteReader {
+/// Reads values from the bytes of a ValueWriter, in the order in which they were added. A type
+/// takes part by `static Value read(ValueReader&)`, or by the `fields` of ValueWriter. Throws
+/// std::out_of_range where the bytes end too early, or hold a number that is no value of its type.
+class ValueReader {
  public:
-  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+  explicit ValueReader(std::string_view bytes) : bytes_(bytes) {}
 
   std::uint64_t number() {
     const std::string_view eight = next(8);
@@ -57,23 +95,88 @@ class ByteReader {
   }
   double real() { return std::bit_cast<double>(number()); }
   std::string text() { return std::string(next(number())); }
-  template <class Read>
-  auto list(const Read& read) {
-    std::vector<decltype(read(*this))> values;
-    for (std::uint64_t left = number(); left > 0; --left) values.push_back(read(*this));
-    return values;
+
+  template <class Value>
+  Value value() {
+    return read(std::type_identity<Value>());
   }
-  std::vector<double> reals() {
-    return list([](ByteReader& reader) { return reader.real(); });
-  }
+
   bool is_at_end() const { return bytes_.empty(); }
 
  private:
+  template <std::floating_point Number>
+  Number read(std::type_identity<Number> /*type*/) {
+    return static_cast<Number>(real());
+  }
+  std::string read(std::type_identity<std::string> /*type*/) { return text(); }
+  template <std::integral Number>
+  Number read(std::type_identity<Number> /*type*/) {
+    const std::uint64_t wide = number();
+    const auto narrow = static_cast<Number>(wide);
+    require(static_cast<std::uint64_t>(narrow) == wide);
+    return narrow;
+  }
+  template <class Enumeration>
+  requires std::is_enum_v<Enumeration> Enumeration read(std::type_identity<Enumeration> /*type*/) {
+    const std::uint64_t value = number();
+    require(value < kValuesOf<Enumeration>);
+    return static_cast<Enumeration>(value);
+  }
+  template <class Value>
+  std::vector<Value> read(std::type_identity<std::vector<Value>> /*type*/) {
+    std::vector<Value> values;
+    for (std::uint64_t left = number(); left > 0; --left) values.push_back(value<Value>());
+    return values;
+  }
+  template <class Value>
+  std::optional<Value> read(std::type_identity<std::optional<Value>> /*type*/) {
+    if (!value<bool>()) return std::nullopt;
+    return value<Value>();
+  }
+  template <class... Values>
+  std::variant<Values...> read(std::type_identity<std::variant<Values...>> /*type*/) {
+    std::variant<Values...> chosen;
+    const std::uint64_t index = number();
+    std::uint64_t alternative = 0;
+    const bool found = ((alternative++ == index && (chosen = value<Values>(), true)) || ...);
+    require(found);
+    return chosen;
+  }
+  template <class Grid>
+  requires requires(const Grid& grid) { grid.extent().width; }
+  Grid read(std::type_identity<Grid> /*type*/) {
+    decltype(Grid().extent()) extent;
+    extent.width = value<int>();
+    extent.height = value<int>();
+    // Every value takes eight bytes at least: a damaged size claims no memory.
+    require(extent.width >= 0 && extent.height >= 0 && extent.count() <= bytes_.size() / 8);
+    Grid grid(extent);
+    for (auto& at : grid.values()) at = value<std::remove_cvref_t<decltype(at)>>();
+    return grid;
+  }
+  template <class Value>
+  requires requires(ValueReader& reader) { Value::read(reader); }
+  Value read(std::type_identity<Value> /*type*/) { return Value::read(*this); }
+  template <class Value>
+  requires requires(Value& value) { Value::fields(value); }
+  Value read(std::type_identity<Value> /*type*/) {
+    Value value{};
+    std::apply(
+        [this](auto&... fields) {
+          ((fields = this->value<std::remove_cvref_t<decltype(fields)>>()), ...);
+        },
+        Value::fields(value));
+    return value;
+  }
+
   std::string_view next(std::uint64_t count) {
     if (count > bytes_.size()) throw std::out_of_range("serialised bytes end too early");
     const std::string_view taken = bytes_.substr(0, count);
     bytes_.remove_prefix(count);
     return taken;
+  }
+  static void require(bool is_value) {
+    if (!is_value) throw std::out_of_range("serialised bytes hold what is no value of its type");
   }
 
   std::string_view bytes_;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "lightproof/core/executor.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/gate/sampler_under_test.h"
 #include "lightproof/results/verdict.h"
@@ -37,13 +38,16 @@ struct GateOptions {
 /// Holm's procedure over all tests of the family judges those at the other half; tests that did not
 /// run again count as not rejected. Either way a correct sampler is rejected with at most
 /// family_alpha; a small defect must fall below the screening level first and show with four times
-/// the samples then. The same bits for any number of threads.
+/// the samples then. The same bits for any number of threads or of processes, which share the runs
+/// and all get the whole result. Throws std::logic_error if two runs have one sampler, map and
+/// density by name: they would draw the same random numbers.
 GateResult run_gate(std::span<const TestCase> test_cases, const GateOptions& options,
-                    const Progress& progress = {});
+                    const Progress& progress = {}, const Communicator& communicator = {});
 
 /// Runs the gate on every sampler under test on every map.
 GateResult run_gate(std::span<const EnvironmentMap> maps,
                     std::span<const SamplerUnderTest> samplers_under_test,
-                    const GateOptions& options, const Progress& progress = {});
+                    const GateOptions& options, const Progress& progress = {},
+                    const Communicator& communicator = {});
 
 }  // namespace lightproof

@@ -65,15 +65,16 @@ void Judge::operator()(std::span<Measured* const> tests) const {
 /// a source that has nothing left to confirm with, the effect that is rejected immediately. None
 /// where it is infinite or cannot be computed.
 std::optional<double> Judge::minimum_detectable_effect(const Measured& test) const {
-  if (!test.minimum_detectable) return std::nullopt;
+  if (!test.detectable) return std::nullopt;
   const auto first = static_cast<double>(test.stages.screening);
   const auto second = static_cast<double>(test.stages.confirmation);
+  const DetectableEffect& effect_of = *test.detectable;
   double effect = INFINITY;
   const auto failure = failure_of([&] {
     effect = test.stages.confirmation == 0
-                 ? test.minimum_detectable(immediate_level_, kDetectionPower, first)
-                 : std::max(test.minimum_detectable(screening_level_, kStagePower, first),
-                            test.minimum_detectable(second_level_, kStagePower, second));
+                 ? minimum_detectable(effect_of, immediate_level_, kDetectionPower, first)
+                 : std::max(minimum_detectable(effect_of, screening_level_, kStagePower, first),
+                            minimum_detectable(effect_of, second_level_, kStagePower, second));
   });
   return !failure && std::isfinite(effect) ? std::optional(effect) : std::nullopt;
 }

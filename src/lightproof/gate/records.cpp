@@ -55,12 +55,7 @@ void Records::add_fit(TestId test, std::span<const std::uint64_t> observed,
     const GoodnessOfFit fit = cressie_read(observed, probability, samples_);
     Measured& added = add(test);
     TestRecord& record = added.record;
-    auto& minimum_detectable = added.minimum_detectable;
-    if (fit.dof > 0.0) {
-      minimum_detectable = [dof = fit.dof](double level, double power, double samples) {
-        return minimum_detectable_w(dof, level, power, samples);
-      };
-    }
+    if (fit.dof > 0.0) added.detectable = EffectOnCells{fit.dof};
     set_fit(record, fit);
     // With a single possible cell every sample is in it, unless it is an impossible hit.
     if (fit.dof == 0.0 && fit.possible_cells <= 1) record.outcome = Outcome::accept;
@@ -76,13 +71,9 @@ void Records::add_fit(TestId test, std::span<const std::uint64_t> observed,
 
 void Records::add_partial_fit(TestId test, const GoodnessOfFit& fit, std::uint64_t fit_samples) {
   Measured& added = add(test);
-  TestRecord& record = added.record;
-  auto& minimum_detectable = added.minimum_detectable;
-  set_fit(record, fit);
+  set_fit(added.record, fit);
   const double share = static_cast<double>(fit_samples) / static_cast<double>(samples_);
-  minimum_detectable = [dof = fit.dof, share](double level, double power, double samples) {
-    return minimum_detectable_w(dof, level, power, samples * share);
-  };
+  added.detectable = EffectOnCells{fit.dof, share};
 }
 
 void Records::add_not_run(TestId test, std::string why) {
@@ -94,25 +85,22 @@ void Records::add_not_run(TestId test, std::string why) {
 void Records::add_two_samples(TestId test, const GoodnessOfFit& fit, double share) {
   Measured& added = add(test);
   TestRecord& record = added.record;
-  auto& minimum_detectable = added.minimum_detectable;
   record.statistic = fit.statistic;
   record.dof = fit.dof;
   record.effect = fit.effect;
   if (fit.possible_cells <= 1) record.outcome = Outcome::accept;
   if (fit.dof <= 0.0) return;
   record.log10_p = fit.log10_p;
-  minimum_detectable = [dof = fit.dof, share](double level, double power, double samples) {
-    return minimum_detectable_w(dof, level, power, samples * share);
-  };
+  added.detectable = EffectOnCells{fit.dof, share};
 }
 
 void Records::add_uniformity(TestId test, const UniformityTest& uniformity,
-                             double (*minimum_detectable)(double, double, double)) {
-  Measured& measured = add(test);
-  measured.minimum_detectable = minimum_detectable;
-  measured.record.statistic = uniformity.statistic;
-  measured.record.log10_p = uniformity.log10_p;
-  measured.record.effect = uniformity.distance;
+                             DetectableEffect detectable) {
+  Measured& added = add(test);
+  added.detectable = detectable;
+  added.record.statistic = uniformity.statistic;
+  added.record.log10_p = uniformity.log10_p;
+  added.record.effect = uniformity.distance;
 }
 
 void Records::add_worst(TestId test, std::span<const std::uint64_t> observed,
@@ -121,10 +109,7 @@ void Records::add_worst(TestId test, std::span<const std::uint64_t> observed,
     const WorstCell worst = worst_cell(observed, probability, samples_);
     Measured& added = add(test);
     TestRecord& record = added.record;
-    auto& minimum_detectable = added.minimum_detectable;
-    minimum_detectable = [worst](double level, double power, double samples) {
-      return minimum_detectable_excess(worst, level, power, samples);
-    };
+    added.detectable = ExcessOfWorstCell{worst.cells, worst.likeliest};
     record.statistic = worst.observed;
     record.log10_p = worst.log10_p;
     if (worst.expected > 0.0) record.effect = worst.observed / worst.expected - 1.0;
@@ -136,10 +121,7 @@ void Records::add_worst(TestId test, std::span<const std::uint64_t> observed,
 void Records::add_z(TestId test, const ZTest& z, const ExactMoments& moments, double exact) {
   Measured& added = add(test);
   TestRecord& record = added.record;
-  auto& minimum_detectable = added.minimum_detectable;
-  minimum_detectable = [moments, exact](double level, double power, double samples) {
-    return minimum_detectable_factor(level, power, samples, moments, exact) - 1.0;
-  };
+  added.detectable = ErrorOfMean{moments, exact};
   record.statistic = z.z;
   record.log10_p = z.log10_p;
   record.effect = z.effect;

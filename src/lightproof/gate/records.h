@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lightproof/gate/detectable_effect.h"
 #include "lightproof/gate/draws.h"
 #include "lightproof/gate/exact_checks.h"
 #include "lightproof/gate/test_run.h"
@@ -45,10 +46,9 @@ class Records {
   /// Adds the fit of two sets of samples to each other; `share` is the other set's share of both.
   void add_two_samples(TestId test, const GoodnessOfFit& fit, double share);
 
-  /// Adds a test of uniformity; `minimum_detectable` is the distance that it finds at a level, with
-  /// a power, by so many samples.
-  void add_uniformity(TestId test, const UniformityTest& uniformity,
-                      double (*minimum_detectable)(double level, double power, double samples));
+  /// Adds a test of uniformity; `detectable` is the distance that it finds at a level, with a
+  /// power, by so many samples.
+  void add_uniformity(TestId test, const UniformityTest& uniformity, DetectableEffect detectable);
 
   /// Adds the test of the cell that is farthest from its expectation, of counts of all samples.
   void add_worst(TestId test, std::span<const std::uint64_t> observed,

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
 
-#include "lightproof/core/out_of_memory.h"
-#include "lightproof/core/parallel.h"
-#include "lightproof/gate/diagnosis.h"
+#include "lightproof/gate/by_run.h"
+#include "lightproof/gate/expectations.h"
+#include "lightproof/gate/judged_runs.h"
 #include "lightproof/gate/records.h"
 #include "lightproof/gate/test_run.h"
 #include "lightproof/stats/goodness_of_fit.h"
@@ -64,12 +63,17 @@ class EProcesses {
   std::optional<SequentialTest> texels_;
 };
 
-/// The records of one instance, and what a diagnosis needs of it.
+/// The records of one run, and what a diagnosis would need of it.
 struct Finding {
   std::vector<TestRecord> records;
-  Inspection inspection;
-  std::optional<Draws> draws;  ///< there if a record is rejected
+  DrawnRun drawn;
 };
+
+std::size_t count_runs(std::span<const TestCase> test_cases) {
+  std::size_t count = 0;
+  for (const TestCase& test_case : test_cases) count += test_case.instances.size();
+  return count;
+}
 
 /// Draws until the evidence reaches `enough` (log10), or to the end.
 Finding watch(const TestRun& run, const Expectation& expectation, const GateOptions& options,
@@ -114,71 +118,87 @@ Finding watch(const TestRun& run, const Expectation& expectation, const GateOpti
       run.instance->claims_reference_texels
           ? std::optional(run.test_case->reference_implementation())
           : std::nullopt;
-  Finding finding{{record}, inspection, {}};
+  Finding finding{{record}, {std::move(draws), inspection}};
   for (const auto& tests :
-       {test_validity(run, draws),
-        test_exactly(run, expectation, sampler, inspection, draws,
+       {test_validity(run, finding.drawn.draws),
+        test_exactly(run, expectation, sampler, inspection, finding.drawn.draws,
                      reference_implementation ? &*reference_implementation : nullptr)}) {
     for (const Measured& test : tests) finding.records.push_back(test.record);
   }
-  const bool rejected =
-      std::any_of(finding.records.begin(), finding.records.end(),
-                  [](const TestRecord& r) { return r.outcome == Outcome::reject; });
-  if (rejected) finding.draws = std::move(draws);
   return finding;
 }
 
-/// Diagnoses of the findings that hold a rejection.
-std::vector<Rejection> rejections_of(const TestCase& test_case, const Expectation& expectation,
-                                     std::span<const Finding> findings) {
-  std::vector<Evidence> rejected;
-  for (const Finding& finding : findings) {
-    if (finding.draws) rejected.push_back({finding.records, &*finding.draws, &finding.inspection});
+/// Test cases, and what was kept of their runs.
+class Watches {
+ public:
+  Watches(std::span<const TestCase> test_cases, const GateOptions& options,
+          const Communicator& communicator)
+      : test_cases_(test_cases),
+        options_(options),
+        communicator_(communicator),
+        family_(std::max<std::uint64_t>(count_runs(test_cases), options.family)),
+        enough_(-std::log10(options.family_alpha / static_cast<double>(family_))),
+        expectations_(test_cases),
+        kept_(test_cases) {}
+
+  GateResult operator()(const Progress& progress) {
+    if (progress) progress("gate", 0.0);
+    ByRun<std::vector<TestRecord>> records = watch_all(progress);
+    GateResult result{options_.family_alpha, options_.samples, options_.seed, {}, {}};
+    result.family = family_;
+    result.sequential = true;
+    result.must_detect = options_.must_detect;
+    const auto drawn = [this](RunIndex at, const Expectation& expectation) {
+      return kept_[at] ? *std::move(kept_[at])
+                       : watch(run_at(at), expectation, options_, enough_).drawn;
+    };
+    add_judged(result, {test_cases_, options_.seed, records, drawn}, expectations_, communicator_);
+    return result;
   }
-  return diagnose(test_case, expectation, rejected);
-}
+
+ private:
+  TestRun run_at(RunIndex at) const { return at.in(test_cases_, options_.seed); }
+
+  ByRun<std::vector<TestRecord>> watch_all(const Progress& progress) {
+    using Shared = std::shared_ptr<const Expectation>;
+    using OfRun = std::vector<TestRecord>;
+    std::vector<WorkGroup<Shared, OfRun>> groups(test_cases_.size());
+    kept_.for_each([&](RunIndex at, std::optional<DrawnRun>& kept) {
+      const TestRun run = run_at(at);
+      groups[at.test_case].prepare = [this, at] { return expectations_.of(at.test_case); };
+      groups[at.test_case].cells.push_back(
+          {run.key("sequential"), [this, run, &kept](const Shared& expectation) {
+             return with_memory_for_gate(*run.test_case, run.instance->name, [&] {
+               Finding finding = watch(run, *expectation, options_, enough_);
+               if (is_any_rejected(finding.records)) kept = std::move(finding.drawn);
+               return std::move(finding.records);
+             });
+           }});
+    });
+    auto results =
+        gather(compute_groups<Shared, OfRun>(groups, communicator_.share, progress, "gate"),
+               communicator_);
+    ByRun<OfRun> records(test_cases_);
+    records.for_each([&](RunIndex at, OfRun& of_run) {
+      of_run = std::move(results.at(run_at(at).key("sequential")));
+    });
+    return records;
+  }
+
+  std::span<const TestCase> test_cases_;
+  const GateOptions& options_;
+  const Communicator& communicator_;
+  std::uint64_t family_;  ///< instances that share the error probability
+  double enough_;         ///< log10 of the evidence that rejects
+  Expectations expectations_;
+  ByRun<std::optional<DrawnRun>> kept_;  ///< of what is rejected
+};
 
 }  // namespace
 
 GateResult run_sequential_gate(std::span<const TestCase> test_cases, const GateOptions& options,
-                               const Progress& progress) {
-  if (progress) progress("gate", 0.0);
-  std::size_t instances = 0;
-  for (const TestCase& test_case : test_cases) instances += test_case.instances.size();
-  const std::size_t family = std::max<std::size_t>(instances, options.family);
-  const double enough = -std::log10(options.family_alpha / static_cast<double>(family));
-  std::vector<std::vector<TestRecord>> records(test_cases.size());
-  std::vector<std::vector<Rejection>> rejections(test_cases.size());
-  std::mutex mutex;
-  std::size_t done = 0;
-  parallel_for(test_cases.size(), [&](std::size_t i) {
-    const TestCase& test_case = test_cases[i];
-    const auto purpose = [&] { return "the sequential gate over " + test_case.map; };
-    with_memory_for(purpose, [&] {
-      const std::shared_ptr<const Expectation> expectation = test_case.expectation();
-      std::vector<Finding> findings(test_case.instances.size());
-      parallel_for(test_case.instances.size(), [&](std::size_t k) {
-        const TestRun run{&test_case, &test_case.instances[k], options.seed};
-        findings[k] = watch(run, *expectation, options, enough);
-        const std::lock_guard lock(mutex);
-        ++done;
-        if (progress) progress("gate", static_cast<double>(done) / static_cast<double>(instances));
-      });
-      rejections[i] = rejections_of(test_case, *expectation, findings);
-      for (Finding& finding : findings) {
-        std::move(finding.records.begin(), finding.records.end(), std::back_inserter(records[i]));
-      }
-    });
-  });
-  GateResult result{options.family_alpha, options.samples, options.seed, {}, {}};
-  result.family = family;
-  result.sequential = true;
-  result.must_detect = options.must_detect;
-  for (std::size_t i = 0; i < test_cases.size(); ++i) {
-    std::move(records[i].begin(), records[i].end(), std::back_inserter(result.tests));
-    std::move(rejections[i].begin(), rejections[i].end(), std::back_inserter(result.rejections));
-  }
-  return result;
+                               const Progress& progress, const Communicator& communicator) {
+  return Watches(test_cases, options, communicator)(progress);
 }
 
 }  // namespace lightproof

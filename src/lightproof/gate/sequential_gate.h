@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "lightproof/core/executor.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/gate/gate.h"
 
@@ -15,7 +16,10 @@ namespace lightproof {
 /// when it reaches instances/family_alpha: over the whole run a correct sampler is rejected with at
 /// most family_alpha, whenever one stops. One record an instance, of the samples that it took, and
 /// the exact checks; means and variances are not tested.
+/// The number of threads, or of processes, changes no bit: processes share the instances and all
+/// get the whole result. Throws std::logic_error as run_gate() does.
 GateResult run_sequential_gate(std::span<const TestCase> test_cases, const GateOptions& options,
-                               const Progress& progress = {});
+                               const Progress& progress = {},
+                               const Communicator& communicator = {});
 
 }  // namespace lightproof

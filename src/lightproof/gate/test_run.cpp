@@ -126,6 +126,17 @@ std::string TestRun::name() const {
   return fmt::format("{}/{}/{}", instance->name, test_case->density_space, test_case->map);
 }
 
+std::string TestRun::key(std::string_view stage) const {
+  return fmt::format("{}/{}/{}/{}/{}", stage, test_case->map, test_case->density_space,
+                     instance->name, seed);
+}
+
+std::string purpose_of_gate(const TestCase& test_case, std::string_view sampler) {
+  return fmt::format(
+      "the gate over {}{}{}{}", sampler, sampler.empty() ? "" : " on ", test_case.map,
+      test_case.density_space.empty() ? "" : fmt::format(" (density {})", test_case.density_space));
+}
+
 RandomStream TestRun::stream(std::string_view purpose) const {
   return {fmt::format("{}/{}", name(), purpose), seed};
 }
@@ -207,12 +218,11 @@ std::vector<Measured> test_draws(const TestRun& run, const Expectation& expectat
   }
   if (expectation.transform) {
     records.attempt(TestId::phi, [&] {
-      records.add_uniformity(TestId::phi, kuiper_test(draws.column_marginal),
-                             minimum_detectable_kuiper_distance);
+      records.add_uniformity(TestId::phi, kuiper_test(draws.column_marginal), KuiperDistance());
     });
     records.attempt(TestId::theta, [&] {
       records.add_uniformity(TestId::theta, anderson_darling_test(draws.marginal),
-                             minimum_detectable_anderson_darling_distance);
+                             AndersonDarlingDistance());
     });
     const std::vector<double> even = uniform_masses(kPairBins);
     records.add_fit(TestId::transformed_pair, serpentine(draws.pairs), even);

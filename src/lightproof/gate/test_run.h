@@ -1,10 +1,14 @@
 // One sampler against one distribution: everything that is tested of it.
 #pragma once
 
-#include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
+#include "lightproof/core/out_of_memory.h"
+#include "lightproof/gate/detectable_effect.h"
 #include "lightproof/gate/draws.h"
 #include "lightproof/gate/exact_checks.h"
 #include "lightproof/gate/expectation.h"
@@ -21,9 +25,21 @@ struct TestRun {
 
   /// The name of the run: "binary_search/B/city".
   std::string name() const;
+  /// The key of the run's cell of work in one stage: "screening/city/B/binary_search/1".
+  std::string key(std::string_view stage) const;
   /// The run's own stream of random numbers for a purpose.
   RandomStream stream(std::string_view purpose) const;
 };
+
+/// "the gate over alias on sun-sky (density B)"; "the gate over sun-sky …" without a sampler.
+std::string purpose_of_gate(const TestCase& test_case, std::string_view sampler);
+
+/// The result of `work`, with lack of memory laid to the gate over a sampler, if one is named, and
+/// its test case.
+template <class Work>
+auto with_memory_for_gate(const TestCase& test_case, std::string_view sampler, const Work& work) {
+  return with_memory_for([&] { return purpose_of_gate(test_case, sampler); }, work);
+}
 
 /// The record of a test of so many samples, in which nothing is said yet of what it found.
 TestRecord record_of(const TestRun& run, TestId test, std::uint64_t samples);
@@ -35,15 +51,18 @@ void require_power(TestRecord& record, double must_detect);
 /// How many samples a test gets in each stage of the gate.
 struct StageSamples {
   std::uint64_t screening = 0;
-  std::uint64_t confirmation = 0;  ///< 0: the source has none left
+  std::uint64_t confirmation = 0;  ///< should it come to that; 0: the source has none left
+
+  static auto fields(auto& stages) { return std::tie(stages.screening, stages.confirmation); }
 };
 
 /// What a test found, and what it would find.
 struct Measured {
   TestRecord record;
-  /// The effect that is found with `power` by a test of size `level`; empty for exact checks.
-  std::function<double(double level, double power, double samples)> minimum_detectable = {};
+  std::optional<DetectableEffect> detectable = {};  ///< none of exact checks
   StageSamples stages = {};
+
+  static auto fields(auto& test) { return std::tie(test.record, test.detectable, test.stages); }
 };
 
 /// Draws so many samples for a purpose that names their stream, or, of a source that has an order

@@ -31,12 +31,12 @@ std::uint64_t hash_of(const Grid<Rgb>& radiance) {
   return hash;
 }
 
-void add(ByteWriter& writer, const MapLevel& level) {
-  writer.add(level.roughness.value_or(-1.0));
-  writer.add(std::uint64_t{level.faces.size()});
+void add(ValueWriter& writer, const MapLevel& level) {
+  writer.add(level.roughness);
+  writer.add(level.faces.size());
   for (const Grid<Rgb>& face : level.faces) {
-    writer.add(static_cast<std::uint64_t>(face.extent().width));
-    writer.add(static_cast<std::uint64_t>(face.extent().height));
+    writer.add(face.extent().width);
+    writer.add(face.extent().height);
     for (const Rgb& texel : face.values()) {
       writer.add(std::uint64_t{std::bit_cast<std::uint32_t>(texel.r)} << 32U |
                  std::bit_cast<std::uint32_t>(texel.g));
@@ -45,7 +45,7 @@ void add(ByteWriter& writer, const MapLevel& level) {
   }
 }
 
-Grid<Rgb> read_face(ByteReader& reader) {
+Grid<Rgb> read_face(ValueReader& reader) {
   const auto width = reader.number();
   const auto height = reader.number();
   if (width > static_cast<std::uint64_t>(kLargestPicture.width) ||
@@ -62,9 +62,12 @@ Grid<Rgb> read_face(ByteReader& reader) {
   return face;
 }
 
-MapLevel read_level(ByteReader& reader) {
-  const double roughness = reader.real();
-  return {roughness < 0.0 ? std::nullopt : std::optional(roughness), reader.list(read_face)};
+MapLevel read_level(ValueReader& reader) {
+  MapLevel level{reader.value<std::optional<double>>(), {}};
+  for (std::uint64_t left = reader.number(); left > 0; --left) {
+    level.faces.push_back(read_face(reader));
+  }
+  return level;
 }
 
 }  // namespace
@@ -109,9 +112,12 @@ std::optional<std::vector<MapLevel>> PartialLevels::find(const std::string& name
   if (!file) return std::nullopt;
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   try {
-    ByteReader reader(bytes);
+    ValueReader reader(bytes);
     if (reader.text() != fingerprint_) return std::nullopt;
-    std::vector<MapLevel> levels = reader.list(read_level);
+    std::vector<MapLevel> levels;
+    for (std::uint64_t left = reader.number(); left > 0; --left) {
+      levels.push_back(read_level(reader));
+    }
     return reader.is_at_end() ? std::optional(std::move(levels)) : std::nullopt;
   } catch (const std::out_of_range&) {
     return std::nullopt;
@@ -119,9 +125,9 @@ std::optional<std::vector<MapLevel>> PartialLevels::find(const std::string& name
 }
 
 void PartialLevels::keep(const std::string& name, const std::vector<MapLevel>& levels) const {
-  ByteWriter writer;
+  ValueWriter writer;
   writer.add(std::string_view(fingerprint_));
-  writer.add(std::uint64_t{levels.size()});
+  writer.add(levels.size());
   for (const MapLevel& level : levels) add(writer, level);
   write_file(file_of(name), writer.take());
 }

@@ -285,7 +285,9 @@ Json self_test_json(const std::optional<SelfTestResult>& self_test) {
           {"families", list_of(self_test->calibration.families)},
           {"power", list_of(self_test->power)},
           {"mutants", list_of(self_test->mutants)},
-          {"naming", list_of(self_test->naming)}};
+          {"naming", list_of(self_test->naming)},
+          {"origin", self_test->origin},
+          {"naming_origin", self_test->naming_origin}};
 }
 
 std::string text_of(const Json& json) {

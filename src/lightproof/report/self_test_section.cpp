@@ -70,7 +70,7 @@ NamingRecord total_of(const std::vector<NamingRecord>& naming) {
   return total;
 }
 
-std::string naming_finding(const std::vector<NamingRecord>& naming) {
+std::string naming_finding(const std::vector<NamingRecord>& naming, const std::string& origin) {
   const NamingRecord total = total_of(naming);
   const auto share = [&](std::uint64_t count) {
     return percent(static_cast<double>(count) /
@@ -79,8 +79,9 @@ std::string naming_finding(const std::vector<NamingRecord>& naming) {
   return fmt::format(
       "Of {} rejections of injected defects on the maps of this study, {} are called by their "
       "right name, {} by a wrong one, and of {} the diagnosis says that no known defect explains "
-      "the samples.",
-      with_thousands(total.rejected), share(total.right), share(total.wrong), share(total.unknown));
+      "the samples.{}",
+      with_thousands(total.rejected), share(total.right), share(total.wrong), share(total.unknown),
+      origin.empty() ? "" : fmt::format(" The first map was tried on {}.", origin));
 }
 
 std::string naming_table(const std::vector<NamingRecord>& naming) {
@@ -199,15 +200,17 @@ std::string self_test_section(const std::optional<SelfTestResult>& self_test) {
                "empty") +
            "</section>\n";
   }
-  const auto& [calibration, power, mutants, naming] = *self_test;
+  const auto& [calibration, power, mutants, naming, origin, naming_origin] = *self_test;
   html += paragraph(kIntroduction, "note");
+  if (!origin.empty())
+    html += paragraph(fmt::format("Self-test of this program, run on {}.", origin));
   html += chart_figure({"kill-chart", kill_finding(mutants),
                         "Fewest samples with which each test rejects each injected defect",
                         std::string(kKillNote), kill_chart(mutants)},
                        collapsible("Injected defects as a table", kill_table(mutants)) +
                            download_link("mutants.csv", mutants_csv(mutants)));
   if (!naming.empty()) {
-    html += paragraph(naming_finding(naming), "note") +
+    html += paragraph(naming_finding(naming, naming_origin), "note") +
             collapsible("Diagnoses of injected defects as a table", naming_table(naming));
   }
   html += chart_figure({"calibration-chart", calibration_finding(calibration.tests),

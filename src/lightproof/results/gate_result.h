@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "lightproof/core/grid.h"
@@ -21,6 +22,12 @@ struct Rejection {
   std::vector<double> row_divergence;  ///< divergence of the rows, cumulative from t = 0
   /// How sure the name is, in words; empty where nothing is named.
   std::string confidence = {};
+
+  static auto fields(auto& rejection) {
+    return std::tie(rejection.sampler, rejection.density_space, rejection.map, rejection.looks_like,
+                    rejection.diagnosis, rejection.residual, rejection.row_divergence,
+                    rejection.confidence);
+  }
 };
 
 /// What one run of the gate found.

@@ -1,6 +1,10 @@
 // Judging, apart from measuring.
 #pragma once
 
+#include <cstddef>
+
+#include "lightproof/core/enumeration.h"
+
 namespace lightproof {
 
 /// What a test, or a whole run, comes to.
@@ -14,6 +18,9 @@ enum class Outcome {
   /// The sampler cannot serve the test, or gave it too little: it decides nothing.
   not_run,
 };
+
+template <>
+inline constexpr std::size_t kValuesOf<Outcome> = 5;
 
 /// The name of an outcome where it is printed or written: "resolution-limited".
 constexpr const char* to_string(Outcome outcome) {

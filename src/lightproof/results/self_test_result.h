@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "lightproof/results/test_id.h"
@@ -20,6 +21,12 @@ struct CalibrationRecord {
   double log10_p_ks = 0.0;        ///< Kolmogorov-Smirnov test of it; one-sided for a bound
   std::optional<double> log10_p_anderson;  ///< Anderson-Darling test of it; none for a bound
   std::uint64_t below_one_percent = 0;     ///< how many p-values are below 0.01
+
+  static auto fields(auto& record) {
+    return std::tie(record.test, record.is_bound, record.replicates, record.quantiles,
+                    record.ks_distance, record.log10_p_ks, record.log10_p_anderson,
+                    record.below_one_percent);
+  }
 };
 
 /// How often runs over correct samplers reject anything.
@@ -29,12 +36,19 @@ struct FamilyRecord {
   std::uint64_t runs = 0;
   std::uint64_t rejected = 0;
   bool is_bound = false;  ///< whether family_alpha is a bound that is far from reached
+
+  static auto fields(auto& record) {
+    return std::tie(record.procedure, record.family_alpha, record.runs, record.rejected,
+                    record.is_bound);
+  }
 };
 
 /// What the gate's tests make of correct samplers.
 struct CalibrationResult {
   std::vector<CalibrationRecord> tests;
   std::vector<FamilyRecord> families;
+
+  static auto fields(auto& record) { return std::tie(record.tests, record.families); }
 };
 
 /// How often a test rejects a distribution that is off by a known effect.
@@ -47,6 +61,11 @@ struct PowerRecord {
   std::uint64_t rejected = 0;
   double predicted = 0.0;  ///< share that should be rejected
   bool is_bound = false;   ///< whether that share is only the least that should be
+
+  static auto fields(auto& record) {
+    return std::tie(record.test, record.effect, record.level, record.samples, record.replicates,
+                    record.rejected, record.predicted, record.is_bound);
+  }
 };
 
 /// The fewest samples, of those tried, with which each test rejects one mutant.
@@ -59,9 +78,16 @@ struct KillRecord {
   struct Kill {
     TestId test = TestId::bins;
     std::uint64_t samples = 0;
+
+    static auto fields(auto& kill) { return std::tie(kill.test, kill.samples); }
   };
   std::vector<Kill> kills;
   std::optional<std::uint64_t> sequential;  ///< the sequential gate's samples; none: accepted
+
+  static auto fields(auto& record) {
+    return std::tie(record.mutant, record.oracle, record.looks_like, record.expected_diagnosis,
+                    record.kills, record.sequential);
+  }
 };
 
 /// What the gate calls one mutant on the maps of a study, under both densities.
@@ -74,6 +100,11 @@ struct NamingRecord {
   std::uint64_t unknown = 0;   ///< runs in which no known defect explains the samples
   std::uint64_t wrong = 0;     ///< runs that gave it another name
   std::vector<std::string> wrong_names = {};  ///< the other names, each once
+
+  static auto fields(auto& record) {
+    return std::tie(record.mutant, record.expected, record.runs, record.rejected, record.right,
+                    record.unknown, record.wrong, record.wrong_names);
+  }
 };
 
 /// The gate tested on itself.
@@ -82,6 +113,16 @@ struct SelfTestResult {
   std::vector<PowerRecord> power;
   std::vector<KillRecord> mutants;
   std::vector<NamingRecord> naming = {};
+  /// When, where and of what calibration, power and mutants were measured; empty if it is not
+  /// known.
+  std::string origin = {};
+  /// The same of `naming`, of the map that was measured first.
+  std::string naming_origin = {};
+
+  static auto fields(auto& result) {
+    return std::tie(result.calibration, result.power, result.mutants, result.naming, result.origin,
+                    result.naming_origin);
+  }
 };
 
 }  // namespace lightproof

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "lightproof/core/enumeration.h"
+
 namespace lightproof {
 
 /// What a test holds the samples against.
@@ -70,6 +72,11 @@ enum class TestId : std::uint8_t {
   edge_points,
   same_texel,
 };
+
+template <>
+inline constexpr std::size_t kValuesOf<Oracle> = 5;
+template <>
+inline constexpr std::size_t kValuesOf<TestId> = static_cast<std::size_t>(TestId::same_texel) + 1;
 
 /// What the effect of a test measures. Every one is 0 where nothing deviates.
 enum class EffectMeasure : std::uint8_t {

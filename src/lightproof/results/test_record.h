@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include "lightproof/results/outcome.h"
 #include "lightproof/results/test_id.h"
@@ -46,6 +47,13 @@ struct TestRecord {
   /// The effect below which the sampler's own rounding shows; of texels and rows of distributions
   /// that are added up.
   std::optional<double> resolution_floor = {};
+
+  static auto fields(auto& record) {
+    return std::tie(record.sampler, record.density_space, record.map, record.test, record.samples,
+                    record.statistic, record.dof, record.log10_p, record.effect,
+                    record.minimum_detectable_effect, record.outcome, record.detail, record.seed,
+                    record.source, record.stage, record.known_defect, record.resolution_floor);
+  }
 };
 
 }  // namespace lightproof

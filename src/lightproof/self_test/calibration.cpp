@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <tuple>
 
 #include "lightproof/gate/gate.h"
 #include "lightproof/gate/sequential_gate.h"
+#include "lightproof/self_test/replicates.h"
 #include "lightproof/self_test/trial.h"
 #include "lightproof/stats/family.h"
 #include "lightproof/stats/uniformity.h"
@@ -58,70 +59,91 @@ CalibrationRecord record_of_p_values(TestId test, std::vector<double> p_values) 
   return record;
 }
 
-/// Each replicate taken for a whole run of one stage.
-FamilyRecord family_of_replicates(const std::vector<std::vector<Measured>>& replicates,
-                                  double alpha) {
-  FamilyRecord family{"one stage, Holm", alpha, replicates.size(), 0};
-  for (const std::vector<Measured>& tests : replicates) {
-    std::vector<double> log10_p;
-    for (const Measured& test : tests) {
-      if (test.record.log10_p) log10_p.push_back(*test.record.log10_p);
+/// What replicates of the first stage's tests found.
+struct StageFindings {
+  std::vector<std::vector<double>> p_values{kValuesOf<TestId>};  ///< by test
+  Count rejected;  ///< replicates that Holm's procedure rejects, each taken for a whole run
+
+  void merge(const StageFindings& other) {
+    for (std::size_t test = 0; test < p_values.size(); ++test) {
+      p_values[test].insert(p_values[test].end(), other.p_values[test].begin(),
+                            other.p_values[test].end());
     }
-    const std::vector<bool> rejected = holm_rejections(log10_p, alpha);
-    family.rejected += std::count(rejected.begin(), rejected.end(), true) > 0 ? 1 : 0;
+    rejected.merge(other.rejected);
   }
-  return family;
+  static auto fields(auto& findings) { return std::tie(findings.p_values, findings.rejected); }
+};
+
+void add(StageFindings& findings, const std::vector<Measured>& tests, double alpha) {
+  std::vector<double> log10_p;
+  for (const Measured& test : tests) {
+    if (!test.record.log10_p) continue;
+    log10_p.push_back(*test.record.log10_p);
+    findings.p_values[static_cast<std::size_t>(test.record.test)].push_back(
+        std::pow(10.0, log10_p.back()));
+  }
+  const std::vector<bool> rejected = holm_rejections(log10_p, alpha);
+  findings.rejected.value += std::count(rejected.begin(), rejected.end(), true) > 0 ? 1 : 0;
 }
 
-FamilyRecord family_of_gate(const Trial& trial, const CalibrationOptions& options,
-                            const Progress& progress) {
-  std::vector<char> rejected(options.runs);
-  for_each_replicate(options.runs, progress, [&](std::size_t i) {
-    const GateOptions gate{options.run_samples, options.seed + i, options.family_alpha,
-                           options.screening_level, 1.0};
-    const GateResult result = run_gate({&trial.test_case, 1}, gate);
-    rejected[i] = overall_outcome(result, true) == Outcome::reject ? 1 : 0;
-  });
-  const auto count = std::count(rejected.begin(), rejected.end(), 1);
-  return {"the gate, two stages", options.family_alpha, options.runs,
-          static_cast<std::uint64_t>(count)};
+StageFindings measure_first_stage(const Trial& trial, const CalibrationOptions& options,
+                                  const Progress& progress, const Communicator& communicator) {
+  const Replicates<StageFindings> replicates = {
+      "calibration/p-values", options.replicates, [&] {
+        return [&](std::uint64_t i, StageFindings& findings) {
+          add(findings, run_once(trial, options.samples, options.seed + i), options.family_alpha);
+        };
+      }};
+  return compute_replicates<StageFindings>({&replicates, 1}, progress, communicator)[0];
 }
 
-FamilyRecord family_of_sequential_gate(const Trial& trial, const CalibrationOptions& options,
-                                       const Progress& progress) {
-  std::vector<char> rejected(options.runs);
-  for_each_replicate(options.runs, progress, [&](std::size_t i) {
-    const GateOptions gate{options.run_samples, options.seed + i, options.family_alpha};
-    const GateResult result = run_sequential_gate({&trial.test_case, 1}, gate);
-    rejected[i] = overall_outcome(result, true) == Outcome::reject ? 1 : 0;
-  });
-  const auto count = std::count(rejected.begin(), rejected.end(), 1);
-  return {"the sequential gate, stopped when it likes", options.family_alpha, options.runs,
-          static_cast<std::uint64_t>(count), true};
+/// Runs of the gate and of the sequential gate over a correct sampler.
+std::vector<FamilyRecord> measure_families(const Trial& trial, const CalibrationOptions& options,
+                                           const Progress& progress,
+                                           const Communicator& communicator) {
+  const auto runs_of = [&](std::string name, GateOptions gate, bool sequential) {
+    return Replicates<Count>{
+        std::move(name), options.runs, [&trial, gate, sequential] {
+          return [&trial, gate, sequential](std::uint64_t i, Count& rejected) {
+            GateOptions run = gate;
+            run.seed += i;
+            const GateResult result = sequential ? run_sequential_gate({&trial.test_case, 1}, run)
+                                                 : run_gate({&trial.test_case, 1}, run);
+            rejected.value += overall_outcome(result, true) == Outcome::reject ? 1 : 0;
+          };
+        }};
+  };
+  const std::vector<Replicates<Count>> runs = {
+      runs_of(
+          "calibration/gate",
+          {options.run_samples, options.seed, options.family_alpha, options.screening_level, 1.0},
+          false),
+      runs_of("calibration/sequential gate",
+              {options.run_samples, options.seed, options.family_alpha}, true)};
+  const std::vector<Count> rejected = compute_replicates<Count>(runs, progress, communicator);
+  return {{"the gate, two stages", options.family_alpha, options.runs, rejected[0].value},
+          {"the sequential gate, stopped when it likes", options.family_alpha, options.runs,
+           rejected[1].value, true}};
 }
 
 }  // namespace
 
-CalibrationResult calibrate(const CalibrationOptions& options, const Progress& progress) {
+CalibrationResult calibrate(const CalibrationOptions& options, const Progress& progress,
+                            const Communicator& communicator) {
   const Trial trial = correct_trial();
-  std::vector<std::vector<Measured>> replicates(options.replicates);
-  for_each_replicate(options.replicates, part_of(progress, 0.0, 0.5), [&](std::size_t i) {
-    replicates[i] = run_once(trial, options.samples, options.seed + i);
-  });
-  std::map<TestId, std::vector<double>> p_values;
-  for (const std::vector<Measured>& tests : replicates) {
-    for (const Measured& measured : tests) {
-      const TestRecord& record = measured.record;
-      if (record.log10_p) p_values[record.test].push_back(std::pow(10.0, *record.log10_p));
-    }
-  }
+  StageFindings stage =
+      measure_first_stage(trial, options, part_of(progress, 0.0, 0.5), communicator);
   CalibrationResult result;
-  for (auto& [test, values] : p_values) {
-    result.tests.push_back(record_of_p_values(test, std::move(values)));
+  for (const TestDescription& test : tests()) {
+    std::vector<double>& p_values = stage.p_values[static_cast<std::size_t>(test.id)];
+    if (!p_values.empty()) result.tests.push_back(record_of_p_values(test.id, std::move(p_values)));
   }
-  result.families = {family_of_replicates(replicates, options.family_alpha),
-                     family_of_gate(trial, options, part_of(progress, 0.5, 0.8)),
-                     family_of_sequential_gate(trial, options, part_of(progress, 0.8, 1.0))};
+  result.families = {
+      {"one stage, Holm", options.family_alpha, options.replicates, stage.rejected.value}};
+  for (FamilyRecord& family :
+       measure_families(trial, options, part_of(progress, 0.5, 1.0), communicator)) {
+    result.families.push_back(std::move(family));
+  }
   return result;
 }
 

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 #include "lightproof/cases/adversarial_maps.h"
-#include "lightproof/core/parallel.h"
 #include "lightproof/gate/sequential_gate.h"
 #include "lightproof/self_test/direction_mutant.h"
 #include "lightproof/self_test/mutant.h"
@@ -14,8 +12,6 @@ namespace lightproof {
 namespace {
 
 constexpr std::uint64_t kFirst = std::uint64_t{1} << 12U;
-constexpr std::uint64_t kUsual = std::uint64_t{1} << 18U;
-constexpr std::uint64_t kMost = std::uint64_t{1} << 22U;
 
 /// A mutant's test case, and what is expected of the gate.
 struct Case {
@@ -57,15 +53,15 @@ void add_kills(KillRecord& record, const GateResult& result) {
   if (!result.rejections.empty()) record.looks_like = result.rejections[0].looks_like;
 }
 
-KillRecord kill(Case& one, std::uint64_t seed) {
-  one.test_case = made_once(std::move(one.test_case));
-  KillRecord record{one.test_case.instances[0].name, one.oracle, "",
-                    std::string(one.diagnosis),      {},         {}};
-  for (std::uint64_t samples = kFirst; samples <= (is_killed(record) ? kUsual : kMost);
-       samples *= 4) {
-    add_kills(record, run_gate({&one.test_case, 1}, {samples, seed}));
+KillRecord kill(const Case& one, const KillOptions& options) {
+  const TestCase test_case = made_once(one.test_case);
+  KillRecord record{test_case.instances[0].name, one.oracle, "",
+                    std::string(one.diagnosis),  {},         {}};
+  for (std::uint64_t samples = kFirst;
+       samples <= (is_killed(record) ? options.usual : options.most); samples *= 4) {
+    add_kills(record, run_gate({&test_case, 1}, {samples, options.seed}));
   }
-  const GateResult sequential = run_sequential_gate({&one.test_case, 1}, {kMost, seed});
+  const GateResult sequential = run_sequential_gate({&test_case, 1}, {options.most, options.seed});
   if (sequential.tests[0].outcome == Outcome::reject) {
     record.sequential = sequential.tests[0].samples;
   }
@@ -74,19 +70,20 @@ KillRecord kill(Case& one, std::uint64_t seed) {
 
 }  // namespace
 
-std::vector<KillRecord> measure_kills(std::uint64_t seed, const Progress& progress) {
+std::vector<KillRecord> measure_kills(const KillOptions& options, const Progress& progress,
+                                      const Communicator& communicator) {
+  if (options.most < kFirst) return {};
   const EnvironmentMap map = mutant_map();
-  std::vector<Case> cases = cases_on(map);
-  std::vector<KillRecord> records(cases.size());
-  std::mutex mutex;
-  std::size_t done = 0;
-  parallel_for(cases.size(), [&](std::size_t i) {
-    records[i] = kill(cases[i], seed);
-    const std::lock_guard lock(mutex);
-    if (progress) {
-      progress("self-test", static_cast<double>(++done) / static_cast<double>(cases.size()));
-    }
-  });
+  const std::vector<Case> cases = cases_on(map);
+  const auto key_of = [](const Case& one) { return "kills/" + one.test_case.instances[0].name; };
+  std::vector<WorkCell<KillRecord>> cells;
+  for (const Case& one : cases) {
+    cells.push_back({key_of(one), [&] { return kill(one, options); }});
+  }
+  CellResults<KillRecord> results = gather(
+      compute_cells<KillRecord>(cells, communicator.share, progress, "self-test"), communicator);
+  std::vector<KillRecord> records;
+  for (const Case& one : cases) records.push_back(std::move(results.at(key_of(one))));
   return records;
 }
 

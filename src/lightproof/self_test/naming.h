@@ -3,8 +3,10 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
+#include "lightproof/core/executor.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/results/map_record.h"
 #include "lightproof/results/self_test_result.h"
@@ -16,13 +18,22 @@ struct NamingOptions {
   std::uint64_t seed = 1;   ///< the first seed
   std::uint64_t seeds = 3;  ///< how many seeds in a row
   std::uint64_t samples = std::uint64_t{1} << 17U;
+
+  static auto fields(auto& options) {
+    return std::tie(options.seed, options.seeds, options.samples);
+  }
 };
 
 /// What every mutant of maps is called under both densities on every map, with every seed. Those
 /// that the gate accepts are in no count: the samples were too few, or the map lacks what the
 /// defect needs.
+/// The number of processes, which share the runs and all get the whole result, changes no bit.
 std::vector<NamingRecord> measure_naming(std::span<const MapRecord> maps,
                                          const NamingOptions& options,
-                                         const Progress& progress = {});
+                                         const Progress& progress = {},
+                                         const Communicator& communicator = {});
+
+/// Adds what measure_naming() counted on other maps; of none at first.
+void merge_naming(std::vector<NamingRecord>& records, const std::vector<NamingRecord>& others);
 
 }  // namespace lightproof

@@ -1,9 +1,13 @@
 #include "lightproof/self_test/power.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
+#include <tuple>
 
 #include "lightproof/self_test/displaced_trial.h"
+#include "lightproof/self_test/replicates.h"
 #include "lightproof/stats/goodness_of_fit.h"
 #include "lightproof/stats/uniformity.h"
 #include "reference/texel_masses.h"
@@ -39,38 +43,47 @@ std::vector<PowerRecord> predictions(const Trial& trial, std::uint64_t samples) 
   return records;
 }
 
-void count_rejections(PowerRecord& record, const std::vector<std::vector<Measured>>& replicates) {
-  record.replicates = replicates.size();
-  for (const auto& tests : replicates) {
+/// How often each test rejected at kPowerLevel.
+struct RejectionCounts {
+  std::vector<std::uint64_t> by_test = std::vector<std::uint64_t>(kValuesOf<TestId>);
+
+  void add(const std::vector<Measured>& tests) {
     for (const Measured& measured : tests) {
-      const TestRecord& test = measured.record;
-      if (test.test != record.test || !test.log10_p) continue;
-      record.rejected += *test.log10_p < std::log10(record.level) ? 1 : 0;
+      const std::optional<double>& log10_p = measured.record.log10_p;
+      const bool rejected = log10_p && *log10_p < std::log10(kPowerLevel);
+      by_test[static_cast<std::size_t>(measured.record.test)] += rejected ? 1 : 0;
     }
   }
-}
+  void merge(const RejectionCounts& other) {
+    for (std::size_t test = 0; test < by_test.size(); ++test) by_test[test] += other.by_test[test];
+  }
+  static auto fields(auto& counts) { return std::tie(counts.by_test); }
+};
 
 }  // namespace
 
-std::vector<PowerRecord> measure_power(const PowerOptions& options, const Progress& progress) {
+std::vector<PowerRecord> measure_power(const PowerOptions& options, const Progress& progress,
+                                       const Communicator& communicator) {
   constexpr double kEffect = 0.15;
-  const std::vector<std::uint64_t> ladder = {512, 1024, 2048, 3072, 4096, 6144, 8192};
+  constexpr std::array<std::uint64_t, 7> kLadder = {512, 1024, 2048, 3072, 4096, 6144, 8192};
   const Trial trial = trial_off_by(kEffect, distance_of_bins);
+  std::vector<Replicates<RejectionCounts>> steps;
+  for (std::size_t step = 0; step < kLadder.size(); ++step) {
+    steps.push_back({fmt::format("power/{}", step), options.replicates, [&, step] {
+                       return [&, step](std::uint64_t i, RejectionCounts& counts) {
+                         // Other numbers for every point, and others than the calibration's.
+                         const std::uint64_t seed = options.seed + (step + 1) * 1000003 + i;
+                         counts.add(run_once(trial, kLadder[step], seed));
+                       };
+                     }});
+  }
+  const std::vector<RejectionCounts> counts =
+      compute_replicates<RejectionCounts>(steps, progress, communicator);
   std::vector<PowerRecord> all;
-  for (std::size_t step = 0; step < ladder.size(); ++step) {
-    const std::uint64_t samples = ladder[step];
-    std::vector<std::vector<Measured>> replicates(options.replicates);
-    const auto steps = static_cast<double>(ladder.size());
-    for_each_replicate(
-        options.replicates,
-        part_of(progress, static_cast<double>(step) / steps, static_cast<double>(step + 1) / steps),
-        [&](std::size_t i) {
-          // Other numbers for every point, and others than the calibration's.
-          const std::uint64_t seed = options.seed + (step + 1) * 1000003 + i;
-          replicates[i] = run_once(trial, samples, seed);
-        });
-    for (PowerRecord record : predictions(trial, samples)) {
-      count_rejections(record, replicates);
+  for (std::size_t step = 0; step < kLadder.size(); ++step) {
+    for (PowerRecord record : predictions(trial, kLadder[step])) {
+      record.replicates = options.replicates;
+      record.rejected = counts[step].by_test[static_cast<std::size_t>(record.test)];
       all.push_back(record);
     }
   }

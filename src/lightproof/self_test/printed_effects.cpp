@@ -9,6 +9,7 @@
 #include "lightproof/samplers/texel_positions.h"
 #include "lightproof/self_test/displaced_trial.h"
 #include "lightproof/self_test/power.h"
+#include "lightproof/self_test/replicates.h"
 
 namespace lightproof {
 namespace {
@@ -244,6 +245,36 @@ TestRecord record_in(const GateResult& result, TestId test) {
                        [&](const TestRecord& r) { return r.test == test; });
 }
 
+std::vector<Injection> all_injections() {
+  std::vector<Injection> injections = injections_of_cells();
+  for (const auto& more : {injections_of_positions(), injections_of_weights()}) {
+    injections.insert(injections.end(), more.begin(), more.end());
+  }
+  return injections;
+}
+
+std::string key_of(const Injection& injection) {
+  return "printed effects/" + full_name(injection.test);
+}
+
+/// The effects that the gate prints of a correct sampler.
+std::vector<double> effects_of(std::span<const Injection> injections, std::uint64_t seed,
+                               const Communicator& communicator) {
+  const TestCase correct = test_case_of(correct_trial());
+  std::vector<WorkCell<double>> cells;
+  for (const Injection& injection : injections) {
+    cells.push_back({key_of(injection), [&] {
+                       const GateResult result = judge(correct, injection.sequential, seed);
+                       return *record_in(result, injection.test).minimum_detectable_effect;
+                     }});
+  }
+  const CellResults<double> results =
+      gather(compute_cells<double>(cells, communicator.share), communicator);
+  std::vector<double> effects;
+  for (const Injection& injection : injections) effects.push_back(results.at(key_of(injection)));
+  return effects;
+}
+
 }  // namespace
 
 std::vector<TestId> printed_effects() {
@@ -258,32 +289,28 @@ std::vector<TestId> printed_effects() {
 }
 
 std::vector<PowerRecord> measure_printed_effects(const PowerOptions& options,
-                                                 const Progress& progress) {
-  std::vector<Injection> injections = injections_of_cells();
-  for (const auto& more : {injections_of_positions(), injections_of_weights()}) {
-    injections.insert(injections.end(), more.begin(), more.end());
-  }
-  const TestCase correct = test_case_of(correct_trial());
-  std::vector<PowerRecord> records;
+                                                 const Progress& progress,
+                                                 const Communicator& communicator) {
+  const std::vector<Injection> injections = all_injections();
+  const std::vector<double> effects = effects_of(injections, options.seed, communicator);
+  std::vector<Replicates<Count>> replicates;
   for (std::size_t k = 0; k < injections.size(); ++k) {
     const Injection& injection = injections[k];
-    const double effect =
-        *record_in(judge(correct, injection.sequential, options.seed), injection.test)
-             .minimum_detectable_effect;
-    const TestCase test_case = test_case_of(injection.make(effect));
-    std::vector<char> rejected(options.replicates);
-    const auto parts = static_cast<double>(injections.size());
-    for_each_replicate(
-        options.replicates,
-        part_of(progress, static_cast<double>(k) / parts, static_cast<double>(k + 1) / parts),
-        [&](std::size_t i) {
-          const GateResult result = judge(test_case, injection.sequential, options.seed + i);
-          rejected[i] = record_in(result, injection.test).outcome == Outcome::reject ? 1 : 0;
-        });
-    records.push_back({injection.test, effect, GateOptions{}.family_alpha, kSamples,
-                       options.replicates,
-                       static_cast<std::uint64_t>(std::count(rejected.begin(), rejected.end(), 1)),
-                       kDetectionPower, true});
+    replicates.push_back({key_of(injection), options.replicates, [&, k] {
+                            const TestCase test_case = test_case_of(injection.make(effects[k]));
+                            return [&, test_case](std::uint64_t i, Count& rejected) {
+                              const GateResult result =
+                                  judge(test_case, injection.sequential, options.seed + i);
+                              const Outcome outcome = record_in(result, injection.test).outcome;
+                              rejected.value += outcome == Outcome::reject ? 1 : 0;
+                            };
+                          }});
+  }
+  const std::vector<Count> rejected = compute_replicates<Count>(replicates, progress, communicator);
+  std::vector<PowerRecord> records;
+  for (std::size_t k = 0; k < injections.size(); ++k) {
+    records.push_back({injections[k].test, effects[k], GateOptions{}.family_alpha, kSamples,
+                       options.replicates, rejected[k].value, kDetectionPower, true});
   }
   return records;
 }

@@ -3,17 +3,40 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 
+#include "lightproof/core/executor.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/results/map_record.h"
 #include "lightproof/results/self_test_result.h"
+#include "lightproof/self_test/calibration.h"
+#include "lightproof/self_test/kill_matrix.h"
+#include "lightproof/self_test/naming.h"
+#include "lightproof/self_test/power.h"
 
 namespace lightproof {
 
-/// Measures what mutants, calibration and power come to, and the names that the gate gives to
-/// mutants on these maps, as the report shows them. Every map adds a run of the gate on all
-/// mutants.
-SelfTestResult run_self_test(std::span<const MapRecord> maps, std::uint64_t seed,
-                             const Progress& progress = {});
+struct SelfTestOptions {
+  CalibrationOptions calibration;
+  PowerOptions power;
+  KillOptions kills;
+  NamingOptions naming;
+
+  static auto fields(auto& options) {
+    return std::tie(options.calibration, options.power, options.kills, options.naming);
+  }
+};
+
+/// As the report shows it, with this seed throughout.
+SelfTestOptions self_test_options(std::uint64_t seed);
+
+/// Calibration, power and mutants: what the program and its options determine, whatever the maps.
+SelfTestResult test_program(const SelfTestOptions& options, const Progress& progress = {},
+                            const Communicator& communicator = {});
+
+/// The same, and the names that the gate gives to mutants on these maps. Every map adds some runs
+/// of the gate on all mutants.
+SelfTestResult run_self_test(std::span<const MapRecord> maps, const SelfTestOptions& options,
+                             const Progress& progress = {}, const Communicator& communicator = {});
 
 }  // namespace lightproof

@@ -3,12 +3,9 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
-#include "lightproof/core/parallel.h"
-#include "lightproof/core/progress.h"
 #include "lightproof/gate/test_run.h"
 
 namespace lightproof {
@@ -37,20 +34,5 @@ Trial correct_trial();
 
 /// The tests of the first stage on samples drawn anew.
 std::vector<Measured> run_once(const Trial& trial, std::uint64_t samples, std::uint64_t seed);
-
-/// Runs body(0) … body(count-1) in parallel and tells how far it is.
-template <class Body>
-void for_each_replicate(std::uint64_t count, const Progress& progress, const Body& body) {
-  std::mutex mutex;
-  std::uint64_t done = 0;
-  parallel_for(count, [&](std::size_t i) {
-    body(i);
-    if (!progress) return;
-    const std::lock_guard lock(mutex);
-    if (++done % 64 == 0) {
-      progress("self-test", static_cast<double>(done) / static_cast<double>(count));
-    }
-  });
-}
 
 }  // namespace lightproof

@@ -28,23 +28,11 @@ struct PixelErrors {
   std::vector<double> squared;
   Moments single;
 
-  void write(ByteWriter& writer) const {
-    writer.add(squared);
-    writer.add(single);
-  }
-  static PixelErrors read(ByteReader& reader) {
-    std::vector<double> squared = reader.reals();
-    return {std::move(squared), Moments::read(reader)};
-  }
+  static auto fields(auto& errors) { return std::tie(errors.squared, errors.single); }
 };
 
 /// The pixels of one line of the study.
-struct LineErrors {
-  std::vector<PixelErrors> pixels;
-
-  void write(ByteWriter& writer) const { writer.add(pixels); }
-  static LineErrors read(ByteReader& reader) { return {reader.list(PixelErrors::read)}; }
-};
+using LineErrors = std::vector<PixelErrors>;
 
 std::vector<std::uint64_t> sample_counts(std::uint64_t most) {
   std::vector<std::uint64_t> counts;
@@ -282,12 +270,11 @@ std::vector<Line> lines_of(const Lights& lights, const Stage& stage, const Mater
 LineErrors measure_line(const Line& line, std::span<const std::uint64_t> counts,
                         std::uint64_t seed) {
   const RandomStream stream(line.key(), seed);
-  LineErrors errors{std::vector<PixelErrors>(line.pixels.size())};
-  parallel_for(errors.pixels.size(), [&](std::size_t pixel) {
+  LineErrors errors(line.pixels.size());
+  parallel_for(errors.size(), [&](std::size_t pixel) {
     PixelEstimator estimator(line.estimator, line.pixels[pixel].point, stream.substream(pixel),
                              line.map->weights);
-    errors.pixels[pixel] =
-        measure_pixel(estimator, line.exact[pixel].mean(), counts, line.replicates);
+    errors[pixel] = measure_pixel(estimator, line.exact[pixel].mean(), counts, line.replicates);
   });
   return errors;
 }
@@ -295,17 +282,18 @@ LineErrors measure_line(const Line& line, std::span<const std::uint64_t> counts,
 /// A cell of work for every line; then each line summed up.
 std::vector<ConvergenceRecord> measure_lines(std::span<const Line> lines,
                                              const ConvergenceOptions& options,
-                                             const Progress& progress) {
+                                             const Progress& progress,
+                                             const Communicator& communicator) {
   const std::vector<std::uint64_t> counts = sample_counts(options.most_samples);
   std::vector<WorkCell<LineErrors>> cells;
   for (const Line& line : lines) {
     cells.push_back({line.key(), [&] { return measure_line(line, counts, options.seed); }});
   }
-  const CellResults<LineErrors> results =
-      compute_cells<LineErrors>(cells, {}, progress, "convergence");
+  const CellResults<LineErrors> results = gather(
+      compute_cells<LineErrors>(cells, communicator.share, progress, "convergence"), communicator);
   std::vector<ConvergenceRecord> records;
   for (const Line& line : lines) {
-    records.push_back(record_of(line, results.at(line.key()).pixels, counts));
+    records.push_back(record_of(line, results.at(line.key()), counts));
   }
   return records;
 }
@@ -314,15 +302,16 @@ std::vector<ConvergenceRecord> measure_lines(std::span<const Line> lines,
 
 std::vector<ConvergenceRecord> study_convergence(std::span<const EnvironmentMap> maps,
                                                  const ConvergenceOptions& options,
-                                                 const Progress& progress) {
+                                                 const Progress& progress,
+                                                 const Communicator& communicator) {
   const Lights lights(maps);
   std::vector<std::unique_ptr<Stage>> stages;
   for (const ReceiverInfo& receiver : receivers()) {
     stages.push_back(std::make_unique<Stage>(receiver, options.picture));
   }
   const Progress exact = part_of(progress, 0.0, 0.3);
-  const auto studied = static_cast<std::size_t>(
-      std::ranges::count(materials(), true, &MaterialInfo::is_studied));
+  const auto studied =
+      static_cast<std::size_t>(std::ranges::count(materials(), true, &MaterialInfo::is_studied));
   const double pairs = static_cast<double>(stages.size() * studied);
   double done = 0.0;
   std::vector<Line> lines;
@@ -334,7 +323,7 @@ std::vector<ConvergenceRecord> study_convergence(std::span<const EnvironmentMap>
       std::move(more.begin(), more.end(), std::back_inserter(lines));
     }
   }
-  return measure_lines(lines, options, part_of(progress, 0.3, 1.0));
+  return measure_lines(lines, options, part_of(progress, 0.3, 1.0), communicator);
 }
 
 }  // namespace lightproof

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "lightproof/core/executor.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/image/environment_map.h"
 #include "lightproof/results/convergence_record.h"
@@ -26,9 +27,11 @@ struct ConvergenceOptions {
 
 /// Measures errors of independent estimates against quadrature, beside the exact variance, on every
 /// map, receiver and material and by every estimator whose exact moments are known. The number of
-/// threads changes no bit. Throws std::logic_error if two maps have one name.
+/// threads, or of processes, which share the estimates, changes no bit. Throws std::logic_error if
+/// two maps have one name.
 std::vector<ConvergenceRecord> study_convergence(std::span<const EnvironmentMap> maps,
                                                  const ConvergenceOptions& options,
-                                                 const Progress& progress = {});
+                                                 const Progress& progress = {},
+                                                 const Communicator& communicator = {});
 
 }  // namespace lightproof

@@ -11,7 +11,9 @@
 #include "lightproof/core/atomic_file.h"
 #include "lightproof/core/child_process.h"
 #include "lightproof/core/error.h"
+#include "lightproof/core/kept_file.h"
 #include "lightproof/core/machine.h"
+#include "lightproof/core/random.h"
 #include "lightproof/core/temporary_folder.h"
 #include "lightproof/stats/median.h"
 
@@ -159,23 +161,12 @@ Throughput records_of(const nlohmann::json& document) {
   return records;
 }
 
-/// FNV-1a, to tell files apart.
-std::uint64_t hash_of(std::string_view text, std::uint64_t hash = 0xcbf29ce484222325U) {
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash;
-}
-
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// Empty where nothing can be kept: without a folder, or of a program that cannot be read.
 fs::path kept_file(const ThroughputSource& source, const std::string& filter) {
-  const std::string program = content_of(source.program);
-  if (source.cache.empty() || program.empty()) return {};
-  const std::uint64_t key = hash_of(filter, hash_of(machine_name(), hash_of(program)));
-  return source.cache / fmt::format("throughput-{:016x}.json", key);
+  const std::optional<std::uint64_t> program = hash_of_file(source.program);
+  if (source.cache.empty() || !program) return {};
+  const std::string identity = fmt::format("{:x}/{}/{}", *program, machine_name(), filter);
+  return source.cache / fmt::format("throughput-{:016x}.json", hash_text(identity));
 }
 
 /// None if it is damaged, or not there.
