@@ -159,22 +159,25 @@ void irradiance_benchmark(benchmark::State& state, const Method& method, const S
   state.counters["rms_error"] = error.root_mean_square;
 }
 
+void register_method(const Method& method, const Source& source) {
+  for (const auto& [threads, count] : {std::pair{"one-thread", 1}, {"all-threads", 0}}) {
+    const std::string name = fmt::format("irradiance/{}/{}/{}x{}/{}", method.name, source.name,
+                                         kNormals.width, kNormals.height, threads);
+    benchmark::RegisterBenchmark(name.c_str(),
+                                 [&method, &source, count = count](benchmark::State& state) {
+                                   irradiance_benchmark(state, method, source, count);
+                                 })
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
+  }
+}
+
 }  // namespace
 
 void register_irradiance_benchmarks() {
   for (const Source& source : kSources) {
     for (const Method& method : kMethods) {
-      if (!source.all_methods && method.run != exact) continue;
-      for (const auto& [threads, count] : {std::pair{"one-thread", 1}, {"all-threads", 0}}) {
-        const std::string name = fmt::format("irradiance/{}/{}/{}x{}/{}", method.name, source.name,
-                                             kNormals.width, kNormals.height, threads);
-        benchmark::RegisterBenchmark(name.c_str(),
-                                     [&method, &source, count = count](benchmark::State& state) {
-                                       irradiance_benchmark(state, method, source, count);
-                                     })
-            ->Unit(benchmark::kMillisecond)
-            ->UseRealTime();
-      }
+      if (source.all_methods || method.run == exact) register_method(method, source);
     }
   }
 }

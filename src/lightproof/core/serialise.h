@@ -53,7 +53,7 @@ class ValueWriter {
   template <class... Values>
   void add(const std::variant<Values...>& value) {
     add(value.index());
-    std::visit([this](const auto& chosen) { add(chosen); }, value);
+    std::visit([this](const auto& chosen) { this->add(chosen); }, value);
   }
   template <class Grid>
   requires requires(const Grid& grid) { grid.extent().width; }
@@ -68,7 +68,7 @@ class ValueWriter {
   template <class Value>
   requires requires(const Value& value) { Value::fields(value); }
   void add(const Value& value) {
-    std::apply([this](const auto&... fields) { (add(fields), ...); }, Value::fields(value));
+    std::apply([this](const auto&... fields) { (this->add(fields), ...); }, Value::fields(value));
   }
 
   std::string take() { return std::move(bytes_); }

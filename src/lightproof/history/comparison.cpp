@@ -23,9 +23,10 @@ constexpr double kLargestLead = 0.5;
 /// Distinct commits, the latest first.
 std::vector<std::string> commits_of(std::span<const BenchmarkRun> runs) {
   std::vector<std::string> commits;
-  for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
-    if (std::find(commits.begin(), commits.end(), run->commit) == commits.end()) {
-      commits.push_back(run->commit);
+  for (std::size_t i = runs.size(); i-- > 0;) {
+    const std::string& commit = runs[i].commit;
+    if (std::find(commits.begin(), commits.end(), commit) == commits.end()) {
+      commits.push_back(commit);
     }
   }
   return commits;
