@@ -49,8 +49,8 @@ std::uint64_t samples_for_normal_tails(const reference::EstimatorMoments& exact)
   const double root = 0.5 * kZ * kZ * kZ * third / std::pow(variance, 1.5);
   const double kurtosis = exact.fourth_central() / (variance * variance);
   const double needed = std::max({65536.0, root * root, kZ * kZ * kZ * kZ * kurtosis / 8.0});
-  EXPECT_LE(needed, 1.6e7) << "a case that normal tails do not fit";
-  return static_cast<std::uint64_t>(std::min(needed, 1.6e7));
+  EXPECT_LE(needed, 2.5e7) << "a case that normal tails do not fit";
+  return static_cast<std::uint64_t>(std::min(needed, 2.5e7));
 }
 
 /// Those that are means of independent estimates with known moments.
@@ -72,6 +72,8 @@ std::vector<Pixel> few_pixels(const ReceiverInfo& receiver, const Scene& scene) 
   return visible_pixels(receiver, scene, {3, 2});
 }
 
+// Materials that studies leave out are not here either: whose normals are drawn whatever the view,
+// they have rare, large weights where it grazes, and no normal tails.
 class Unoccluded : public testing::TestWithParam<Case> {};
 
 TEST_P(Unoccluded, EveryEstimatorAgreesWithQuadrature) {
@@ -80,9 +82,11 @@ TEST_P(Unoccluded, EveryEstimatorAgreesWithQuadrature) {
   const Scene scene(receiver.content);
   const auto pixels = few_pixels(receiver, scene);
   const Grid<double> luminance = luminance_of(map);
-  // 3 receivers, 3 maps, 2 materials, 4 estimators, at most 6 pixels.
-  const double log10_level = std::log10(0.5 * kFamilyAlpha / (3 * 3 * 2 * 4 * 6));
+  // 3 receivers, 3 maps, the materials, 4 estimators, at most 6 pixels.
+  const double tests = 3.0 * 3.0 * static_cast<double>(materials().size()) * 4.0 * 6.0;
+  const double log10_level = std::log10(0.5 * kFamilyAlpha / tests);
   for (const MaterialInfo& material : materials()) {
+    if (!material.is_studied) continue;
     const auto exact = exact_light({&luminance, 1}, receiver, scene, material.material, pixels);
     for (const EstimatorInfo& info : one_sample_estimators()) {
       const BoundEstimator estimator = info.prepare(map).bind(scene, material.material);
@@ -121,9 +125,11 @@ TEST_P(Occluded, EveryEstimatorAgreesWithUniformSampling) {
   const Scene scene(receiver.content);
   const auto pixels = few_pixels(receiver, scene);
   const Grid<double> luminance = luminance_of(map);
-  // 2 maps, 2 materials, 3 pairs, at most 6 pixels.
-  const double log10_level = std::log10(0.5 * kFamilyAlpha / (2 * 2 * 3 * 6));
+  // 2 maps, the materials, 3 pairs, at most 6 pixels.
+  const double tests = 2.0 * static_cast<double>(materials().size()) * 3.0 * 6.0;
+  const double log10_level = std::log10(0.5 * kFamilyAlpha / tests);
   for (const MaterialInfo& material : materials()) {
+    if (!material.is_studied) continue;
     const auto exact = exact_light({&luminance, 1}, receiver, scene, material.material, pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const auto measure = [&](const EstimatorInfo& info) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/image/synthetic.h"
@@ -41,18 +43,24 @@ TEST(Convergence, MeasuredErrorsAreThePredictedOnes) {
 }
 
 // A variance's ratio is judged at 6 of its standard errors; so is the slope of all lines together.
+// A narrow lobe that is found by rare hits has no slope: too few of its errors can be measured with
+// so few estimates.
 TEST(Convergence, VariancesAndSlopesAreThePredictedOnes) {
   double slope = 0.0;
   double weight = 0.0;
+  int lines = 0;
   for (const ConvergenceRecord& record : small_study("gradient", 1)) {
     ASSERT_EQ(record.points.size(), 6U);
     EXPECT_NEAR(record.measured_variance / record.predicted_variance, 1.0,
                 6.0 * record.variance_ratio_error)
         << record.receiver << ", " << record.material << ", " << record.estimator;
+    if (std::isnan(record.slope)) continue;
     const double w = 1.0 / (record.slope_error * record.slope_error);
     slope += w * record.slope;
     weight += w;
+    ++lines;
   }
+  EXPECT_GE(lines, 32);
   EXPECT_NEAR(slope / weight, -0.5, 6.0 / std::sqrt(weight));
 }
 
@@ -88,7 +96,8 @@ TEST(Convergence, TheSameBitsForAnyNumberOfThreads) {
       EXPECT_EQ(one[i].measured_variance, many[i].measured_variance);
       EXPECT_EQ(one[i].predicted_variance, many[i].predicted_variance);
       EXPECT_EQ(one[i].variance_ratio_error, many[i].variance_ratio_error);
-      EXPECT_EQ(one[i].slope, many[i].slope);
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(one[i].slope),
+                std::bit_cast<std::uint64_t>(many[i].slope));
       ASSERT_EQ(one[i].points.size(), many[i].points.size());
       for (std::size_t k = 0; k < one[i].points.size(); ++k) {
         EXPECT_EQ(one[i].points[k].rmse, many[i].points[k].rmse);
