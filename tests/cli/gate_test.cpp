@@ -322,6 +322,17 @@ TEST(GateSamplers, OfDirectionsGoByGroups) {
   EXPECT_THAT(mixed.err, HasSubstr("--sampler: directions draws directions and needs no map"));
 }
 
+TEST(GateSamplers, NamedTwiceAreTestedOnce) {
+  EXPECT_THAT(values_of(gate_results({"sun-sky", "--sampler", "alias", "--sampler", "eytzinger",
+                                      "--sampler", "alias"}),
+                        "sampler"),
+              ElementsAre("alias", "eytzinger"));
+  EXPECT_EQ(gate_results({"--sampler", "cosine_hemisphere", "--sampler", "cosine_hemisphere"})
+                .at("tests")
+                .size(),
+            gate_results({"--sampler", "cosine_hemisphere"}).at("tests").size());
+}
+
 TEST(GateSamplers, OfDirectionsHaveNoDensityOfAMap) {
   const Finished gate = quick_gate({"--sampler", "cosine_hemisphere", "--density", "B"});
   EXPECT_EQ(gate.exit_code, 2) << gate.out;

@@ -23,6 +23,7 @@ std::vector<SamplerUnderTest> correct_samplers() {
 SamplerUnderTest without_sine() {
   SamplerUnderTest under_test =
       sampler_under_test(sampler_by_name("binary_search"), DensitySpace::texture);
+  under_test.name = "without_sine";
   under_test.target.density_space = DensitySpace::solid_angle;
   under_test.inverts_shared_cdf = false;
   return under_test;

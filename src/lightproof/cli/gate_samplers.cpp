@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 
 #include "known_names.h"
@@ -99,6 +100,13 @@ void settle_named_directions(const SamplerChoice& choice, const std::vector<std:
   chosen.notes.push_back(reason + ": tested once, without one");
 }
 
+/// Leaves out what stands in the list before, by key(item).
+template <class Item, class Key>
+void drop_repeated(std::vector<Item>& items, const Key& key) {
+  std::set<std::string> seen;
+  std::erase_if(items, [&](const Item& item) { return !seen.insert(key(item)).second; });
+}
+
 }  // namespace
 
 ChosenSamplers choose_samplers(const SamplerChoice& choice) {
@@ -109,6 +117,11 @@ ChosenSamplers choose_samplers(const SamplerChoice& choice) {
     add_named(chosen, name);
     if (chosen.of_directions.size() > before) names_of_directions.push_back(name);
   }
+  // A name that is given twice, or in a group as well, is tested once.
+  drop_repeated(chosen.of_maps, [](const SamplerUnderTest& under_test) {
+    return fmt::format("{} {}", under_test.name, to_string(under_test.target.density_space));
+  });
+  drop_repeated(chosen.of_directions, [](const DirectionSampler& sampler) { return sampler.name; });
   settle_named_directions(choice, names_of_directions, chosen);
   if (choice.names.empty()) {
     chosen.of_maps = all_samplers_under_test();
