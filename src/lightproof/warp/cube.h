@@ -12,8 +12,8 @@
 // three.js looks such faces up at (-X, Y, Z) of its world, and Babylon.js places glTF scenes at
 // (-X, Y, Z) of its left-handed one: in both a scene exported from Blender finds the light where it
 // was, and three.js finds a latitude-longitude picture of the same map in the same place. Filament
-// and the glTF Sample Viewer look up (X, Y, Z) itself, and so need the mirror image of the faces: the
-// projection `cube-mirrored` of image/map_levels.h.
+// and the glTF Sample Viewer look up (X, Y, Z) itself, and so need the mirror image of the faces:
+// the projection `cube-mirrored` of image/map_levels.h.
 #pragma once
 
 #include <algorithm>
