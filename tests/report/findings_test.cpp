@@ -103,6 +103,24 @@ TEST(SamplerFindings, NameTheWorstTestAndKnownDefects) {
             "never drawn)");
 }
 
+TEST(SamplerFindings, GiveAcceptedSamplersOfDirectionsOneLine) {
+  const std::string directions(kDirections);
+  TestRecord wrong = testing::accepted_test("phong", directions);
+  wrong.outcome = Outcome::reject;
+  const auto findings =
+      sampler_findings(with_tests({testing::accepted_test("cosine", directions),
+                                   testing::accepted_test("alias", "city"),
+                                   testing::accepted_test("ggx", directions),
+                                   testing::accepted_test("ggx", directions), wrong})
+                           .gate);
+  ASSERT_EQ(findings.size(), 3U);
+  EXPECT_EQ(findings[0].sentence, "alias: 0 of 1 test rejected");
+  EXPECT_EQ(findings[1].outcome, Outcome::reject) << findings[1].sentence;
+  EXPECT_EQ(findings[2].sentence,
+            "2 samplers of directions (warps and materials): 0 of 3 tests rejected");
+  EXPECT_EQ(findings[2].outcome, Outcome::accept);
+}
+
 TEST(ConvergenceFinding, GivesTheRangeWhenAllAgree) {
   EXPECT_EQ(convergence_finding({estimator(-0.51, 1.0), estimator(-0.48, 1.0)}),
             "All 2 estimators fall with slope \u22120.5 as predicted: fitted slopes from "

@@ -81,6 +81,21 @@ SamplerFinding sampler_finding(const GateResult& gate, const std::string& sample
   return finding;
 }
 
+/// The finding on samplers of directions, all of which are accepted: they are many, and a line each
+/// would hide the others.
+SamplerFinding finding_on_directions(const GateResult& gate,
+                                     const std::vector<std::string>& names) {
+  if (names.size() == 1) return sampler_finding(gate, names.front());
+  const Tally tally = tally_of(gate, [&](const TestRecord& test) {
+    return std::count(names.begin(), names.end(), test.sampler) > 0;
+  });
+  SamplerFinding finding;
+  finding.outcome = Outcome::accept;
+  finding.sentence = fmt::format("{} samplers of directions (warps and materials): {}",
+                                 names.size(), tests_of(tally, "rejected"));
+  return finding;
+}
+
 /// The verdict on one sampler, or on several of them.
 std::string verdict_on(const GateResult& gate, const Judged& judged, const Tally& tally) {
   const std::vector<std::string> guilty = samplers_with(gate, judged, tally.outcome());
@@ -132,11 +147,22 @@ std::string headline(const StudyResult& study) {
 }
 
 std::vector<SamplerFinding> sampler_findings(const GateResult& gate) {
-  std::vector<std::string> samplers;
-  for (const TestRecord& test : gate.tests) samplers.push_back(test.sampler);
+  const auto draws_directions = [](const TestRecord& test) { return test.map == kDirections; };
+  const std::vector<std::string> of_directions = samplers_of(gate, draws_directions);
+  std::vector<std::string> accepted_directions;
   std::vector<SamplerFinding> findings;
-  for (const std::string& sampler : unique_names(samplers)) {
-    findings.push_back(sampler_finding(gate, sampler));
+  for (const std::string& sampler : samplers_of(gate, [](const TestRecord&) { return true; })) {
+    SamplerFinding finding = sampler_finding(gate, sampler);
+    const bool in_one_line = finding.outcome == Outcome::accept && !finding.is_demonstration &&
+                             std::count(of_directions.begin(), of_directions.end(), sampler) > 0;
+    if (in_one_line) {
+      accepted_directions.push_back(sampler);
+    } else {
+      findings.push_back(std::move(finding));
+    }
+  }
+  if (!accepted_directions.empty()) {
+    findings.push_back(finding_on_directions(gate, accepted_directions));
   }
   return findings;
 }
