@@ -29,9 +29,9 @@ struct SplitSum {
   double of(double normal_reflectance) const { return normal_reflectance * scale + bias; }
 };
 
-/// For a view of cosine `mu` in (0, 1] to the normal. Nested Gauss-Kronrod rules, divided until they
-/// agree to 1e-7; with Smith's masking, which is smooth, errors are some 1e-8, with the kinks of
-/// grooves up to 1e-5.
+/// For a view of cosine `mu` in (0, 1] to the normal. Nested Gauss-Kronrod rules, divided until
+/// they agree to 1e-7; with Smith's masking, which is smooth, errors are some 1e-8, with the kinks
+/// of grooves up to 1e-5.
 SplitSum split_sum(const RoughMirror& mirror, double mu);
 
 }  // namespace lightproof::reference

@@ -32,13 +32,13 @@ TEST(Systems, StandInADocumentWithATitle) {
 
 /// "Suite.Name" of every test in the sources. Suites of parameterised tests are known by the class.
 std::set<std::string> all_tests() {
-  static const std::regex kTest(R"(TEST(?:_F|_P)?\((\w+),\s*(\w+)\))");
+  static const std::regex test_macro(R"(TEST(?:_F|_P)?\((\w+),\s*(\w+)\))");
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(LIGHTPROOF_TEST_SOURCES)) {
     if (entry.path().extension() != ".cpp") continue;
     std::ifstream file(entry.path());
     const std::string text{std::istreambuf_iterator<char>(file), {}};
-    for (auto found = std::sregex_iterator(text.begin(), text.end(), kTest);
+    for (auto found = std::sregex_iterator(text.begin(), text.end(), test_macro);
          found != std::sregex_iterator(); ++found) {
       names.insert((*found)[1].str() + "." + (*found)[2].str());
     }

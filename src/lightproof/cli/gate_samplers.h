@@ -13,9 +13,9 @@ struct SamplerChoice {
   /// Names of samplers or mutants, or of the groups "directions" and "all_directions"; empty: all
   /// that are correct, microfacets at a selection of roughnesses.
   std::vector<std::string> names;
-  std::string density_space;       ///< "A", "B" or both (empty)
-  bool with_published = false;     ///< whether those with known defects are included
-  bool has_maps = false;           ///< some were named
+  std::string density_space;    ///< "A", "B" or both (empty)
+  bool with_published = false;  ///< whether those with known defects are included
+  bool has_maps = false;        ///< some were named
 };
 
 /// What is tested: samplers of maps, which need some, and samplers of directions, which need none.

@@ -27,8 +27,8 @@ struct DirectionSampler {
 /// microfacets is seen from every angle, at one of the roughnesses of all_direction_samplers().
 std::vector<DirectionSampler> direction_samplers();
 
-/// All direction samplers: direction_samplers(), and each way to draw microfacets at every roughness
-/// and every angle.
+/// All direction samplers: direction_samplers(), and each way to draw microfacets at every
+/// roughness and every angle.
 std::vector<DirectionSampler> all_direction_samplers();
 
 /// A sampler of directions as a source of samples over the square, which name cells of its

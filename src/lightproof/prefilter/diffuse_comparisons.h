@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "lightproof/results/published_comparison.h"
 #include "lightproof/prefilter/riemann_irradiance.h"
+#include "lightproof/results/published_comparison.h"
 
 namespace lightproof {
 
