@@ -15,7 +15,6 @@
 // nothing is subdivided, and the error is that of rounding, some 1e-16 steradian for a cell.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "lightproof/core/direction.h"
@@ -44,11 +43,10 @@ inline NormalTilt tilt_of(Direction normal) {
   return {std::hypot(normal.x, normal.y), std::abs(normal.z)};
 }
 
-/// ∫ (n·w)+ over all that is visible between the normal's meridian and the azimuth phi in [0, pi]:
-/// half of the horizon's length there, and of the angle along the other meridian.
-inline double visible_sector(NormalTilt normal, double phi) {
-  const double sine = std::sin(phi);
-  const double cosine = std::cos(phi);
+/// ∫ (n·w)+ over all that is visible between the normal's meridian and an azimuth in [0, pi] of
+/// this sine and cosine: half of the horizon's length there, and of the angle along the other
+/// meridian.
+inline double visible_sector(NormalTilt normal, double sine, double cosine) {
   const double along_horizon = std::atan2(sine * normal.cosine, cosine);
   const double horizon = std::atan2(normal.cosine, -normal.sine * cosine);
   return 0.5 * (along_horizon + normal.sine * sine * horizon);
@@ -60,13 +58,13 @@ struct Parallel {
       : horizon(azimuth_of_horizon(normal, theta)),
         sine_squared(integral_of_sine_squared(theta)),
         sine_cosine(integral_of_sine_cosine(theta)),
-        beyond(normal.sine * std::sin(horizon) * sine_squared +
-               normal.cosine * horizon * sine_cosine - visible_sector(normal, horizon)) {}
+        beyond(integral_to_horizon(normal) -
+               visible_sector(normal, std::sin(horizon), std::cos(horizon))) {}
 
   double horizon;       ///< azimuth in [0, pi] up to which it is visible
   double sine_squared;  ///< ∫ sin^2 from the pole to here
   double sine_cosine;   ///< ∫ sin cos
-  double beyond;        ///< F(phi, theta) - visible_sector(phi) for phi >= horizon
+  double beyond;        ///< F(phi, theta) less the visible sector, for phi >= horizon
 
  private:
   static double azimuth_of_horizon(NormalTilt normal, double theta) {
@@ -74,6 +72,9 @@ struct Parallel {
     const double radius = normal.sine * std::sin(theta);
     if (height <= -radius) return kPi;
     return height >= radius ? 0.0 : std::acos(height / radius);
+  }
+  double integral_to_horizon(NormalTilt normal) const {
+    return normal.sine * std::sin(horizon) * sine_squared + normal.cosine * horizon * sine_cosine;
   }
 };
 
@@ -84,12 +85,12 @@ struct Meridian {
       : turns(std::round(phi / (2.0 * kPi))),
         azimuth(phi - turns * 2.0 * kPi),
         sine(std::sin(azimuth)),
-        sector(std::copysign(visible_sector(normal, std::min(std::abs(azimuth), kPi)), azimuth)) {}
+        sector(std::copysign(visible_sector(normal, std::abs(sine), std::cos(azimuth)), azimuth)) {}
 
   double turns;    ///< whole ones
   double azimuth;  ///< the rest, in [-pi, pi]
   double sine;     ///< of the azimuth
-  double sector;   ///< visible_sector, odd in the azimuth
+  double sector;   ///< the visible one, odd in the azimuth
 };
 
 /// The band between two circles of latitude, the `inner` one nearer to the pole, as one normal sees
