@@ -19,7 +19,7 @@ const chromiumArguments = [
   "--disable-sync",
   "--no-first-run",
 ];
-const drawingTimeout = 60_000; // milliseconds
+const drawingTimeout = 120_000; // milliseconds
 const longest = 300; // characters of a message that are repeated
 const leastSections = Number(process.argv[4] ?? 7);
 
@@ -135,7 +135,7 @@ async function inspectPage(context, url, view, folder) {
     problems.push(`asked the network for ${address}`);
     return route.abort();
   });
-  await page.goto(url, { waitUntil: "load" });
+  await page.goto(url, { waitUntil: "load", timeout: drawingTimeout });
   await page
     .waitForFunction(() => document.documentElement.dataset.charts === "done", null,
       { timeout: drawingTimeout })
