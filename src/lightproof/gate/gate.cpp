@@ -183,35 +183,44 @@ class TwoStages {
     std::uint64_t samples;
   };
 
+  using Tests = std::vector<Measured>;
+
+  /// The runs of one test case for which is_concerned(state), as cells of work that share its
+  /// draws.
+  template <class IsConcerned, class Compute>
+  WorkGroup<SharedDraws, Tests> group_of(std::size_t i, Stage stage,
+                                         const IsConcerned& is_concerned, const Compute& compute) {
+    const TestCase& test_case = test_cases_[i];
+    WorkGroup<SharedDraws, Tests> group;
+    bool with_reference = false;
+    states_.for_each_of(i, [&](RunIndex at, RunState& state) {
+      if (!is_concerned(state)) return;
+      const TestRun run = at.in(test_cases_, options_.seed);
+      with_reference = with_reference || run.instance->claims_reference_texels;
+      group.cells.push_back({run.key(stage.name), [&, run](const SharedDraws& shared) {
+                               return with_memory_for_gate(test_case, run.instance->name, [&] {
+                                 return compute(run, shared, state);
+                               });
+                             }});
+    });
+    group.prepare = [this, &test_case, i, stage, with_reference] {
+      auto expectation = expectations_.of(i);
+      return with_memory_for_gate(test_case, "", [&] {
+        return shared_draws(test_case, std::move(expectation), options_.seed, stage.samples,
+                            with_reference);
+      });
+    };
+    return group;
+  }
+
   /// Every run for which is_concerned(state) gets the tests that compute(run, shared, state)
   /// returns.
   template <class IsConcerned, class Compute>
   void run_stage(Stage stage, const Progress& progress, const IsConcerned& is_concerned,
                  const Compute& compute) {
-    using Tests = std::vector<Measured>;
     std::vector<WorkGroup<SharedDraws, Tests>> groups;
     for (std::size_t i = 0; i < test_cases_.size(); ++i) {
-      const TestCase& test_case = test_cases_[i];
-      WorkGroup<SharedDraws, Tests> group;
-      bool with_reference = false;
-      states_.for_each_of(i, [&](RunIndex at, RunState& state) {
-        if (!is_concerned(state)) return;
-        const TestRun run = at.in(test_cases_, options_.seed);
-        with_reference = with_reference || run.instance->claims_reference_texels;
-        group.cells.push_back({run.key(stage.name), [&, run](const SharedDraws& shared) {
-                                 return with_memory_for_gate(test_case, run.instance->name, [&] {
-                                   return compute(run, shared, state);
-                                 });
-                               }});
-      });
-      group.prepare = [&, i, stage, with_reference] {
-        auto expectation = expectations_.of(i);
-        return with_memory_for_gate(test_case, "", [&] {
-          return shared_draws(test_case, std::move(expectation), options_.seed, stage.samples,
-                              with_reference);
-        });
-      };
-      groups.push_back(std::move(group));
+      groups.push_back(group_of(i, stage, is_concerned, compute));
     }
     auto results =
         gather(compute_groups<SharedDraws, Tests>(groups, communicator_.share, progress, "gate"),
