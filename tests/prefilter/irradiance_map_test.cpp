@@ -157,7 +157,7 @@ TEST(Irradiances, AreThoseOfEachNormal) {
 }
 
 TEST(Irradiances, OfMoreNormalsThanFitATableAreThoseOfEach) {
-  // 64 MB of tables are some 1300 normals of this map.
+  // 64 MB of tables are some 2000 normals of this map.
   const EnvironmentMap map = random_map({2048, 4});
   const RandomStream stream("prefilter/many", 1);
   std::vector<Direction> normals;
@@ -166,7 +166,7 @@ TEST(Irradiances, OfMoreNormalsThanFitATableAreThoseOfEach) {
   }
   const std::vector<Irradiance> actual = irradiances(map, normals);
   ASSERT_EQ(actual.size(), normals.size());
-  for (const std::size_t i : {0U, 1299U, 1300U, 2000U, 2999U}) {
+  for (std::size_t i = 0; i < normals.size(); i += 7) {
     expect_near(actual[i].rgb, irradiance(map, normals[i]).rgb, rounding(map));
   }
 }

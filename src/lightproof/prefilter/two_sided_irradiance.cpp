@@ -161,8 +161,7 @@ ChunkSums sums_of_all(const EnvironmentMap& source, const FoldedLattice& lattice
   return all;
 }
 
-/// The components along the light of a comb's integrals: V of the map and of what lies above each
-/// row of the folded one.
+/// The vector ∫ L w d(omega) of the map, and that of the folded map above each of its rows.
 struct LightVectors {
   explicit LightVectors(const ChunkSums& sums) : above(sums.rows.size() + 1), whole(sums.lower) {
     for (std::size_t k = 0; k < sums.rows.size(); ++k) {
