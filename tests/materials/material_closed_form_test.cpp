@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/quadrature/tanh_sinh.hpp>
 #include <cmath>
 #include <functional>
 
@@ -87,6 +88,63 @@ TEST(ModifiedPhong, OfExponentOneHasAClosedFormForEveryView) {
     const double exact = ((kPi - gamma) * std::cos(gamma) + std::sin(gamma)) / kPi;
     EXPECT_NEAR(albedo(ModifiedPhong{0.0, 1.0, 1.0}, view_at(gamma)), exact,
                 1.5 / kPi * 0.07 * 0.07 / 4.0);
+  }
+}
+
+/// (n+2)/2pi times the integral of cos^n(alpha) (n.l)+ over the lobe of a mirrored view at the
+/// angle gamma. Around the lobe's axis n.l is a + b cos(phi), whose positive part has a closed
+/// form; what is left is integrated over the share of the lobe, between the angles where its form
+/// changes.
+double lobe_albedo(double n, double gamma) {
+  using Rule = boost::math::quadrature::tanh_sinh<double>;
+  const auto ring = [&](double share) {
+    const double cosine = std::pow(share, 1.0 / (n + 1.0));
+    const double a = std::cos(gamma) * cosine;
+    const double b = std::sin(gamma) * std::sqrt((1.0 - cosine) * (1.0 + cosine));
+    if (a >= b) return 2.0 * kPi * a;
+    const double last = std::acos(-a / b);
+    return 2.0 * (a * last + b * std::sin(last));
+  };
+  const double edge = std::pow(std::sin(gamma), n + 1.0);
+  const double whole = edge < 1.0 ? Rule().integrate(ring, edge, 1.0) : 0.0;
+  const double part = edge > 0.0 ? Rule().integrate(ring, 0.0, edge) : 0.0;
+  return (n + 2.0) / (2.0 * kPi) * (whole + part) / (n + 1.0);
+}
+
+/// The mean of reflected cosine over pdf, at points of the plane's R2 sequence.
+template <class M>
+double mean_weight(const M& material, const ShadingPoint& at) {
+  constexpr int kPoints = 1 << 16;
+  double sum = 0.0;
+  for (int i = 1; i <= kPoints; ++i) {
+    const SquarePoint u = {std::fmod(i * 0.75487766624669276, 1.0),
+                           std::fmod(i * 0.56984029099805327, 1.0)};
+    const Scattering scattering = material.sample(at, u).scattering;
+    sum += scattering.reflected_cosine / scattering.pdf.value;
+  }
+  return sum / kPoints;
+}
+
+// A white furnace at every exponent and angle; N^(-3/4) of the points is 2.5e-4.
+TEST(ModifiedPhong, ReflectsInAWhiteFurnaceWhatItsLobeDoes) {
+  for (const double exponent : {0.0, 1.0, 10.0, 50.0, 100.0, 1000.0, 1e6}) {
+    for (const double degrees : {0.0, 45.0, 80.0, 89.9}) {
+      const double gamma = degrees * kPi / 180.0;
+      const double exact = 0.3 + 0.6 * lobe_albedo(exponent, gamma);
+      const ShadingPoint at = {{}, frame_around(kUp), view_at(gamma)};
+      EXPECT_NEAR(mean_weight(ModifiedPhong{0.3, 0.6, exponent}, at), exact, 1e-3)
+          << exponent << ", " << degrees;
+    }
+  }
+  // Its own closed forms, at both ends.
+  EXPECT_NEAR(lobe_albedo(50.0, 0.0), 1.0, 1e-9);
+  EXPECT_NEAR(lobe_albedo(10.0, 0.5 * kPi), 12.0 / (2.0 * kPi) * std::beta(5.5, 1.5), 1e-9);
+}
+
+TEST(Lambert, ReflectsItsAlbedoInAWhiteFurnace) {
+  for (const double degrees : {0.0, 45.0, 80.0, 89.9}) {
+    const ShadingPoint at = {{}, frame_around(kUp), view_at(degrees * kPi / 180.0)};
+    EXPECT_NEAR(mean_weight(Lambert{0.8}, at), 0.8, kRounding);
   }
 }
 

@@ -108,6 +108,27 @@ TEST(Ggx, ReturnsTheDensityOfTheDirectionDrawn) {
   });
 }
 
+// One density over normals, the other over the directions that they reflect the view to.
+TEST(GgxNormals, HaveThePdfOfTheirReflectedDirections) {
+  for_each_view([](double roughness, const ShadingPoint& at) {
+    const double alpha = ggx_alpha(roughness);
+    for (int i = 1; i <= 100; ++i) {
+      const Direction h = ggx_visible_normal_from_square(alpha, at.view, point(i));
+      const HalfVector half = half_vector(at.view, reflect_about(at.view, h));
+      const auto pdf = [&](MicrofacetSampling sampling) {
+        return ggx_reflected_pdf(sampling, alpha, at.view, half).value;
+      };
+      const PerSteradian visible = ggx_visible_normal_pdf(alpha, at.view, h);
+      const PerSteradian all = ggx_normal_pdf(alpha, h);
+      EXPECT_NEAR(
+          reflected_density(visible, half.cosine).value / pdf(MicrofacetSampling::visible_normals),
+          1.0, 1e-6);
+      EXPECT_NEAR(reflected_density(all, half.cosine).value / pdf(MicrofacetSampling::normals), 1.0,
+                  1e-6);
+    }
+  });
+}
+
 // The closed forms, in which D has been divided out, against the quotient.
 TEST(GgxWeight, IsReflectedCosineOverPdf) {
   for_each_view([](double roughness, const ShadingPoint& at) {
@@ -129,6 +150,22 @@ TEST(GgxWeight, IsReflectedCosineOverPdf) {
           EXPECT_NEAR(scattering.reflected_cosine / scattering.pdf.value / weight, 1.0, 1e-9);
         }
       }
+    }
+  });
+}
+
+// D has gone from the quotient, and with it the lobe: F G (v.h) / ((n.v)(n.h)).
+TEST(BlinnMicrofacet, WeighsByMaskingAndCosines) {
+  for_each_view([](double roughness, const ShadingPoint& at) {
+    const BlinnMicrofacet material = {roughness, 0.04};
+    for (int i = 1; i <= 200; ++i) {
+      const auto [light, scattering] = material.sample(at, point(i));
+      if (!(light.z > 1e-9)) continue;
+      const auto [h, cosine] = half_vector(at.view, light);
+      const double groove = 2.0 * h.z * std::min(at.view.z, light.z) / cosine;
+      const double weight =
+          schlick_fresnel(0.04, cosine) * std::min(1.0, groove) * cosine / (at.view.z * h.z);
+      EXPECT_NEAR(scattering.reflected_cosine / scattering.pdf.value / weight, 1.0, 1e-9);
     }
   });
 }

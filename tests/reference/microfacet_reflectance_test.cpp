@@ -45,6 +45,15 @@ TEST(SplitSum, SeenFromTheNormalIsASingleIntegral) {
   }
 }
 
+TEST(SplitSum, SeenFromTheNormalHasItsPrintedValues) {
+  const auto white = [](double roughness) {
+    return split_sum(ggx(roughness, Masking::smith_height_correlated), 1.0).white();
+  };
+  EXPECT_NEAR(white(0.25), .99569, 5e-6 + kQuadrature);
+  EXPECT_NEAR(white(0.5), .91581, 5e-6 + kQuadrature);
+  EXPECT_NEAR(white(0.75), .62689, 5e-6 + kQuadrature);
+}
+
 struct Row {
   double roughness;
   double mu;
