@@ -1,9 +1,11 @@
 #include "bench/bare_gather.h"
 
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "lightproof/core/random_batch.h"
+#include "lightproof/warp/sin_cos.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bench/bare_gather.cpp"
@@ -26,6 +28,23 @@ std::uint64_t read(std::span<const std::uint16_t> numbers, std::size_t texels,
     points.fill(done, s, t);
     for (const double u : s)
       sum += numbers[static_cast<std::size_t>(u * static_cast<double>(texels))];
+  }
+  return sum;
+}
+
+double read_directions(std::span<const std::uint16_t> numbers, std::size_t texels,
+                       const BatchPoints& points, std::size_t count) {
+  std::array<double, kBatchBlock> s;
+  std::array<double, kBatchBlock> t;
+  double sum = 0.0;
+  for (std::size_t done = 0; done < count; done += kBatchBlock) {
+    points.fill(done, s, t);
+    for (std::size_t i = 0; i < kBatchBlock; ++i) {
+      const SinCosOfTurns azimuth = sin_cos_of_turns(t[i]);
+      sum += azimuth.sin + azimuth.cos +
+             numbers[static_cast<std::size_t>(s[i] * static_cast<double>(texels))] /
+                 std::sqrt(1.0 + t[i]);
+    }
   }
   return sum;
 }
@@ -61,15 +80,52 @@ class BareGatherKernel {
 
   std::uint64_t sum() const { return sum_; }
 
- private:
+ protected:
   std::span<const std::uint16_t> numbers_;
   double texels_;
   std::uint64_t sum_ = 0;
 };
 
+class BareDirectionsKernel : private BareGatherKernel {
+ public:
+  using BareGatherKernel::BareGatherKernel;
+  using BareGatherKernel::Block;
+  using BareGatherKernel::kStages;
+
+  template <int kStage>
+  HWY_INLINE void stage(Block& block, std::size_t count, std::size_t first) {
+    BareGatherKernel::stage<kStage>(block, count, first);
+    if constexpr (kStage == 1) {
+      for_vectors(count, [&](std::size_t i) HWY_ATTR {
+        const Number t = load(block.t + i);
+        const auto azimuth = sin_cos_of_turns(Numbers(), t);
+        const Number root = hn::Div(number(1.0), hn::Sqrt(hn::Add(number(1.0), t)));
+        store(hn::Add(load(directions_), hn::Add(hn::Add(azimuth.sin, azimuth.cos), root)),
+              directions_);
+      });
+    }
+  }
+
+  double sum() const {
+    double all = static_cast<double>(BareGatherKernel::sum());
+    for (std::size_t i = 0; i < hn::Lanes(Numbers()); ++i) all += directions_[i];
+    return all;
+  }
+
+ private:
+  alignas(64) double directions_[hn::MaxLanes(Numbers())] = {};
+};
+
 std::uint64_t read(std::span<const std::uint16_t> numbers, std::size_t texels,
                    const BatchPoints& points, std::size_t count) {
   BareGatherKernel kernel(numbers, texels);
+  draw_vectors(kernel, points, count, std::size_t{0});
+  return kernel.sum();
+}
+
+double read_directions(std::span<const std::uint16_t> numbers, std::size_t texels,
+                       const BatchPoints& points, std::size_t count) {
+  BareDirectionsKernel kernel(numbers, texels);
   draw_vectors(kernel, points, count, std::size_t{0});
   return kernel.sum();
 }
@@ -85,6 +141,7 @@ namespace lightproof::bench {
 namespace {
 
 HWY_EXPORT(read);
+HWY_EXPORT(read_directions);
 
 }  // namespace
 
@@ -95,6 +152,12 @@ BareGather::BareGather(Extent extent) : texels_(extent.count()), numbers_(texels
 std::uint64_t BareGather::read(const RandomStream& stream, std::uint64_t first,
                                std::size_t count) const {
   return HWY_DYNAMIC_DISPATCH(read)(numbers_, texels_, BatchPoints(stream, first), count);
+}
+
+double BareGather::read_directions(const RandomStream& stream, std::uint64_t first,
+                                   std::size_t count) const {
+  return HWY_DYNAMIC_DISPATCH(read_directions)(numbers_, texels_, BatchPoints(stream, first),
+                                               count);
 }
 
 }  // namespace lightproof::bench

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   keep_no_freed_memory();
   try {
     lightproof::bench::register_sample_benchmarks();
+    lightproof::bench::register_direction_benchmarks();
     lightproof::bench::register_build_benchmarks();
     lightproof::bench::register_render_benchmarks();
     lightproof::bench::register_histogram_benchmarks();

@@ -26,15 +26,16 @@ constexpr std::size_t kPoints = std::size_t{1} << 21U;
 constexpr std::size_t kFitted = std::size_t{1} << 16U;
 /// Far beyond chance: the points are the same in every run.
 constexpr double kLeastLog10P = -6.0;
+
 const reference::SlowSampler& reference_of(Extent extent, TargetDensity target) {
   static std::unique_ptr<reference::SlowSampler> sampler;
   static Extent made_for;
-  static double made_with = 0.0;
-  if (!sampler || !(made_for == extent) || made_with != target.weights.red) {
+  static TargetDensity made_with = {};
+  if (!sampler || !(made_for == extent) || !(made_with == target)) {
     sampler.reset();
     sampler = std::make_unique<reference::SlowSampler>(map_of(extent), target);
     made_for = extent;
-    made_with = target.weights.red;
+    made_with = target;
   }
   return *sampler;
 }
@@ -78,7 +79,7 @@ double entry_tolerance(const SamplerInfo& sampler, Extent extent) {
 
 /// An explanation if the samples do not fit the reference's bins; empty if they do.
 template <class Sampler>
-std::string misfit(const Sampler& sampler, const SamplerInfo& info, Extent extent) {
+std::string misfit(const Sampler& sampler, TargetDensity target, Extent extent) {
   Grid<std::uint64_t> counts(kGateBins);
   std::uint64_t count = 0;
   for (const SquarePoint u : random_points().first(kFitted)) {
@@ -88,9 +89,7 @@ std::string misfit(const Sampler& sampler, const SamplerInfo& info, Extent exten
     ++counts(cell_of(sample.at.s, kGateBins.width), cell_of(sample.at.t, kGateBins.height));
   }
   const double log10_p =
-      cressie_read(serpentine(counts), exact_distribution(extent, info.target(kDensitySpace)).bins,
-                   count)
-          .log10_p;
+      cressie_read(serpentine(counts), exact_distribution(extent, target).bins, count).log10_p;
   return log10_p > kLeastLog10P
              ? ""
              : fmt::format("the samples do not fit the map: log10 p = {}", log10_p);
@@ -99,10 +98,11 @@ std::string misfit(const Sampler& sampler, const SamplerInfo& info, Extent exten
 /// An explanation if a texel is not the reference's; empty if all are. The reference draws whole
 /// texels: it says nothing of a look-up that interpolates.
 template <class Sampler>
-std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent extent) {
+std::string disagreement(const Sampler& sampler, const SamplerInfo& info, Extent extent,
+                         DensitySpace density_space) {
   const bool sums_texels = info.resolution != 0.0 && info.lookup == Lookup::nearest;
   if (!sums_texels) return "";
-  const auto& reference = reference_of(extent, info.target(kDensitySpace));
+  const auto& reference = reference_of(extent, info.target(density_space));
   const double tolerance = entry_tolerance(info, extent);
   for (const SquarePoint u : random_points().first(256)) {
     const TexelSample sample = sampler.sample(u);
@@ -182,29 +182,33 @@ bool draws_texels(const SamplerInfo& info) {
   return !info.known_defects && info.lookup == Lookup::nearest;
 }
 
-const Prepared& prepared(const SamplerInfo& info, Extent extent) {
+const Prepared& prepared(const SamplerInfo& info, Extent extent, DensitySpace density_space) {
   static Prepared the_last;
   static std::string name;
   static Extent size;
-  if (name == info.name && size == extent) return the_last;
+  static DensitySpace space;
+  if (name == info.name && size == extent && space == density_space) return the_last;
   the_last = {};
   name.clear();
   const EnvironmentMap& map = map_of(extent);
   the_last.build_ms =
-      median_build_ms(the_last.sampler, [&] { return info.make(map, kDensitySpace); });
+      median_build_ms(the_last.sampler, [&] { return info.make(map, density_space); });
   std::visit(
       [&](const auto& sampler) {
-        the_last.why_not = misfit(sampler, info, extent);
-        if (the_last.why_not.empty()) the_last.why_not = disagreement(sampler, info, extent);
+        the_last.why_not = misfit(sampler, info.target(density_space), extent);
+        if (the_last.why_not.empty()) {
+          the_last.why_not = disagreement(sampler, info, extent, density_space);
+        }
         if (the_last.why_not.empty()) the_last.why_not = other_batch(sampler);
         if (!draws_texels(info)) return;
         the_last.worst_texel_error =
-            worst_texel_error(extent, info.target(kDensitySpace),
+            worst_texel_error(extent, info.target(density_space),
                               [&](SquarePoint at) { return sampler.pdf(at).value; });
       },
       *the_last.sampler);
   name = info.name;
   size = extent;
+  space = density_space;
   return the_last;
 }
 

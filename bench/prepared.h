@@ -11,9 +11,6 @@
 
 namespace lightproof::bench {
 
-/// The lecture's density.
-inline constexpr DensitySpace kDensitySpace = DensitySpace::texture;
-
 /// Uniform points, 2^21, the same in every run.
 std::span<const SquarePoint> random_points();
 
@@ -33,10 +30,11 @@ struct Prepared {
   std::string why_not;             ///< what is wrong with the samples; empty if nothing is
 };
 
-/// Of the benchmarks' map of this size. Built, some times, and checked once, though Google
-/// Benchmark runs a benchmark several times; it stays until another is asked for. Its samples must
-/// fit the bins of reference/, one at a time and in batches; if it searches sums, its texels must
-/// be those of reference/.
-const Prepared& prepared(const SamplerInfo& info, Extent extent);
+/// Of the benchmarks' map of this size, by default under the lecture's density. Built, some times,
+/// and checked once, though Google Benchmark runs a benchmark several times; it stays until another
+/// is asked for. Its samples must fit the bins of reference/, one at a time and in batches; if it
+/// searches sums, its texels must be those of reference/.
+const Prepared& prepared(const SamplerInfo& info, Extent extent,
+                         DensitySpace density_space = DensitySpace::texture);
 
 }  // namespace lightproof::bench

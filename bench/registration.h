@@ -8,6 +8,7 @@
 namespace lightproof::bench {
 
 void register_sample_benchmarks();
+void register_direction_benchmarks();
 void register_build_benchmarks();
 void register_render_benchmarks();
 void register_histogram_benchmarks();

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <span>
@@ -26,6 +25,7 @@
 #include "bench/maps.h"
 #include "bench/prepared.h"
 #include "bench/registration.h"
+#include "bench/timing.h"
 #include "bench/upper_bound_baseline.h"
 #include "lightproof/core/random.h"
 #include "lightproof/core/random_batch.h"
@@ -36,30 +36,6 @@ namespace lightproof::bench {
 namespace {
 
 bool disagreed = false;
-
-/// Samples of one batch.
-constexpr std::size_t kBatch = 4096;
-
-using Clock = std::chrono::steady_clock;
-
-double nanoseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-}
-
-/// Calls draw(first) for every kBatch points of a stream, or of the pool, on and on.
-template <class Draw>
-void time_batches(benchmark::State& state, const Draw& draw) {
-  std::uint64_t first = 0;
-  for (int warm = 0; warm < 4; ++warm, first += kBatch) draw(first);
-  const auto start = Clock::now();
-  for (auto _ : state) {
-    draw(first);
-    first += kBatch;
-  }
-  const double samples = static_cast<double>(state.iterations()) * static_cast<double>(kBatch);
-  state.counters["ns_per_sample"] = nanoseconds_since(start) / samples;
-  state.SetItemsProcessed(static_cast<std::int64_t>(samples));
-}
 
 template <class Sampler>
 void time_random(benchmark::State& state, const Sampler& sampler) {
@@ -87,11 +63,6 @@ void time_batch(benchmark::State& state, const Sampler& sampler) {
   });
 }
 
-const RandomStream& fused_stream() {
-  static const RandomStream stream("bench/fused", 1);
-  return stream;
-}
-
 /// What speed is compared with, of the last size that was asked for.
 struct Baselines {
   explicit Baselines(Extent extent) : baseline(map_of(extent)), limit(extent) {}
@@ -109,25 +80,6 @@ const Baselines& baselines_of(Extent extent) {
     size = extent;
   }
   return *the_last;
-}
-
-/// Median of five slices of 5 ms.
-template <class Draw>
-double ns_per_sample(const Draw& draw) {
-  static std::uint64_t first = 0;
-  std::array<double, 5> slices;
-  draw(first);
-  for (double& slice : slices) {
-    const auto start = Clock::now();
-    double samples = 0.0;
-    do {
-      draw(first += kBatch);
-      samples += kBatch;
-    } while (nanoseconds_since(start) < 5e6);
-    slice = nanoseconds_since(start) / samples;
-  }
-  std::ranges::nth_element(slices, slices.begin() + 2);
-  return slices[2];
 }
 
 auto draw_baseline(const UpperBoundBaseline& baseline) {
@@ -202,8 +154,9 @@ void baseline_benchmark(benchmark::State& state, Extent extent) {
   auto draw = draw_baseline(baseline);
   time_batches(state, std::ref(draw));
   set_table_counters(state, baseline.table_bytes(), extent);
-  state.counters["worst_texel_error"] = worst_texel_error(
-      extent, {kDensitySpace, kRec709}, [&](SquarePoint at) { return baseline.pdf(at).value; });
+  state.counters["worst_texel_error"] =
+      worst_texel_error(extent, {DensitySpace::texture, kRec709},
+                        [&](SquarePoint at) { return baseline.pdf(at).value; });
 }
 
 void limit_benchmark(benchmark::State& state, Extent extent) {

@@ -8,11 +8,13 @@
 #include <ostream>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "lightproof/core/huge_pages.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/samplers/batch.h"
+#include "lightproof/samplers/light_sample.h"
 #include "lightproof/samplers/registry.h"
 #include "tests/core/kinds_of_vectors.h"
 #include "tests/core/whole_vectors.h"
@@ -190,6 +192,9 @@ struct Directions {
   explicit Directions(std::size_t size)
       : x(size), y(size), z(size), pdf(size), column(size), row(size) {}
   DirectionBatch batch() { return {x, y, z, pdf, column, row}; }
+  LightSample operator[](std::size_t i) const {
+    return {{x[i], y[i], z[i]}, {pdf[i]}, column[i], row[i]};
+  }
 
   std::vector<double> x;
   std::vector<double> y;
@@ -200,6 +205,45 @@ struct Directions {
 };
 
 // Directions are off by the rounding of the place, and so are densities over them near a pole.
+// Under B a position keeps its margin to the edges of its row as a share of angle, a direction as
+// one of solid angle.
+void expect_same_direction(const LightSample& found, const TexelSample& sample, Extent extent) {
+  EXPECT_EQ(found.x, sample.x);
+  EXPECT_EQ(found.y, sample.y);
+  const Direction at = direction_from_square(sample.at);
+  const double error = kPositionError + kCellMargin * kPi / extent.height;
+  EXPECT_NEAR(found.direction.x, at.x, error);
+  EXPECT_NEAR(found.direction.y, at.y, error);
+  EXPECT_NEAR(found.direction.z, at.z, error);
+  const double near = std::min(sample.at.t, 1.0 - sample.at.t);
+  const double pdf = to_solid_angle(sample.pdf, sample.at).value;
+  EXPECT_NEAR(found.pdf.value, pdf, kPositionError * pdf * (1.0 + 1.0 / near));
+}
+
+TEST_P(Batch, OfDirectionsAtGivenPointsAndDirectionsOneByOneLieAtTheSamplesPositionsToo) {
+  if (GetParam().known_defects) return;  // may leave the map
+  for (const Extent extent : {Extent{64, 32}, Extent{37, 19}, Extent{1, 1}, Extent{2, 1}}) {
+    const EnvironmentMap map = make_synthetic_map("sun-sky", extent);
+    for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+      std::visit(
+          [&](const auto& sampler) {
+            const std::vector<SquarePoint> points = test_points(1000);
+            Directions directions(points.size());
+            sample_directions(sampler, points, directions.batch());
+            for (std::size_t i = 0; i < points.size(); ++i) {
+              if constexpr (PrefetchingSampler<std::remove_cvref_t<decltype(sampler)>>) {
+                sampler.prefetch(points[i]);
+              }
+              const TexelSample sample = sampler.sample(points[i]);
+              expect_same_direction(directions[i], sample, extent);
+              expect_same_direction(sample_direction(sampler, points[i]), sample, extent);
+            }
+          },
+          GetParam().make(map, density_space));
+    }
+  }
+}
+
 TEST_P(Batch, OfDirectionsLieAtTheSamplesPositions) {
   if (GetParam().known_defects) return;  // may leave the map
   const RandomStream stream("batch of directions", 4);
@@ -214,16 +258,7 @@ TEST_P(Batch, OfDirectionsLieAtTheSamplesPositions) {
               Directions directions(1000);
               sample_directions(sampler, stream, 5, directions.batch());
               for (std::size_t i = 0; i < directions.pdf.size(); ++i) {
-                const TexelSample sample = sampler.sample(stream.point(5 + i));
-                EXPECT_EQ(directions.column[i], sample.x);
-                EXPECT_EQ(directions.row[i], sample.y);
-                const Direction at = direction_from_square(sample.at);
-                EXPECT_NEAR(directions.x[i], at.x, kPositionError);
-                EXPECT_NEAR(directions.y[i], at.y, kPositionError);
-                EXPECT_NEAR(directions.z[i], at.z, kPositionError);
-                const double near = std::min(sample.at.t, 1.0 - sample.at.t);
-                const double pdf = to_solid_angle(sample.pdf, sample.at).value;
-                EXPECT_NEAR(directions.pdf[i], pdf, kPositionError * pdf * (1.0 + 1.0 / near));
+                expect_same_direction(directions[i], sampler.sample(stream.point(5 + i)), extent);
               }
             });
           },

@@ -16,15 +16,18 @@ class Alias {
   /// Throws InputError if the map is black.
   Alias(const EnvironmentMap& map, TargetDensity target);
 
-  /// The sample at a point: u.s names the column of the alias table and the position over s in the
+  /// The texel at a point: u.s names the column of the alias table and the position over s in the
   /// texel, u.t chooses between the column's two texels and gives the position over t.
-  TexelSample sample(SquarePoint u) const {
+  TexelDraw draw(SquarePoint u) const {
     const AliasTable::Drawn drawn = table_.draw(u.s, u.t);
     const auto width = static_cast<std::uint32_t>(positions_.extent().width);
-    return positions_.sample(static_cast<int>(drawn.cell % width),
-                             static_cast<int>(drawn.cell / width), drawn.column, drawn.choice,
-                             drawn.mass);
+    return {static_cast<int>(drawn.cell % width), static_cast<int>(drawn.cell / width),
+            drawn.column, drawn.choice, drawn.mass};
   }
+  TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
+  /// Asks the memory for what draw(u) reads.
+  void prefetch(SquarePoint u) const { table_.prefetch(u.s); }
+  const TexelPositions& positions() const { return positions_; }
 
   PerSquare pdf(SquarePoint at) const {
     const Extent extent = positions_.extent();

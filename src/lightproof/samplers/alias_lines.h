@@ -18,17 +18,22 @@ class AliasLines {
   /// Throws InputError if the map is black.
   AliasLines(const EnvironmentMap& map, TargetDensity target);
 
-  /// The sample at a point: u.s names the column of the alias table and the position over t in the
+  /// The texel at a point: u.s names the column of the alias table and the position over t in the
   /// texel, u.t chooses between the column's two runs, and the texel in the run with the position
   /// over s.
-  TexelSample sample(SquarePoint u) const {
+  TexelDraw draw(SquarePoint u) const {
     const AliasTable::Drawn drawn = table_.draw(u.s, u.t);
     const RunTexel found = lines_.find(drawn.cell, drawn.choice);
     const auto across = static_cast<std::uint32_t>(lines_.extent().width);
-    return positions_.sample(static_cast<int>(drawn.cell % across) * kRunTexels + found.index,
-                             static_cast<int>(drawn.cell / across), found.fraction, drawn.column,
-                             drawn.mass * found.mass);
+    return {static_cast<int>(drawn.cell % across) * kRunTexels + found.index,
+            static_cast<int>(drawn.cell / across), found.fraction, drawn.column,
+            drawn.mass * found.mass};
   }
+  TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
+  /// Asks the memory for the run that draw(u) reads. The run's column of the alias table is read
+  /// for that: it is small beside the texels.
+  void prefetch(SquarePoint u) const { lines_.prefetch(table_.draw(u.s, u.t).cell); }
+  const TexelPositions& positions() const { return positions_; }
 
   PerSquare pdf(SquarePoint at) const {
     const int y = cell_of(at.t, positions_.extent().height);

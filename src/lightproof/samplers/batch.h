@@ -12,8 +12,8 @@
 #include <variant>
 
 #include "lightproof/core/random.h"
+#include "lightproof/samplers/light_sample.h"
 #include "lightproof/samplers/sampler.h"
-#include "lightproof/warp/lat_long.h"
 
 namespace lightproof {
 
@@ -60,14 +60,25 @@ inline void put(const TexelSample& sample, std::size_t i, std::span<TexelSample>
   samples[i] = sample;
 }
 /// Writes a sample as the i-th direction of a batch.
-inline void put(const TexelSample& sample, std::size_t i, const DirectionBatch& directions) {
-  const Direction direction = direction_from_square(sample.at);
-  directions.x[i] = direction.x;
-  directions.y[i] = direction.y;
-  directions.z[i] = direction.z;
-  directions.pdf[i] = to_solid_angle(sample.pdf, sample.at).value;
+inline void put(const LightSample& sample, std::size_t i, const DirectionBatch& directions) {
+  directions.x[i] = sample.direction.x;
+  directions.y[i] = sample.direction.y;
+  directions.z[i] = sample.direction.z;
+  directions.pdf[i] = sample.pdf.value;
   directions.column[i] = sample.x;
   directions.row[i] = sample.y;
+}
+
+/// Draws the i-th sample of a batch, as a point of the map.
+template <EnvSampler Sampler>
+void draw_at(const Sampler& sampler, SquarePoint u, std::size_t i, std::span<TexelSample> samples) {
+  put(sampler.sample(u), i, samples);
+}
+/// Draws the i-th sample of a batch, as a direction.
+template <EnvSampler Sampler>
+void draw_at(const Sampler& sampler, SquarePoint u, std::size_t i,
+             const DirectionBatch& directions) {
+  put(sample_direction(sampler, u), i, directions);
 }
 
 /// Draws the i-th sample of the output at the i-th of these points. Returns how many samples
@@ -84,7 +95,7 @@ std::size_t draw_batch(const Sampler& sampler, const BatchPoints& points, const 
   while (done < output.size()) {
     const std::size_t count = std::min(kBatchBlock, output.size() - done);
     points.fill(done, std::span(s).first(count), std::span(t).first(count));
-    for (std::size_t i = 0; i < count; ++i) put(sampler.sample({s[i], t[i]}), done + i, output);
+    for (std::size_t i = 0; i < count; ++i) draw_at(sampler, {s[i], t[i]}, done + i, output);
     done += count;
   }
   return by_vectors;
@@ -103,6 +114,15 @@ template <EnvSampler Sampler>
 std::size_t sample(const Sampler& sampler, const RandomStream& stream, std::uint64_t first,
                    std::span<TexelSample> samples) {
   return draw_batch(sampler, BatchPoints(stream, first), samples);
+}
+
+/// Draws a sample at each of these points, as many as there are directions, as directions: those of
+/// their positions and their densities per steradian, to some roundings. Returns how many samples
+/// vectors drew.
+template <EnvSampler Sampler>
+std::size_t sample_directions(const Sampler& sampler, std::span<const SquarePoint> points,
+                              const DirectionBatch& directions) {
+  return draw_batch(sampler, BatchPoints(points), directions);
 }
 
 /// Draws samples at the points first, first + 1, … of the stream as directions: those of their

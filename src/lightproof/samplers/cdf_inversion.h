@@ -50,14 +50,24 @@ class CdfInversion {
   CdfInversion(const EnvironmentMap& map, TargetDensity target)
       : table_(map, target), finder_(table_), positions_(table_.extent(), target.density_space) {}
 
-  TexelSample sample(SquarePoint u) const {
+  TexelDraw draw(SquarePoint u) const {
     const double scaled_t = u.t * kCdfOne;
     const double scaled_s = u.s * kCdfOne;
     const CdfCell row = finder_.row(table_, static_cast<std::uint32_t>(scaled_t));
     const CdfCell column = finder_.column(table_, row.index, static_cast<std::uint32_t>(scaled_s));
-    return positions_.sample(column.index, row.index, column.fraction(scaled_s),
-                             row.fraction(scaled_t), cdf_mass(row.units(), column.units()));
+    return {column.index, row.index, column.fraction(scaled_s), row.fraction(scaled_t),
+            cdf_mass(row.units(), column.units())};
   }
+  TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
+  /// Asks the memory for where draw(u) begins to search a row; the row itself is searched for that.
+  void prefetch(SquarePoint u) const requires requires(const Finder& finder) {
+    finder.prefetch_column(0, std::uint32_t{});
+  }
+  {
+    const CdfCell row = finder_.row(table_, static_cast<std::uint32_t>(u.t * kCdfOne));
+    finder_.prefetch_column(row.index, static_cast<std::uint32_t>(u.s * kCdfOne));
+  }
+  const TexelPositions& positions() const { return positions_; }
 
   PerSquare pdf(SquarePoint at) const {
     const int y = cell_of(at.t, table_.extent().height);

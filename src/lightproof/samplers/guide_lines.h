@@ -18,16 +18,25 @@ class GuideLines {
   /// Throws InputError if the map is black.
   GuideLines(const EnvironmentMap& map, TargetDensity target);
 
-  TexelSample sample(SquarePoint u) const {
+  TexelDraw draw(SquarePoint u) const {
     const double scaled_t = u.t * kCdfOne;
     const double scaled_s = u.s * kCdfOne;
     const CdfCell row = guides_.row(table_, static_cast<std::uint32_t>(scaled_t));
     const CdfCell run = guides_.column(table_, row.index, static_cast<std::uint32_t>(scaled_s));
     const RunTexel found = lines_.find(lines_.index(run.index, row.index), run.fraction(scaled_s));
-    return positions_.sample(run.index * kRunTexels + found.index, row.index, found.fraction,
-                             row.fraction(scaled_t),
-                             cdf_mass(row.units(), run.units()) * found.mass);
+    return {run.index * kRunTexels + found.index, row.index, found.fraction, row.fraction(scaled_t),
+            cdf_mass(row.units(), run.units()) * found.mass};
   }
+  TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
+  /// Asks the memory for the run that draw(u) reads. The guide tables and sums of rows and runs are
+  /// read for that: they are small beside the texels.
+  void prefetch(SquarePoint u) const {
+    const CdfCell row = guides_.row(table_, static_cast<std::uint32_t>(u.t * kCdfOne));
+    const CdfCell run =
+        guides_.column(table_, row.index, static_cast<std::uint32_t>(u.s * kCdfOne));
+    lines_.prefetch(lines_.index(run.index, row.index));
+  }
+  const TexelPositions& positions() const { return positions_; }
 
   PerSquare pdf(SquarePoint at) const {
     const int y = cell_of(at.t, positions_.extent().height);

@@ -56,6 +56,10 @@ class Guides {
     }
   };
   View view() const { return {shift_, parts_, first_.data()}; }
+  /// Asks the memory for the part of a guide that u lies in.
+  void prefetch(std::size_t guide, std::uint32_t u) const {
+    __builtin_prefetch(&first_[view().part(guide, u)]);
+  }
   std::size_t bytes() const { return first_.size() * sizeof(std::uint16_t); }
 
  private:
@@ -75,6 +79,10 @@ class GuidedEntries {
   }
   CdfCell column(const CdfTable& table, int y, std::uint32_t u) const {
     return columns_.find(static_cast<std::size_t>(y), table.columns(y), u);
+  }
+  /// Asks the memory for the part of row y's guide that u lies in.
+  void prefetch_column(int y, std::uint32_t u) const {
+    columns_.prefetch(static_cast<std::size_t>(y), u);
   }
   std::size_t bytes() const { return rows_.bytes() + columns_.bytes(); }
 

@@ -21,7 +21,7 @@ class Hierarchical {
   /// Throws InputError if the map is black.
   Hierarchical(const EnvironmentMap& map, TargetDensity target);
 
-  TexelSample sample(SquarePoint u) const {
+  TexelDraw draw(SquarePoint u) const {
     int x = 0;
     int y = 0;
     double mass = 1.0;
@@ -36,8 +36,10 @@ class Hierarchical {
       u = {column.rest, row.rest};
       mass *= row.share * column.share;
     }
-    return positions_.sample(x, y, u.s, u.t, mass);
+    return {x, y, u.s, u.t, mass};
   }
+  TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
+  const TexelPositions& positions() const { return positions_; }
 
   PerSquare pdf(SquarePoint at) const;
 

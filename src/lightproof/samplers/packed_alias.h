@@ -42,9 +42,9 @@ class PackedAlias {
   /// Throws InputError if the map is black.
   PackedAlias(const EnvironmentMap& map, TargetDensity target);
 
-  /// The sample at a point: u.s names the column of the alias table and the position over s in the
+  /// The texel at a point: u.s names the column of the alias table and the position over s in the
   /// texel, u.t chooses between the column's two texels and gives the position over t.
-  TexelSample sample(SquarePoint u) const {
+  TexelDraw draw(SquarePoint u) const {
     const double scaled = u.s * static_cast<double>(words_.size());
     const auto column = static_cast<std::uint64_t>(scaled);
     const std::uint64_t word = words_[column];
@@ -53,10 +53,16 @@ class PackedAlias {
     const std::uint64_t cell = own ? column : word & layout_.alias_mask;
     const double mass = palette_mass(word >> (own ? layout_.own_at : layout_.alias_at));
     const auto width = static_cast<std::uint64_t>(positions_.extent().width);
-    return positions_.sample(static_cast<int>(cell % width), static_cast<int>(cell / width),
-                             scaled - static_cast<double>(column), rest_of_choice(u.t, share),
-                             mass);
+    return {static_cast<int>(cell % width), static_cast<int>(cell / width),
+            scaled - static_cast<double>(column), rest_of_choice(u.t, share), mass};
   }
+  TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
+  /// Asks the memory for what draw(u) reads.
+  void prefetch(SquarePoint u) const {
+    __builtin_prefetch(
+        &words_[static_cast<std::uint64_t>(u.s * static_cast<double>(words_.size()))]);
+  }
+  const TexelPositions& positions() const { return positions_; }
 
   PerSquare pdf(SquarePoint at) const {
     const Extent extent = positions_.extent();

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lightproof/core/direction.h"
 #include "lightproof/core/grid.h"
 #include "lightproof/core/measure.h"
 #include "lightproof/image/target_density.h"
@@ -19,6 +20,26 @@ struct TexelSample {
   std::int32_t x;
   std::int32_t y;
   PerSquare pdf;
+};
+
+/// A drawn direction: a unit vector in the map's frame, with its density per steradian and the
+/// texel that it lies in.
+struct LightSample {
+  Direction direction;
+  PerSteradian pdf;
+  std::int32_t x;
+  std::int32_t y;
+};
+
+/// A texel that was drawn with probability `mass`, and what is left of the two random numbers: the
+/// sample's place in the texel as uniform shares in [0,1) of its width and of its height (under B:
+/// of its solid angle).
+struct TexelDraw {
+  int x;
+  int y;
+  double across;
+  double along;
+  double mass;
 };
 
 /// A sampler maps uniform points of the square to points of the map. Immutable once built.

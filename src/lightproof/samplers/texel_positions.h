@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lightproof/samplers/sampler.h"
+#include "lightproof/warp/sin_cos.h"
 
 namespace lightproof {
 
@@ -42,6 +43,22 @@ class SolidAngleRows {
     const double sine = std::sqrt(low + f * spans_[static_cast<std::size_t>(row)]);
     const double within = 2.0 / kPi * std::asin(std::min(sine, 1.0)) * height_ - row;
     return position_in_cell(y, upper ? 1.0 - within : within, row_height_);
+  }
+
+  /// The height of a direction over the equator, and its distance from the axis.
+  struct Height {
+    double sine;  ///< of the angle from a pole
+    double z;
+  };
+  /// The height in row `y` below which lies the share `fraction` of the row's solid angle.
+  Height height(int y, double fraction) const {
+    const bool upper = 2 * y >= height_;
+    const auto row = static_cast<std::size_t>(from_pole(y));
+    const double f = std::clamp(upper ? 1.0 - fraction : fraction, kCellMargin, 1.0 - kCellMargin);
+    const double squared_sine = squared_sines_[row] + f * spans_[row];
+    const double rest = 1.0 - squared_sine;
+    const double from_pole = rest - squared_sine;
+    return {2.0 * std::sqrt(squared_sine * rest), upper ? from_pole : -from_pole};
   }
 
   /// Solid angle of a texel of row `y`, in steradian.
@@ -89,14 +106,36 @@ class TexelPositions {
   Extent extent() const { return extent_; }
   DensitySpace density_space() const { return density_space_; }
 
-  /// The sample in texel (x, y), which is drawn with probability `mass`, at these shares of its
-  /// width and of its height (under B: of its solid angle), both in [0,1].
-  TexelSample sample(int x, int y, double across, double along, double mass) const {
+  /// The drawn texel's sample as a point of the square.
+  TexelSample sample(const TexelDraw& draw) const {
     const double t = density_space_ == DensitySpace::texture
-                         ? position_in_cell(y, along, texel_height_)
-                         : solid_angle_rows_.position(y, along);
-    const SquarePoint at = {position_in_cell(x, across, texel_width_), t};
-    return {at, x, y, pdf(y, mass, at)};
+                         ? position_in_cell(draw.y, draw.along, texel_height_)
+                         : solid_angle_rows_.position(draw.y, draw.along);
+    const SquarePoint at = {position_in_cell(draw.x, draw.across, texel_width_), t};
+    return {at, draw.x, draw.y, pdf(draw.y, draw.mass, at)};
+  }
+
+  /// The drawn texel's sample as a direction: that of sample(), to some roundings, without the arc
+  /// sine that a position under B takes.
+  LightSample direction(const TexelDraw& draw) const {
+    const SinCosOfTurns azimuth =
+        sin_cos_of_turns(position_in_cell(draw.x, draw.across, texel_width_));
+    double sine;
+    double z;
+    double pdf;
+    if (density_space_ == DensitySpace::texture) {
+      const SinCosOfTurns from_nadir =
+          sin_cos_of_turns(0.5 * position_in_cell(draw.y, draw.along, texel_height_));
+      sine = from_nadir.sin;
+      z = -from_nadir.cos;
+      pdf = draw.mass * texels_ / (2.0 * kPi * kPi * sine);
+    } else {
+      const SolidAngleRows::Height height = solid_angle_rows_.height(draw.y, draw.along);
+      sine = height.sine;
+      z = height.z;
+      pdf = draw.mass / solid_angle_rows_.texel_solid_angle(draw.y);
+    }
+    return {{-sine * azimuth.cos, sine * azimuth.sin, z}, {pdf}, draw.x, draw.y};
   }
 
   /// Density over the square at `at`, inside a texel of row y that is drawn with this probability.

@@ -11,30 +11,16 @@
 
 #include <hwy/highway.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "lightproof/core/measure.h"
+#include "lightproof/warp/sin_cos.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lightproof::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
-
-/// 1/first!, -1/(first + 2)!, …, of first 0 or 1: the last term leaves less than 2^-53 on an eighth
-/// of a turn.
-template <std::size_t kTerms>
-constexpr std::array<double, kTerms> alternating_inverse_factorials(int first) {
-  std::array<double, kTerms> terms{};
-  double factorial = 1.0;
-  for (std::size_t i = 0; i < kTerms; ++i) {
-    const int k = first + 2 * static_cast<int>(i);
-    terms[i] = (i % 2 == 0 ? 1.0 : -1.0) / factorial;
-    factorial *= (k + 1) * (k + 2);
-  }
-  return terms;
-}
 
 template <class D>
 struct SinCos {
@@ -52,16 +38,14 @@ HWY_INLINE SinCos<D> sin_cos_of_turns(D d, hwy::HWY_NAMESPACE::Vec<D> x) {
   const auto nearest = hn::Round(quarters);
   const auto angle = hn::Mul(hn::Sub(quarters, nearest), hn::Set(d, 0.5 * kPi));
   const auto square = hn::Mul(angle, angle);
-  constexpr auto kSine = alternating_inverse_factorials<8>(1);
-  constexpr auto kCosine = alternating_inverse_factorials<9>(0);
-  auto sine = hn::Set(d, kSine.back());
-  for (std::size_t k = kSine.size() - 1; k-- > 0;) {
-    sine = hn::MulAdd(sine, square, hn::Set(d, kSine[k]));
+  auto sine = hn::Set(d, kSineTerms.back());
+  for (std::size_t k = kSineTerms.size() - 1; k-- > 0;) {
+    sine = hn::MulAdd(sine, square, hn::Set(d, kSineTerms[k]));
   }
   sine = hn::Mul(sine, angle);
-  auto cosine = hn::Set(d, kCosine.back());
-  for (std::size_t k = kCosine.size() - 1; k-- > 0;) {
-    cosine = hn::MulAdd(cosine, square, hn::Set(d, kCosine[k]));
+  auto cosine = hn::Set(d, kCosineTerms.back());
+  for (std::size_t k = kCosineTerms.size() - 1; k-- > 0;) {
+    cosine = hn::MulAdd(cosine, square, hn::Set(d, kCosineTerms[k]));
   }
   // From quarter to quarter the two change places, and one of them its sign.
   const auto quarter = hn::ConvertTo(whole, nearest);
