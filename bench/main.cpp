@@ -1,10 +1,14 @@
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <span>
+#include <string_view>
 
 #include "bench/registration.h"
+#include "bench/reporter.h"
 #include "lightproof/core/failure.h"
 
 namespace {
@@ -15,6 +19,13 @@ namespace {
 void keep_no_freed_memory() {
   constexpr int kFromTheSystem = 128 << 10;  // bytes: glibc's own threshold, but fixed
   mallopt(M_MMAP_THRESHOLD, kFromTheSystem);
+}
+
+/// Google Benchmark takes a reporter for a file only where the command line names one.
+bool writes_file(std::span<char*> arguments) {
+  return std::ranges::any_of(arguments, [](std::string_view argument) {
+    return argument.starts_with("--benchmark_out=");
+  });
 }
 
 }  // namespace
@@ -31,9 +42,12 @@ int main(int argc, char** argv) {
     lightproof::bench::register_irradiance_benchmarks();
     lightproof::bench::register_prefilter_benchmarks();
     lightproof::bench::add_context();
+    const bool has_file = writes_file(std::span(argv, static_cast<std::size_t>(argc)));
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    benchmark::RunSpecifiedBenchmarks();
+    const auto display = lightproof::bench::display_reporter();
+    const auto file = has_file ? lightproof::bench::file_reporter() : nullptr;
+    benchmark::RunSpecifiedBenchmarks(display.get(), file.get());
     benchmark::Shutdown();
     if (lightproof::bench::any_disagreement()) return 1;
   } catch (...) {

@@ -20,9 +20,8 @@ class Alias {
   /// texel, u.t chooses between the column's two texels and gives the position over t.
   TexelDraw draw(SquarePoint u) const {
     const AliasTable::Drawn drawn = table_.draw(u.s, u.t);
-    const auto width = static_cast<std::uint32_t>(positions_.extent().width);
-    return {static_cast<int>(drawn.cell % width), static_cast<int>(drawn.cell / width),
-            drawn.column, drawn.choice, drawn.mass};
+    const TexelIndex texel = positions_.texel(drawn.cell);
+    return {texel.x, texel.y, drawn.column, drawn.choice, drawn.mass};
   }
   TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
   /// Asks the memory for what draw(u) reads.

@@ -15,6 +15,7 @@
 
 #include "lightproof/core/huge_pages.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/core/select.h"
 #include "lightproof/samplers/texel_weights.h"
 #include "lightproof/samplers/weight_vectors.h"
 
@@ -161,8 +162,9 @@ inline float to_probability(std::uint64_t mass, double unit) {
 /// What is left of a uniform number in [0,1) that has chosen the part below or above `share`: a
 /// uniform one in [0,1).
 inline double rest_of_choice(double choice, double share) {
-  if (choice < share) return choice / share;
-  return std::min((choice - share) / (1.0 - share), 1.0 - 0x1p-53);  // which may round to 1
+  const bool below = choice < share;
+  const double part = select(below, choice, choice - share);
+  return std::min(part / select(below, share, 1.0 - share), 1.0 - 0x1p-53);  // which may round to 1
 }
 
 /// An alias table over any cells, with entries of 16 bytes.
@@ -185,7 +187,8 @@ class AliasTable {
     const Entry& entry = entries_[index];
     const double share = entry.threshold * kUnit;
     const bool own = choice < share;
-    return {own ? index : entry.alias, static_cast<double>(own ? entry.mass : entry.alias_mass),
+    return {select(own, index, entry.alias),
+            select(own, static_cast<double>(entry.mass), static_cast<double>(entry.alias_mass)),
             scaled - index, rest_of_choice(choice, share)};
   }
 

@@ -45,22 +45,23 @@ class PackedAlias {
   /// The texel at a point: u.s names the column of the alias table and the position over s in the
   /// texel, u.t chooses between the column's two texels and gives the position over t.
   TexelDraw draw(SquarePoint u) const {
-    const double scaled = u.s * static_cast<double>(words_.size());
-    const auto column = static_cast<std::uint64_t>(scaled);
-    const std::uint64_t word = words_[column];
-    const double share = layout_.unit * static_cast<double>(word >> layout_.threshold_at);
+    const double scaled = u.s * to_double(words_.size());
+    const auto column = static_cast<std::int64_t>(scaled);
+    const std::uint64_t word = words_[static_cast<std::size_t>(column)];
+    const double share = layout_.unit * to_double(word >> layout_.threshold_at);
     const bool own = u.t < share;
-    const std::uint64_t cell = own ? column : word & layout_.alias_mask;
-    const double mass = palette_mass(word >> (own ? layout_.own_at : layout_.alias_at));
-    const auto width = static_cast<std::uint64_t>(positions_.extent().width);
-    return {static_cast<int>(cell % width), static_cast<int>(cell / width),
-            scaled - static_cast<double>(column), rest_of_choice(u.t, share), mass};
+    const std::uint64_t cell =
+        select(own, static_cast<std::uint64_t>(column), word & layout_.alias_mask);
+    const double mass = palette_mass(select(own, word >> layout_.own_at, word >> layout_.alias_at));
+    const TexelIndex texel = positions_.texel(cell);
+    return {texel.x, texel.y, scaled - static_cast<double>(column), rest_of_choice(u.t, share),
+            mass};
   }
   TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
   /// Asks the memory for what draw(u) reads.
   void prefetch(SquarePoint u) const {
-    __builtin_prefetch(
-        &words_[static_cast<std::uint64_t>(u.s * static_cast<double>(words_.size()))]);
+    __builtin_prefetch(&words_[static_cast<std::size_t>(
+        static_cast<std::int64_t>(u.s * to_double(words_.size())))]);
   }
   const TexelPositions& positions() const { return positions_; }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "lightproof/core/measure.h"
+#include "lightproof/core/select.h"
 
 namespace lightproof {
 
@@ -51,9 +52,8 @@ inline SinCosOfTurns sin_cos_of_turns(double x) {
   }
   // From quarter to quarter the two change places, and one of them its sign.
   const bool odd = (quarter & 1) != 0;
-  const double s = odd ? cosine : sine;
-  const double c = odd ? sine : cosine;
-  return {(quarter & 2) != 0 ? -s : s, ((quarter + 1) & 2) != 0 ? -c : c};
+  return {negate_if((quarter & 2) != 0, select(odd, cosine, sine)),
+          negate_if(((quarter + 1) & 2) != 0, select(odd, sine, cosine))};
 }
 
 }  // namespace lightproof
