@@ -197,6 +197,9 @@ PeakedDensity around(const Lobe& lobe, Direction axis) {
           axis, lobe.jumps};
 }
 
+/// The cosine between two directions' half-vector and either of them, from the cosine between them.
+double half_cosine(double cosine) { return std::sqrt(0.5 * (1.0 + cosine)); }
+
 /// D of Trowbridge and Reitz.
 double ggx_distribution(double alpha, double cosine) {
   const double tilt = (alpha * alpha - 1.0) * cosine * cosine + 1.0;
@@ -295,7 +298,7 @@ Lobe ggx_lobe(double alpha) {
   return {[alpha](Direction light, Direction axis) {
             const double cosine = glm::dot(light, axis);
             if (!(cosine > 0.0)) return 0.0;
-            return ggx_distribution(alpha, glm::dot(glm::normalize(light + axis), axis)) * cosine;
+            return ggx_distribution(alpha, half_cosine(cosine)) * cosine;
           },
           2.0 * alpha};
 }
@@ -304,7 +307,7 @@ Lobe ggx_masked_lobe(double alpha, double f0) {
   return {[alpha, f0](Direction light, Direction axis) {
             const double cosine = glm::dot(light, axis);
             if (!(cosine > 0.0)) return 0.0;
-            const double half = glm::dot(glm::normalize(light + axis), axis);
+            const double half = half_cosine(cosine);
             const double tangent = std::sqrt(1.0 - cosine * cosine) / cosine;
             const double masking = 2.0 / (1.0 + std::sqrt(1.0 + alpha * alpha * tangent * tangent));
             const double fresnel = f0 + (1.0 - f0) * std::pow(1.0 - half, 5.0);
@@ -315,8 +318,9 @@ Lobe ggx_masked_lobe(double alpha, double f0) {
 
 Lobe half_vector_lobe(double shininess) {
   return {[shininess](Direction light, Direction axis) {
-            if (!(glm::dot(light, axis) > 0.0)) return 0.0;
-            return std::pow(glm::dot(glm::normalize(light + axis), axis), shininess);
+            const double cosine = glm::dot(light, axis);
+            if (!(cosine > 0.0)) return 0.0;
+            return std::pow(half_cosine(cosine), shininess);
           },
           2.0 / std::sqrt(shininess + 1.0), true};
 }
