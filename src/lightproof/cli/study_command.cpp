@@ -15,6 +15,9 @@
 #include "lightproof/core/text_escapes.h"
 #include "lightproof/report/report.h"
 #include "lightproof/self_test/kept_self_test.h"
+#include "lightproof/study/frame_study.h"
+#include "lightproof/study/level_costs.h"
+#include "lightproof/study/point_study.h"
 #include "lightproof/study/study.h"
 #include "lightproof/systems/comparisons.h"
 #include "outputs.h"
@@ -73,10 +76,16 @@ StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options,
   StudyResult result = run_study(std::move(maps), options.study, progress);
   result.gate.input_options = input_options(options);
   result.published_forms = system_comparisons();
+  const MeasurementCache cache = {cache_folder(), kThisProgram, commit, options.measure_again};
+  result.frames = study_frames();
+  result.points = kept_points(options.seed, cache, progress);
+  if (!options.no_throughput) {
+    result.level_costs =
+        kept_level_costs(result.maps, {.threads = thread_count(options.threads)}, cache, progress);
+  }
   if (!options.no_self_test) {
     result.self_test =
-        kept_self_test(result.maps, self_test_options(options.seed),
-                       {cache_folder(), kThisProgram, commit, options.measure_again}, progress);
+        kept_self_test(result.maps, self_test_options(options.seed), cache, progress);
   }
   return result;
 }

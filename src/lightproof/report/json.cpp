@@ -1,10 +1,11 @@
 #include "lightproof/report/json.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "lightproof/report/ci_outputs.h"
 #include "lightproof/report/gate_summary.h"
+#include "lightproof/report/json_number.h"
+#include "lightproof/report/measured_json.h"
 #include "lightproof/report/names.h"
 
 namespace lightproof {
@@ -12,13 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// NaN is left to the library, which writes null. JSON has no infinity: readers who compare with a
-/// threshold get a number beyond any.
-Json number(double value) { return std::clamp(value, -1e308, 1e308); }
+using json_parts::number;
 
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
-
-Json json_of(Extent extent) { return Json::array({extent.width, extent.height}); }
+Json json_of(Extent extent) { return json_parts::size(extent); }
 
 Json json_of(const FittedExponent& fit) {
   return {{"value", number(fit.value)}, {"error", number(fit.error)}};
@@ -328,6 +325,9 @@ std::string study_json(const StudyResult& study, const RunDescription& run) {
                   {"gate", json_of(study.gate, verdict)},
                   {"self_test", self_test_json(study.self_test)},
                   {"published_forms", list_of(study.published_forms)},
+                  {"frames", frames_json(study.frames)},
+                  {"points", points_json(study.points)},
+                  {"level_costs", level_costs_json(study.level_costs)},
                   {"convergence", list_of(study.convergence)},
                   {"throughput", list_of(study.throughput)},
                   {"throughput_origin", study.throughput_origin},

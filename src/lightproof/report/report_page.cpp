@@ -16,6 +16,9 @@ constexpr std::string_view kNavigation = R"(<nav aria-label="Sections"><ul>
 <li><a href="#variance">Variance</a></li>
 <li><a href="#throughput">Throughput</a></li>
 <li><a href="#renders">Renders</a></li>
+<li><a href="#levels">Levels</a></li>
+<li><a href="#points">Points</a></li>
+<li><a href="#frames">Frames</a></li>
 <li><a href="#published">Published forms</a></li>
 </ul></nav>
 )";
@@ -27,7 +30,9 @@ std::string report_page(const StudyResult& study) {
                            self_test_section(study.self_test) + map_section(study.maps) +
                            convergence_section(study.convergence) +
                            variance_section(study.convergence) + throughput_section(study) +
-                           render_section(study.renders) + published_section(study.published_forms);
+                           render_section(study.renders) + level_cost_section(study.level_costs) +
+                           point_section(study.points) + frame_section(study.frames) +
+                           published_section(study.published_forms);
   return html_document("Lightproof: " + headline(study), kNavigation, body, study.version);
 }
 

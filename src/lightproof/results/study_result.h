@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "lightproof/results/convergence_record.h"
+#include "lightproof/results/frame_record.h"
 #include "lightproof/results/gate_result.h"
 #include "lightproof/results/growth_fit.h"
+#include "lightproof/results/level_cost.h"
 #include "lightproof/results/map_record.h"
+#include "lightproof/results/point_study.h"
 #include "lightproof/results/published_comparison.h"
 #include "lightproof/results/render_record.h"
 #include "lightproof/results/self_test_result.h"
@@ -33,6 +36,9 @@ struct StudyResult {
   std::vector<RenderRecord> renders;
   std::optional<SelfTestResult> self_test = {};
   std::vector<PublishedComparison> published_forms = {};
+  std::vector<FrameErrorRecord> frames = {};
+  PointStudy points = {};
+  LevelCosts level_costs = {};
 };
 
 }  // namespace lightproof

@@ -108,7 +108,7 @@ LevelKind irradiance_kind() {
   add_sampling(kind.methods, lobe, PrefilterMethod::half_vector);
   add_sampling(kind.methods, lobe, PrefilterMethod::filtered);
   add_harmonics(kind.methods, lobe);
-  kind.methods.push_back({"Riemann sum", "64 x 16 directions", riemann_level});
+  kind.methods.push_back({"Riemann sum", "64 \u00d7 16 directions", riemann_level});
   kind.methods.push_back(method_of(lobe, {PrefilterMethod::fast}, ""));
   kind.methods.push_back({"closed form", "", [](const EnvironmentMap& map, Extent extent) {
                             return rounded(diffuse_map(irradiance_map(map, extent)).radiance);
@@ -242,11 +242,11 @@ std::vector<ThreadGain> measure_thread_gains(const LevelCostOptions& options) {
   const Extent brdf = {width, width};
   const int levels = std::min(9, static_cast<int>(std::log2(height)) + 1);
   const SharedWork works[] = {
-      {fmt::format("irradiance of {}x{} normals", normals.width, normals.height),
+      {fmt::format("irradiance of {}\u00d7{} normals", normals.width, normals.height),
        [&] { irradiance_map(map, normals); }},
-      {fmt::format("GGX chain of {} levels from {}x{}", levels, width, height),
+      {fmt::format("GGX chain of {} levels from {}\u00d7{}", levels, width, height),
        [&] { ggx_chain(map.radiance, options.gain_map, levels); }},
-      {fmt::format("BRDF map of {}x{}", brdf.width, brdf.height),
+      {fmt::format("BRDF map of {}\u00d7{}", brdf.width, brdf.height),
        [&] { brdf_map(brdf, Masking::height_correlated); }}};
   std::vector<ThreadGain> gains;
   for (const SharedWork& work : works) gains.push_back(gain_of(work, options.runs));

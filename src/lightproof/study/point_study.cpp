@@ -139,4 +139,14 @@ PointStudy study_points(const PointStudyOptions& options, const Progress& progre
           decay.results(part_of(progress, 0.6, 1.0), communicator)};
 }
 
+PointStudy kept_points(std::uint64_t seed, const MeasurementCache& cache,
+                       const Progress& progress) {
+  PointStudyOptions options;
+  options.errors.seed = seed;
+  return MeasurementKeeper(cache)
+      .get<PointStudy>("points", std::to_string(seed),
+                       [&] { return study_points(options, progress); })
+      .value;
+}
+
 }  // namespace lightproof

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "lightproof/core/executor.h"
+#include "lightproof/core/kept_measurement.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/points/integration_error.h"
 #include "lightproof/results/point_study.h"
@@ -22,5 +23,9 @@ struct PointStudyOptions {
 /// float. The number of threads, or of processes, which share the work, changes no bit.
 PointStudy study_points(const PointStudyOptions& options = {}, const Progress& progress = {},
                         const Communicator& communicator = {});
+
+/// The same by a seed; or what is kept of it, of this program.
+PointStudy kept_points(std::uint64_t seed, const MeasurementCache& cache,
+                       const Progress& progress = {});
 
 }  // namespace lightproof
