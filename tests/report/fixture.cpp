@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lightproof/core/random.h"
+#include "measured_fixture.h"
 
 namespace lightproof::testing {
 namespace {
@@ -294,6 +295,9 @@ StudyResult synthetic_study() {
   for (std::size_t estimator = 0; estimator < 4; ++estimator)
     study.renders.push_back(render(estimator));
   study.self_test = self_test();
+  study.frames = synthetic_frames();
+  study.points = synthetic_points();
+  study.level_costs = synthetic_level_costs();
   return study;
 }
 

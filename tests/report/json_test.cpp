@@ -116,11 +116,26 @@ TEST(GateJson, SurvivesNamesThatAreNotUtf8) {
 
 TEST(StudyJson, HoldsEverythingButThePixels) {
   const json document = json::parse(study_json(testing::synthetic_study(), {}));
-  EXPECT_EQ(keys_of(document),
-            (std::set<std::string>{"format_version", "version", "commit", "command", "machine",
-                                   "seed", "maps", "gate", "convergence", "throughput",
-                                   "throughput_origin", "caches", "growth", "tables", "renders",
-                                   "self_test", "published_forms"}));
+  EXPECT_EQ(keys_of(document), (std::set<std::string>{"format_version",
+                                                      "version",
+                                                      "commit",
+                                                      "command",
+                                                      "machine",
+                                                      "seed",
+                                                      "maps",
+                                                      "gate",
+                                                      "convergence",
+                                                      "throughput",
+                                                      "throughput_origin",
+                                                      "caches",
+                                                      "growth",
+                                                      "tables",
+                                                      "renders",
+                                                      "self_test",
+                                                      "published_forms",
+                                                      "frames",
+                                                      "points",
+                                                      "level_costs"}));
   EXPECT_EQ(document["maps"].size(), 8U);
   EXPECT_EQ(document["maps"][0]["size"], (json{64, 32}));
   EXPECT_EQ(document["maps"][0]["drawn"].size(), 300U);

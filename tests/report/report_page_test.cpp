@@ -46,6 +46,9 @@ TEST(Page, SaysWhatWasNotMeasured) {
   study.gate.tests.clear();
   study.maps.clear();
   study.self_test.reset();
+  study.frames.clear();
+  study.points = {};
+  study.level_costs = {};
   const std::string page = report_page(study);
   EXPECT_NE(page.find("Throughput was not measured in this study. Build"), std::string::npos);
   EXPECT_EQ(page.find("<figure class=\"chart"), std::string::npos) << "an empty chart";
