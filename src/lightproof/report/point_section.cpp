@@ -199,7 +199,8 @@ std::string discrepancy_chart(const std::vector<PointDiscrepancy>& all) {
   x["axis"] = log_axis(range.low, range.high);
   Json chart = base_chart(kRowHeight * static_cast<int>(names.size()) + 20);
   chart["data"] = {{"values", rows}};
-  chart["mark"] = {{"type", "point"}, {"filled", true}, {"size", 60}, {"opacity", 1}};
+  const Json mark = {{"type", "point"}, {"filled", true}, {"size", 60}, {"opacity", 1}};
+  chart["layer"] = Json::array({{{"mark", mark}}});
   chart["encoding"] = {{"y", set_axis(names)},
                        {"x", x},
                        {"color", series(styles, &SeriesStyle::colour, legend)},
