@@ -19,7 +19,8 @@ PointRate rate(const std::string& set, const std::string& kind, const std::strin
                double exponent) {
   PointRate record{set, kind, roughness + " thing", roughness, 128, {}, exponent, 0.02};
   for (const std::uint64_t points : {16U, 256U, 4096U}) {
-    const double error = std::pow(static_cast<double>(points), exponent);
+    const double error =
+        std::isnan(exponent) ? 0.0 : std::pow(static_cast<double>(points), exponent);
     record.errors.push_back({points, error, 0.05 * error, 0.5});
   }
   return record;

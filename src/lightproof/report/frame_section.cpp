@@ -117,7 +117,8 @@ std::string frame_chart(const Frames& frames, bool is_nadir) {
       {"legend", {{"title", nullptr}, {"symbolType", "stroke"}, {"symbolSize", 300}}}};
   Json chart = base_chart(320);
   chart["data"] = {{"values", rows}};
-  chart["layer"] = Json::array({{{"mark", {{"type", "line"}, {"strokeWidth", 2}}}}});
+  chart["layer"] = Json::array(
+      {{{"mark", {{"type", "line"}, {"strokeWidth", 2}}}, {"encoding", Json::object()}}});
   chart["encoding"] = {
       {"x", x},
       {"y", y},

@@ -200,7 +200,7 @@ std::string discrepancy_chart(const std::vector<PointDiscrepancy>& all) {
   Json chart = base_chart(kRowHeight * static_cast<int>(names.size()) + 20);
   chart["data"] = {{"values", rows}};
   const Json mark = {{"type", "point"}, {"filled", true}, {"size", 60}, {"opacity", 1}};
-  chart["layer"] = Json::array({{{"mark", mark}}});
+  chart["layer"] = Json::array({{{"mark", mark}, {"encoding", Json::object()}}});
   chart["encoding"] = {{"y", set_axis(names)},
                        {"x", x},
                        {"color", series(styles, &SeriesStyle::colour, legend)},
