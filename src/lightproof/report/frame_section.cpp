@@ -77,9 +77,9 @@ std::string finding(const std::vector<Line>& lines) {
   }
   std::string text = good.empty()
                          ? "No frame is orthonormal at every normal"
-                         : fmt::format("Orthonormal at every normal: {}", fmt::join(good, ", "));
+                         : fmt::format("Orthonormal at every normal: {}", fmt::join(good, "; "));
   if (bad.empty()) return text;
-  return text + fmt::format(". Around \u2212z, in float, {}", fmt::join(bad, ", "));
+  return text + fmt::format(". Around \u2212z, in float, {}", fmt::join(bad, "; "));
 }
 
 Json row_of(const FrameErrorRecord& r) {
@@ -138,9 +138,9 @@ std::string finding_around(const std::vector<Line>& lines, bool is_nadir) {
     ++all;
     if (!line.is_orthonormal()) ++off;
   }
-  return fmt::format("Around {}z, {} of {} constructions lose more than rounding in float",
+  return fmt::format("Around {}z, {} of {} constructions {} more than rounding in float",
                      is_nadir ? "\u2212" : "+", off == 0 ? "none" : count_word(off),
-                     count_word(all));
+                     count_word(all), off == 1 ? "loses" : "lose");
 }
 
 std::string table_of(const std::vector<Line>& lines) {
