@@ -229,7 +229,6 @@ std::string discrepancy_table(const std::vector<PointDiscrepancy>& all) {
 std::uint64_t fewest(const PointDecay& r) { return std::min(r.distinct_s, r.distinct_t); }
 
 std::string decay_finding(const std::vector<PointDecay>& decay) {
-  std::string text;
   const PointDecay* worst = nullptr;
   for (const PointDecay& r : decay) {
     if (r.first != kToldIndex) continue;
