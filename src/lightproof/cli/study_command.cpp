@@ -83,6 +83,7 @@ StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options,
     result.level_costs =
         kept_level_costs(result.maps, {.threads = thread_count(options.threads)}, cache, progress);
   }
+  result.published_pictures = system_pictures(progress);
   if (!options.no_self_test) {
     result.self_test =
         kept_self_test(result.maps, self_test_options(options.seed), cache, progress);

@@ -14,8 +14,10 @@
 #include "lightproof/results/map_record.h"
 #include "lightproof/results/point_study.h"
 #include "lightproof/results/published_comparison.h"
+#include "lightproof/results/published_picture.h"
 #include "lightproof/results/render_record.h"
 #include "lightproof/results/self_test_result.h"
+#include "lightproof/results/split_sum_record.h"
 #include "lightproof/results/throughput_record.h"
 
 namespace lightproof {
@@ -39,6 +41,8 @@ struct StudyResult {
   std::vector<FrameErrorRecord> frames = {};
   PointStudy points = {};
   LevelCosts level_costs = {};
+  std::vector<PublishedPicture> published_pictures = {};
+  std::vector<SplitSumRecord> split_sum = {};
 };
 
 }  // namespace lightproof

@@ -27,7 +27,8 @@ MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed);
 /// Puts what was measured into the study, and how it grows.
 void set_throughput(StudyResult& study, Throughput measured);
 
-/// Runs the gate, measures convergence, renders and, if it is asked for, throughput.
+/// Runs the gate, measures convergence, renders, the error of the split sum and, if it is asked
+/// for, throughput.
 StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& options,
                       const Progress& progress = {});
 

@@ -1,0 +1,73 @@
+#include "lightproof/study/split_sum.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "lightproof/core/measure.h"
+#include "lightproof/shading/split_sum_error.h"
+
+namespace lightproof {
+namespace {
+
+std::vector<double> angles_of(const SplitSumOptions& options) {
+  if (!options.view_angles.empty()) return options.view_angles;
+  std::vector<double> angles;
+  for (int degrees = 0; degrees <= 80; degrees += 10) angles.push_back(degrees * kPi / 180.0);
+  return angles;
+}
+
+std::string kernel_key(double roughness, double angle) {
+  return fmt::format("split-sum/kernel/{}/{}", roughness, angle);
+}
+
+std::string map_key(const EnvironmentMap& map) { return "split-sum/map/" + map.name; }
+
+}  // namespace
+
+std::vector<SplitSumRecord> study_split_sum(std::span<const EnvironmentMap> maps,
+                                            const SplitSumOptions& options,
+                                            const Progress& progress,
+                                            const Communicator& communicator) {
+  if (maps.empty()) return {};
+  const std::vector<double> angles = angles_of(options);
+  using Kernels = std::vector<SplitSumKernel>;
+  std::vector<WorkCell<Kernels>> kernel_cells;
+  for (const double roughness : options.roughness) {
+    for (const double angle : angles) {
+      kernel_cells.push_back({kernel_key(roughness, angle), [&options, roughness, angle] {
+                                return split_sum_kernels(roughness, std::cos(angle),
+                                                         options.normal_reflectances);
+                              }});
+    }
+  }
+  std::vector<WorkCell<AngularPower>> map_cells;
+  for (const EnvironmentMap& map : maps) {
+    map_cells.push_back({map_key(map), [&map] { return luminance_power(map); }});
+  }
+  const CellResults<AngularPower> powers =
+      gather(compute_cells<AngularPower>(map_cells, communicator.share,
+                                         part_of(progress, 0.0, 0.3), "split sum"),
+             communicator);
+  const CellResults<Kernels> kernels =
+      gather(compute_cells<Kernels>(kernel_cells, communicator.share, part_of(progress, 0.3, 1.0),
+                                    "split sum"),
+             communicator);
+  std::vector<SplitSumRecord> records;
+  for (const EnvironmentMap& map : maps) {
+    for (std::size_t i = 0; i < options.normal_reflectances.size(); ++i) {
+      for (const double roughness : options.roughness) {
+        for (const double angle : angles) {
+          const SplitSumError error = split_sum_error(
+              kernels.at(kernel_key(roughness, angle))[i], powers.at(map_key(map)));
+          records.push_back({map.name, roughness, angle, options.normal_reflectances[i],
+                             error.rmse, error.left_out});
+        }
+      }
+    }
+  }
+  return records;
+}
+
+}  // namespace lightproof
