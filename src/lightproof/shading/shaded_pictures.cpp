@@ -120,7 +120,7 @@ PublishedPicture metallic_roughness_picture(const ShadedPictureOptions& options)
 
 PublishedPicture reflectivity_picture(const ShadedPictureOptions& options) {
   constexpr double kRoughness = 0.5;
-  constexpr int kFrames = 64;
+  constexpr int kFrames = 16;
   constexpr int kSamplesOfFrame = 16;
   const EnvironmentMap map = make_synthetic_map("checker", kMapExtent);
   const Lobe lobe = HalfVectorLobe{half_vector_shininess(kRoughness)};

@@ -41,11 +41,13 @@ void visit_nodes(double from, double to, const Visit& visit) {
   }
 }
 
-/// Edges of panels from 0 to pi that double in width from `least` on.
-std::vector<double> panel_edges(double least) {
+/// Edges of panels over polar angles from 0 on that double in width from `least` on. Circles meet
+/// the horizon from one angle on and are below it from another: an edge each, the latter the last.
+std::vector<double> panel_edges(double least, double meets_horizon, double below_horizon) {
   std::vector<double> edges = {0.0};
-  for (double width = least; edges.back() < kPi;) {
-    edges.push_back(std::min(kPi, edges.back() + width));
+  for (double width = least; edges.back() < below_horizon;) {
+    const double end = edges.back() < meets_horizon ? meets_horizon : below_horizon;
+    edges.push_back(std::min(end, edges.back() + width));
     width = std::min(2.0 * width, kWidestPanel);
   }
   return edges;
@@ -123,7 +125,9 @@ class KernelTransform {
     sums_.bias.resize(legendre_.size());
     sums_.lobe.resize(degrees());
     // Out of the plane of incidence the lobe is narrower than in it, by the cosine of the view.
-    const std::vector<double> edges = panel_edges(0.5 * alpha_ * frame_.cosine);
+    const double tilt = std::atan2(frame_.sine, frame_.cosine);
+    const std::vector<double> edges =
+        panel_edges(0.5 * alpha_ * frame_.cosine, 0.5 * kPi - tilt, 0.5 * kPi + tilt);
     for (std::size_t i = 1; i < edges.size(); ++i) {
       visit_nodes(edges[i - 1], edges[i], [&](Node polar) { add(polar); });
     }
