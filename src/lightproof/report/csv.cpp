@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "lightproof/report/csv_row.h"
+#include "lightproof/report/findings.h"
 #include "lightproof/report/names.h"
 
 namespace lightproof {
@@ -146,6 +147,14 @@ std::string maps_csv(const std::vector<MapRecord>& records) {
     const Extent extent = r.map.radiance.extent();
     csv += row(r.map.name, r.source, extent.width, extent.height, r.mean_luminance, r.peak_ratio,
                r.effective_fraction, joined(r.map.notes));
+  }
+  return csv;
+}
+
+std::string split_sum_csv(const std::vector<SplitSumRecord>& records) {
+  std::string csv = "map,normal_reflectance,roughness,view_degrees,rmse,left_out\n";
+  for (const SplitSumRecord& r : records) {
+    csv += row(r.map, r.normal_reflectance, r.roughness, view_degrees(r), r.rmse, r.left_out);
   }
   return csv;
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lightproof/report/ci_outputs.h"
+#include "lightproof/report/findings.h"
 #include "lightproof/report/gate_summary.h"
 #include "lightproof/report/json_number.h"
 #include "lightproof/report/measured_json.h"
@@ -44,6 +45,24 @@ Json json_of(const PublishedComparison& c) {
           {"exact", number(c.exact)},
           {"published", number(c.published)},
           {"corrected", number(c.corrected)}};
+}
+
+Json json_of(const PublishedPicture& p) {
+  return {{"system", p.system},
+          {"what", p.what},
+          {"size", json_of(p.exact.extent())},
+          {"published_rmse", number(p.published_rmse)},
+          {"corrected_rmse", number(p.corrected_rmse)},
+          {"noise", number(p.noise)}};
+}
+
+Json json_of(const SplitSumRecord& r) {
+  return {{"map", r.map},
+          {"normal_reflectance", number(r.normal_reflectance)},
+          {"roughness", number(r.roughness)},
+          {"view_degrees", number(view_degrees(r))},
+          {"rmse", number(r.rmse)},
+          {"left_out", number(r.left_out)}};
 }
 
 Json json_of(const TestRecord& t) {
@@ -328,6 +347,8 @@ std::string study_json(const StudyResult& study, const RunDescription& run) {
                   {"frames", frames_json(study.frames)},
                   {"points", points_json(study.points)},
                   {"level_costs", level_costs_json(study.level_costs)},
+                  {"published_pictures", list_of(study.published_pictures)},
+                  {"split_sum", list_of(study.split_sum)},
                   {"convergence", list_of(study.convergence)},
                   {"throughput", list_of(study.throughput)},
                   {"throughput_origin", study.throughput_origin},

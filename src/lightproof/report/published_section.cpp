@@ -7,6 +7,7 @@
 #include "lightproof/page/html.h"
 #include "lightproof/page/numbers.h"
 #include "lightproof/report/csv.h"
+#include "lightproof/report/published_pictures.h"
 #include "lightproof/report/sections.h"
 
 namespace lightproof {
@@ -55,7 +56,8 @@ std::string table_of(const std::vector<PublishedComparison>& comparisons) {
 
 }  // namespace
 
-std::string published_section(const std::vector<PublishedComparison>& comparisons) {
+std::string published_section(const std::vector<PublishedComparison>& comparisons,
+                              const std::vector<PublishedPicture>& pictures) {
   std::string html = "<section id=\"published\">\n<h2>What do published forms get wrong?</h2>\n";
   if (comparisons.empty()) {
     return html + paragraph("No published forms were computed in this study.", "empty") +
@@ -63,7 +65,7 @@ std::string published_section(const std::vector<PublishedComparison>& comparison
   }
   return html + paragraph(finding(comparisons), "note") + paragraph(kIntroduction, "note") +
          table_of(comparisons) + download_link("published.csv", published_csv(comparisons)) +
-         "</section>\n";
+         published_pictures_html(pictures) + "</section>\n";
 }
 
 }  // namespace lightproof

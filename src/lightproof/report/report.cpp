@@ -51,6 +51,7 @@ NamedTables tables_of(const StudyResult& study) {
           {"tables.csv", tables_csv(study.tables)},
           {"renders.csv", renders_csv(study.renders)},
           {"maps.csv", maps_csv(study.maps)},
+          {"split_sum.csv", split_sum_csv(study.split_sum)},
           {"published.csv", published_csv(study.published_forms)},
           {"frames.csv", frames_csv(study.frames)},
           {"points.csv", point_errors_csv(study.points.rates)},

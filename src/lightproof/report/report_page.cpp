@@ -19,6 +19,7 @@ constexpr std::string_view kNavigation = R"(<nav aria-label="Sections"><ul>
 <li><a href="#levels">Levels</a></li>
 <li><a href="#points">Points</a></li>
 <li><a href="#frames">Frames</a></li>
+<li><a href="#split-sum">Split sum</a></li>
 <li><a href="#published">Published forms</a></li>
 </ul></nav>
 )";
@@ -33,6 +34,8 @@ std::string report_page(const StudyResult& study) {
                            render_section(study.renders) + level_cost_section(study.level_costs) +
                            point_section(study.points) + frame_section(study.frames) +
                            published_section(study.published_forms);
+                           render_section(study.renders) + split_sum_section(study.split_sum) +
+                           published_section(study.published_forms, study.published_pictures);
   return html_document("Lightproof: " + headline(study), kNavigation, body, study.version);
 }
 

@@ -19,5 +19,8 @@ std::string published_section(const std::vector<PublishedComparison>& comparison
 std::string frame_section(const std::vector<FrameErrorRecord>& frames);
 std::string point_section(const PointStudy& points);
 std::string level_cost_section(const LevelCosts& costs);
+std::string split_sum_section(const std::vector<SplitSumRecord>& records);
+std::string published_section(const std::vector<PublishedComparison>& comparisons,
+                              const std::vector<PublishedPicture>& pictures);
 
 }  // namespace lightproof
