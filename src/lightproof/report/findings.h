@@ -85,6 +85,13 @@ double view_degrees(const SplitSumRecord& record);
 /// An error in percent, "12.3 %"; below 0.01 % only that.
 std::string percent_text(double fraction);
 
+/// The error of a record in percent, with a "at least" sign where detail that is left out may add
+/// to it.
+std::string split_sum_text(const SplitSumRecord& record);
+
+/// A number without zeros at its end: "0.04".
+std::string plain_number(double value);
+
 /// What the effective fraction means for this map, with the variance of uniform sampling.
 std::string map_finding(const MapRecord& map);
 

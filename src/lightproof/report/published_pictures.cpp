@@ -46,7 +46,7 @@ std::string picture_html(const PublishedPicture& picture) {
       escaped(picture.system), percent(picture.published_rmse), percent(picture.corrected_rmse));
   html += paragraph(fmt::format("Shown is {}.", picture.what));
   html += fmt::format(
-      "<div class=\"renders\">\n<figure>{}\n{}<figcaption><strong>exact</strong>: {}{}"
+      "<div class=\"renders three\">\n<figure>{}\n{}<figcaption><strong>exact</strong>: {}{}"
       "</figcaption></figure>\n",
       image_html(tone_mapped(picture.exact, scale), "Exact picture"), colour_bar_html(range),
       escaped(picture.exact_form), noise_text(picture));

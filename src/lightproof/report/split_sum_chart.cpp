@@ -13,10 +13,10 @@ namespace lightproof {
 namespace {
 
 /// The ends of the colours, of all maps: errors beyond have the end's colour.
-constexpr double kLowest = 1e-3;
-constexpr double kHighest = 1.0;
+constexpr double kLowest = 1e-2;
+constexpr double kHighest = 10.0;
 /// From here on cells are dark.
-constexpr double kDark = 0.15;
+constexpr double kDark = 0.8;
 
 Json split_sum_rows(const std::vector<SplitSumRecord>& records, bool with_choice) {
   Json rows = Json::array();
@@ -25,10 +25,10 @@ Json split_sum_rows(const std::vector<SplitSumRecord>& records, bool with_choice
                     {"roughness", rounded(r.roughness)},
                     {"rmse", rounded(r.rmse)},
                     {"most", rounded(std::hypot(r.rmse, r.left_out))},
-                    {"text", percent_text(r.rmse)}});
+                    {"text", split_sum_text(r)}});
     if (!with_choice) continue;
     rows.back()["map"] = r.map;
-    rows.back()["f0"] = significant(r.normal_reflectance);
+    rows.back()["f0"] = plain_number(r.normal_reflectance);
   }
   return rows;
 }
@@ -58,9 +58,10 @@ Json colour(bool legend) {
   channel["legend"] = nullptr;
   if (legend) {
     channel["legend"] = {{"title", "RMS error / mean (log)"},
-                         {"values", {0.001, 0.01, 0.1, 1.0}},
-                         {"labelExpr", "datum.value == 0.001 ? '\u2264 0.1 %' : datum.value == 1 ? "
-                                       "'\u2265 100 %' : format(100 * datum.value, '~g') + ' %'"},
+                         {"values", {0.01, 0.1, 1.0, 10.0}},
+                         {"labelExpr",
+                          "datum.value == 0.01 ? '\u2264 1 %' : datum.value == 10 ? '\u2265 1000 "
+                          "%' : format(100 * datum.value, 'd') + ' %'"},
                          {"gradientLength", 260}};
   }
   return channel;
@@ -97,7 +98,7 @@ std::string split_sum_chart(const std::vector<SplitSumRecord>& records) {
   std::vector<std::string> reflectances;
   for (const SplitSumRecord& r : records) {
     maps.push_back(r.map);
-    reflectances.push_back(significant(r.normal_reflectance));
+    reflectances.push_back(plain_number(r.normal_reflectance));
   }
   Json chart = base_chart(340);
   chart["params"] = {choice("chosen_map", "Map", unique_names(maps)),

@@ -20,9 +20,10 @@ constexpr std::string_view kNote =
     "the prefiltered map times F0 A + B, both exact, against the integral of the map and the "
     "surface's own reflection. Each number is a root mean square over all orientations of surface "
     "and view in the map, over the mean of the exact radiance, in luminance; it was computed in "
-    "spherical harmonics up to degree 160, and nothing is sampled. Levels and tables of an engine "
-    "come on top. A small bright sun makes large numbers: its highlight lies beside where it should "
-    "be, or has another shape.";
+    "spherical harmonics up to degree 160, and nothing is sampled: where finer detail may add to it, "
+    "a \u2265 stands before it and the table has a bound. Levels and tables of an engine come on "
+    "top. A small bright sun makes large numbers: its highlight has another shape, and at grazing "
+    "views another place.";
 
 std::string table_of(const std::vector<SplitSumRecord>& records) {
   Table table("Error of the split sum",
@@ -43,17 +44,18 @@ std::string small_multiples(const std::vector<SplitSumRecord>& records) {
   maps = unique_names(maps);
   if (maps.size() < 2) return "";
   std::string html = fmt::format("<h3>{} at once: F0 = {}</h3>\n<div class=\"multiples\">\n",
-                                 escaped(counted(maps.size(), "map")), significant(f0));
+                                 escaped(counted(maps.size(), "map")), plain_number(f0));
   for (std::size_t i = 0; i < maps.size(); ++i) {
     std::vector<SplitSumRecord> here;
-    double most = 0.0;
     for (const SplitSumRecord& r : records) {
       if (r.map != maps[i] || r.normal_reflectance != f0) continue;
       here.push_back(r);
-      most = std::max(most, r.rmse);
     }
+    const auto most = std::max_element(
+        here.begin(), here.end(),
+        [](const SplitSumRecord& a, const SplitSumRecord& b) { return a.rmse < b.rmse; });
     html += chart_figure({fmt::format("split-sum-{}", i + 1),
-                          fmt::format("{}: up to {}", maps[i], percent_text(most)),
+                          fmt::format("{}: up to {}", maps[i], percent_text(most->rmse)),
                           fmt::format("Error of the split sum on {}, over roughness and view angle",
                                       maps[i]),
                           "", small_split_sum_chart(here)},

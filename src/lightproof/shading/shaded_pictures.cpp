@@ -7,7 +7,6 @@
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/image/map_levels.h"
-#include "lightproof/image/synthetic.h"
 #include "lightproof/prefilter/reflectivity.h"
 #include "lightproof/render/picture.h"
 #include "lightproof/shading/metallic_roughness.h"
@@ -17,6 +16,24 @@ namespace lightproof {
 namespace {
 
 constexpr Extent kMapExtent = {128, 64};
+
+/// A dim room, darker below, with two bright windows on the side of the camera: their reflections
+/// show how far a lobe blurs.
+EnvironmentMap room_with_windows() {
+  EnvironmentMap map{"a room with two windows", Grid<Rgb>(kMapExtent)};
+  for (int y = 0; y < kMapExtent.height; ++y) {
+    for (int x = 0; x < kMapExtent.width; ++x) {
+      const double s = (x + 0.5) / kMapExtent.width;
+      const double t = (y + 0.5) / kMapExtent.height;
+      const bool left = s > 0.58 && s < 0.66 && t > 0.52 && t < 0.72;
+      const bool right = s > 0.79 && s < 0.84 && t > 0.55 && t < 0.68;
+      map.radiance(x, y) = left    ? Rgb(8.0F, 9.0F, 10.0F)
+                           : right ? Rgb(12.0F, 10.0F, 7.0F)
+                                   : static_cast<float>(0.15 + 0.35 * t) * Rgb(1.0F, 0.95F, 0.9F);
+    }
+  }
+  return map;
+}
 
 /// A pixel of what is compared.
 struct Place {
@@ -94,7 +111,7 @@ PublishedPicture shaded_sphere(const EnvironmentMap& map, const LayeredSurface& 
 
 PublishedPicture metallic_roughness_picture(const ShadedPictureOptions& options) {
   constexpr int kLevels = 5;
-  const EnvironmentMap map = make_synthetic_map("checker", kMapExtent);
+  const EnvironmentMap map = room_with_windows();
   MetallicRoughness gold;
   gold.base_colour = {1.0, 0.77, 0.34};
   gold.metallic = 1.0;
@@ -110,7 +127,7 @@ PublishedPicture metallic_roughness_picture(const ShadedPictureOptions& options)
   PublishedPicture picture = shaded_sphere(map, surface, by(LevelForm::published),
                                            by(LevelForm::corrected), options);
   picture.system = "002-6";
-  picture.what = fmt::format("a golden sphere of roughness {} under the map checker, shaded by the "
+  picture.what = fmt::format("a golden sphere of roughness {} in a room with two windows, shaded by the "
                              "split sum with {} levels",
                              gold.roughness, kLevels);
   picture.published_form = "level R mipCount: too rough";
@@ -122,7 +139,7 @@ PublishedPicture reflectivity_picture(const ShadedPictureOptions& options) {
   constexpr double kRoughness = 0.5;
   constexpr int kFrames = 16;
   constexpr int kSamplesOfFrame = 16;
-  const EnvironmentMap map = make_synthetic_map("checker", kMapExtent);
+  const EnvironmentMap map = room_with_windows();
   const Lobe lobe = HalfVectorLobe{half_vector_shininess(kRoughness)};
   const auto from_top = [](const Grid<Rgb>& level) { return lat_long_level(level).faces.front(); };
   const auto accumulated = [&](ReflectivityForm form) {
@@ -133,7 +150,7 @@ PublishedPicture reflectivity_picture(const ShadedPictureOptions& options) {
   };
   PublishedPicture picture;
   picture.system = "004-7";
-  picture.what = fmt::format("the reflectivity map of roughness {} of the map checker, {} frames of "
+  picture.what = fmt::format("the reflectivity map of roughness {} of a room with two windows, {} frames of "
                              "{} samples",
                              kRoughness, kFrames, kSamplesOfFrame);
   picture.published_form = "divided by the number of good samples";
@@ -152,7 +169,7 @@ PublishedPicture reflectivity_picture(const ShadedPictureOptions& options) {
 }
 
 PublishedPicture two_maps_picture(const ShadedPictureOptions& options) {
-  const EnvironmentMap map = make_synthetic_map("checker", kMapExtent);
+  const EnvironmentMap map = room_with_windows();
   const GlossyOnDiffuse glossy = {0.5, 0.04, {0.8, 0.1, 0.1}};
   const TwoMaps program(map, kMapExtent, kReflectivityLevels, TwoMapsForm::program);
   const TwoMaps corrected(map, kMapExtent, kReflectivityLevels, TwoMapsForm::corrected);
@@ -166,11 +183,13 @@ PublishedPicture two_maps_picture(const ShadedPictureOptions& options) {
                                   BaseShare::of_light};
   PublishedPicture picture = shaded_sphere(map, surface, by(program), by(corrected), options);
   picture.system = "004-15";
-  picture.what = fmt::format("a red glossy sphere of roughness {} under the map checker, shaded with "
+  picture.what = fmt::format("a red glossy sphere of roughness {} in a room with two windows, shaded with "
                              "a reflectivity map and an irradiance map",
                              glossy.roughness);
   picture.published_form = "the program's maps: c E where c E/\u03c0 is meant, reflections at 2/\u03c0";
-  picture.corrected_form = "c E/\u03c0 behind the coat, the lobe's own weight";
+  picture.corrected_form =
+      "c E/\u03c0 behind the coat, the lobe's own weight; what is left is F taken at n\u00b7v "
+      "(004-14)";
   return picture;
 }
 

@@ -15,7 +15,7 @@ namespace lightproof {
 
 struct ShadedPictureOptions {
   Extent picture = {160, 120};
-  std::uint64_t samples = 1536;  ///< per pixel of a sphere by brute force
+  std::uint64_t samples = 3072;  ///< per pixel of a sphere by brute force
   std::uint64_t seed = 1;
 };
 
