@@ -45,6 +45,7 @@ TEST(Page, SaysWhatWasNotMeasured) {
   study.convergence.clear();
   study.gate.tests.clear();
   study.maps.clear();
+  study.split_sum.clear();
   study.self_test.reset();
   study.frames.clear();
   study.points = {};
@@ -81,7 +82,7 @@ TEST(Report, WritesAllItsFiles) {
   for (const char* name :
        {"report.html", "results.json", "gate.csv", "convergence.csv", "variance.csv",
         "throughput.csv", "growth.csv", "build.csv", "tables.csv", "renders.csv", "maps.csv",
-        "manifest.json", "city-sphere-GGX__roughness_0.3-uniform.exr",
+        "split_sum.csv", "manifest.json", "city-sphere-GGX__roughness_0.3-uniform.exr",
         "city-sphere-GGX__roughness_0.3-uniform-error.exr",
         "city-sphere-GGX__roughness_0.3-reference.exr"}) {
     EXPECT_TRUE(fs::exists(folder / name) && fs::file_size(folder / name) > 0) << name;

@@ -18,7 +18,8 @@ constexpr std::uint64_t kSamples = 30000;
 constexpr double kErrors = 5.0;
 
 ShadingPoint seen_at(double cosine) {
-  return {glm::dvec3(0.0), frame_around({0.0, 0.0, 1.0}),
+  return {glm::dvec3(0.0),
+          frame_around({0.0, 0.0, 1.0}),
           {std::sqrt(1.0 - cosine * cosine), 0.0, cosine}};
 }
 
@@ -31,9 +32,10 @@ TEST(LayeredLight, OfAWhiteSkyIsWhatTheCoatReflects) {
     const LayeredSurface surface = {Ggx{0.5, 0.0}, f0, glm::dvec3(0.0)};
     const LayeredEstimate estimate =
         light.reflected(surface, seen_at(cosine), RandomStream("white", 1), kSamples);
-    const reference::SplitSum exact = reference::split_sum(
-        {{reference::NormalDistribution::Kind::ggx, 0.25}, reference::Masking::smith_height_correlated},
-        cosine);
+    const reference::SplitSum exact =
+        reference::split_sum({{reference::NormalDistribution::Kind::ggx, 0.25},
+                              reference::Masking::smith_height_correlated},
+                             cosine);
     for (int channel = 0; channel < 3; ++channel) {
       EXPECT_NEAR(estimate.radiance[channel], exact.of(f0[channel]),
                   kErrors * estimate.standard_error[channel]);
@@ -69,8 +71,8 @@ LayeredEstimate by_light_batch(const EnvironmentMap& map, const Scene& scene,
   const RandomStream stream("batch", 2);
   Moments red;
   for (std::uint64_t first = 0; first < kSamples; first += LightBatch::kCapacity) {
-    for (const Rgb rgb : batch.estimate({&scene, &light, material}, at, {stream, first},
-                                        LightBatch::kCapacity)) {
+    for (const Rgb rgb :
+         batch.estimate({&scene, &light, material}, at, {stream, first}, LightBatch::kCapacity)) {
       red.add(static_cast<double>(rgb.r));
     }
   }
@@ -87,8 +89,7 @@ TEST(LayeredLight, IsThatOfTheIntegratorOfRenders) {
                            frame_around({0.0, 0.0, 1.0}),
                            glm::normalize(Direction(0.5, -1.0, 0.7))};
   const auto agree = [&](const LayeredSurface& surface, const Material& material) {
-    const LayeredEstimate one =
-        light.reflected(surface, at, RandomStream("layered", 1), kSamples);
+    const LayeredEstimate one = light.reflected(surface, at, RandomStream("layered", 1), kSamples);
     const LayeredEstimate other = by_light_batch(map, scene, material, at);
     EXPECT_NEAR(one.radiance.r, other.radiance.r,
                 kErrors * std::hypot(one.standard_error.r, other.standard_error.r));
@@ -101,8 +102,8 @@ TEST(LayeredLight, FindsASmallSun) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {512, 256});
   const Scene scene({false, false});
   const LayeredSurface surface = {Ggx{0.3, 0.0}, glm::dvec3(0.04), glm::dvec3(0.8)};
-  const LayeredEstimate estimate = LayeredLight(map, scene).reflected(
-      surface, seen_at(0.8), RandomStream("sun", 1), 3000);
+  const LayeredEstimate estimate =
+      LayeredLight(map, scene).reflected(surface, seen_at(0.8), RandomStream("sun", 1), 3000);
   EXPECT_LT(estimate.standard_error.r, 0.03 * estimate.radiance.r);
 }
 

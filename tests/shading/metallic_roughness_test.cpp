@@ -40,9 +40,9 @@ TEST(MetallicRoughness, OfAWhiteSurfaceUnderAWhiteSkyHasThePrintedValues) {
 
 TEST(MetallicRoughness, KeepsAllLightWhereTheBaseGetsWhatTheCoatLeaves) {
   for (const double roughness : {0.1, 0.5, 1.0}) {
-    EXPECT_NEAR(under_white_sky(white(roughness), 0.5, Masking::height_correlated,
-                                DiffuseShare::remaining),
-                1.0, 1e-12);
+    EXPECT_NEAR(
+        under_white_sky(white(roughness), 0.5, Masking::height_correlated, DiffuseShare::remaining),
+        1.0, 1e-12);
   }
 }
 
@@ -61,8 +61,7 @@ TEST(MetallicRoughness, TakesTheReflectanceOfAMetalFromItsColour) {
 TEST(MetallicRoughness, AddsEmissionAndEncodesAll) {
   MetallicRoughness surface = white(0.5);
   surface.emission = display_decoded(glm::dvec3(0.5));
-  const Radiance dark =
-      shaded(surface, 0.5, {glm::dvec3(0.0), {0.5, 0.1}, glm::dvec3(0.0)});
+  const Radiance dark = shaded(surface, 0.5, {glm::dvec3(0.0), {0.5, 0.1}, glm::dvec3(0.0)});
   EXPECT_NEAR(display_encoded(dark).r, 0.5, 1e-15);
   EXPECT_NEAR(dark.rgb.r, std::pow(0.5, 2.2), 1e-15);
 }
@@ -84,9 +83,9 @@ TEST(MetallicRoughnessMaps, PassTheLastLevelAsPublished) {
   const auto prefiltered = [&](double roughness, LevelForm form) {
     return maps.look_up(roughness, normal, view, form).prefiltered.r;
   };
-  // R mipCount is the level of R mipCount / (mipCount - 1), and from 0.8 of five levels on the last.
-  EXPECT_NEAR(prefiltered(0.4, LevelForm::published), prefiltered(0.5, LevelForm::corrected),
-              1e-6);
+  // R mipCount is the level of R mipCount / (mipCount - 1), and from 0.8 of five levels on the
+  // last.
+  EXPECT_NEAR(prefiltered(0.4, LevelForm::published), prefiltered(0.5, LevelForm::corrected), 1e-6);
   EXPECT_EQ(prefiltered(0.8, LevelForm::published), prefiltered(1.0, LevelForm::corrected));
   EXPECT_EQ(prefiltered(1.0, LevelForm::published), prefiltered(1.0, LevelForm::corrected));
   EXPECT_NE(prefiltered(0.4, LevelForm::published), prefiltered(0.4, LevelForm::corrected));
@@ -173,13 +172,11 @@ TEST(MetallicRoughnessSphere, IsTheOneByBruteForceInEveryPixelUnderAWhiteSky) {
   ASSERT_GT(pixels.size(), 80U);
   std::vector<LayeredEstimate> estimates(pixels.size());
   parallel_for(pixels.size(), [&](std::size_t i) {
-    estimates[i] =
-        light.reflected(layered, pixels[i].point, RandomStream("white-sphere", i), 6000);
+    estimates[i] = light.reflected(layered, pixels[i].point, RandomStream("white-sphere", i), 6000);
   });
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const double cosine = glm::dot(pixels[i].point.frame.normal, pixels[i].point.view);
-    const ScaleBias brdf =
-        integrate_brdf(cosine, surface.roughness, Masking::height_correlated);
+    const ScaleBias brdf = integrate_brdf(cosine, surface.roughness, Masking::height_correlated);
     const glm::dvec3 formula =
         shaded(surface, cosine, {glm::dvec3(1.0), brdf, glm::dvec3(1.0)}).rgb;
     for (int channel = 0; channel < 3; ++channel) {
@@ -205,8 +202,7 @@ TEST(MetallicRoughnessSphere, IsTheOneByBruteForceWhereItIsDiffuse) {
     const LayeredEstimate exact = light.reflected(
         layered, pixel.point, RandomStream("diffuse-sphere", 1).substream(pixel.x), 3000);
     const glm::dvec3 shown =
-        shaded(surface, maps, pixel.point.frame.normal, pixel.point.view, LevelForm::corrected)
-            .rgb;
+        shaded(surface, maps, pixel.point.frame.normal, pixel.point.view, LevelForm::corrected).rgb;
     // B < 0.0031 at R = 1 and n·v >= 1/2, whatever the map shows up to radiance 1; 1/16 of the
     // normal's width in the 64 x 32 map changes E/pi by less than 0.002.
     EXPECT_NEAR(shown.r, exact.radiance.r, 5.0 * exact.standard_error.r + 0.0051);

@@ -43,7 +43,7 @@ TEST(ShadedPictures, AreOfOneSizeAndCorrectWhatIsPublished) {
 TEST(ReflectivityPicture, AsPublishedIsTooDarkByTwoOverPi) {
   const PublishedPicture picture = reflectivity_picture(small());
   const double exact = mean_luminance(picture.exact);
-  // At R = 0.5 next to no sample is skipped. The mean of 8192 texels of 256 samples is right to
+  // At R = 0.5 next to no sample is skipped. The mean of 4608 texels of 1024 samples is right to
   // less than 1e-3.
   EXPECT_NEAR(mean_luminance(picture.published) / exact, 2.0 / kPi, 2e-3);
   EXPECT_NEAR(mean_luminance(picture.corrected) / exact, 1.0, 2e-3);
@@ -59,8 +59,8 @@ TEST(ShadedSphere, ByTheExactFormErrsByTheNoiseOfBruteForceAlone) {
   };
   const ShadePoint brighter = [&](const ShadingPoint& at) { return 1.1 * exact(at); };
   const PublishedPicture picture = shaded_sphere(map, surface, brighter, exact, small());
-  // Brighter by a tenth: the root mean square of a tenth of the radiance over its mean, a little more
-  // than 0.1 because the sphere is not equally bright.
+  // Brighter by a tenth: the root mean square of a tenth of the radiance over its mean, a little
+  // more than 0.1 because the sphere is not equally bright.
   EXPECT_NEAR(picture.published_rmse, 0.1, 0.01);
   EXPECT_LT(picture.corrected_rmse, 2.0 * picture.noise);
   // Beside the sphere there is no error, and the pictures are alike.

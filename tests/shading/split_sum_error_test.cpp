@@ -48,10 +48,10 @@ double reflection(double roughness, double f0, const ShadingPoint& at, Direction
 TEST(SplitSumKernels, ReflectWhatTheSurfaceReflectsOfAWhiteSky) {
   for (const double roughness : {0.2, 0.5, 1.0}) {
     for (const double cosine : {1.0, 0.5, 0.17}) {
-      const reference::SplitSum exact = reference::split_sum(
-          {{reference::NormalDistribution::Kind::ggx, roughness * roughness},
-           reference::Masking::smith_height_correlated},
-          cosine);
+      const reference::SplitSum exact =
+          reference::split_sum({{reference::NormalDistribution::Kind::ggx, roughness * roughness},
+                                reference::Masking::smith_height_correlated},
+                               cosine);
       const auto kernels = split_sum_kernels(roughness, cosine, kReflectances);
       for (std::size_t i = 0; i < kReflectances.size(); ++i) {
         EXPECT_NEAR(kernels[i].reflectance, exact.of(kReflectances[i]), 1e-6)
@@ -130,8 +130,7 @@ Orientations drawn_orientations(const EnvironmentMap& map, double roughness, dou
   std::vector<double> exact(points.size());
   parallel_for(points.size(), [&](std::size_t i) {
     const auto light = [&](Direction l, int x, int y) {
-      return glm::dvec3(luminance_of(map.radiance(x, y))) *
-             reflection(roughness, f0, points[i], l);
+      return glm::dvec3(luminance_of(map.radiance(x, y))) * reflection(roughness, f0, points[i], l);
     };
     exact[i] = integral_over_sphere(map.radiance.extent(), 8, light).x;
   });
@@ -165,12 +164,11 @@ TEST(SplitSumError, IsTheRootMeanSquareOverAllOrientations) {
 TEST(SplitSumError, LeavesOutNoMoreThanItSays) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {128, 64});
   const double cosine = std::cos(60.0 * kPi / 180.0);
-  const SplitSumError all = split_sum_error(split_sum_kernels(0.3, cosine, kReflectances)[0],
-                                            luminance_power(map));
+  const SplitSumError all =
+      split_sum_error(split_sum_kernels(0.3, cosine, kReflectances)[0], luminance_power(map));
   for (const int degree : {10, 20, 40}) {
-    const SplitSumError part =
-        split_sum_error(split_sum_kernels(0.3, cosine, kReflectances, degree)[0],
-                        luminance_power(map, degree));
+    const SplitSumError part = split_sum_error(
+        split_sum_kernels(0.3, cosine, kReflectances, degree)[0], luminance_power(map, degree));
     EXPECT_LT(part.rmse, all.rmse);
     EXPECT_GT(std::hypot(part.rmse, part.left_out), all.rmse) << degree;
   }

@@ -32,8 +32,7 @@ TEST(TwoMaps, OfAWhiteSkyAreTheValuesOfTheirForm) {
   const EnvironmentMap white = make_synthetic_map("constant", kMap);
   const Direction normal = glm::normalize(Direction(1.0, -2.0, 0.5));
   const Direction view = glm::normalize(Direction(1.0, -1.0, 0.7));
-  for (const TwoMapsForm form :
-       {TwoMapsForm::text, TwoMapsForm::program, TwoMapsForm::corrected}) {
+  for (const TwoMapsForm form : {TwoMapsForm::text, TwoMapsForm::program, TwoMapsForm::corrected}) {
     const TwoMaps maps(white, kMap, kReflectivityLevels, form);
     for (const int level : {1, 3, 6}) {
       const GlossyOnDiffuse surface = {reflectivity_roughness(level), 0.04, {0.8, 0.4, 0.1}};

@@ -24,10 +24,11 @@ std::string form_figure(std::string_view name, const std::string& form, const Gr
       "<figure>{}\n{}\n<figcaption><strong>{}</strong>: {}<br>RMS difference / mean "
       "{}</figcaption></figure>\n",
       image_html(tone_mapped(picture, scale), fmt::format("Picture, {}", name)),
-      image_html(diverging_picture(error, range),
-                 fmt::format("Signed difference of the {} picture, from blue (too dark) to red (too "
-                             "bright)",
-                             name)),
+      image_html(
+          diverging_picture(error, range),
+          fmt::format("Signed difference of the {} picture, from blue (too dark) to red (too "
+                      "bright)",
+                      name)),
       escaped(name), escaped(form), percent(rmse));
 }
 

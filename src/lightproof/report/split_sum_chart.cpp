@@ -1,5 +1,6 @@
 // The split sum's error over roughness and view angle, as heat maps.
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -13,10 +14,12 @@ namespace lightproof {
 namespace {
 
 /// The ends of the colours, of all maps: errors beyond have the end's colour.
-constexpr double kLowest = 1e-2;
+constexpr double kLowest = 1e-3;
 constexpr double kHighest = 10.0;
+/// Pixels that the columns of numbers need.
+constexpr int kNumbersWidth = 560;
 /// From here on cells are dark.
-constexpr double kDark = 0.8;
+constexpr double kDark = 0.5;
 
 Json split_sum_rows(const std::vector<SplitSumRecord>& records, bool with_choice) {
   Json rows = Json::array();
@@ -57,12 +60,13 @@ Json colour(bool legend) {
                     {"scheme", "yelloworangered"}}}};
   channel["legend"] = nullptr;
   if (legend) {
-    channel["legend"] = {{"title", "RMS error / mean (log)"},
-                         {"values", {0.01, 0.1, 1.0, 10.0}},
-                         {"labelExpr",
-                          "datum.value == 0.01 ? '\u2264 1 %' : datum.value == 10 ? '\u2265 1000 "
-                          "%' : format(100 * datum.value, 'd') + ' %'"},
-                         {"gradientLength", 260}};
+    channel["legend"] = {
+        {"title", "RMS error / mean (log)"},
+        {"values", {0.001, 0.01, 0.1, 1.0, 10.0}},
+        {"labelExpr",
+         "datum.value == 0.001 ? '\u2264 0.1 %' : datum.value == 10 ? '\u2265 1000 "
+         "%' : format(100 * datum.value, 'd') + ' %'"},
+        {"gradientLength", 300}};
   }
   return channel;
 }
@@ -80,9 +84,14 @@ Json fields(bool legend) {
 
 Json numbers() {
   const Json dark = {{"test", "datum.rmse >= " + significant(kDark)}, {"value", "white"}};
-  return {{"mark", {{"type", "text"}, {"fontSize", 12}, {"tooltip", nullptr}}},
-          {"encoding",
-           {{"text", {{"field", "text"}}}, {"color", {{"condition", dark}, {"value", "#1d232a"}}}}}};
+  return {
+      {"mark",
+       {{"type", "text"},
+        {"fontSize", 12},
+        {"tooltip", nullptr},
+        {"opacity", {{"expr", fmt::format("width < {} ? 0 : 1", kNumbersWidth)}}}}},
+      {"encoding",
+       {{"text", {{"field", "text"}}}, {"color", {{"condition", dark}, {"value", "#1d232a"}}}}}};
 }
 
 Json choice(const char* param, const char* label, const Json& options) {

@@ -22,15 +22,14 @@ bool less_wrong(const SplitSumRecord& a, const SplitSumRecord& b) { return a.rms
 double view_degrees(const SplitSumRecord& record) { return record.view_angle * 180.0 / kPi; }
 
 std::string percent_text(double fraction) {
-  if (fraction < 1e-4) return "< 0.01 %";
+  if (fraction < 1e-4) return "< 0.01\u00a0%";
   return format_number(100.0 * fraction, fraction < 0.1 ? 2 : 3) + "\u00a0%";
 }
 
 std::string plain_number(double value) { return fmt::format("{:.4g}", value); }
 
 std::string split_sum_text(const SplitSumRecord& record) {
-  const bool is_sure =
-      record.left_out * record.left_out <= kSureShare * record.rmse * record.rmse;
+  const bool is_sure = record.left_out * record.left_out <= kSureShare * record.rmse * record.rmse;
   return (is_sure || record.rmse < 1e-4 ? "" : "\u2265 ") + percent_text(record.rmse);
 }
 
@@ -43,10 +42,10 @@ std::string split_sum_finding(const std::vector<SplitSumRecord>& records) {
     return fmt::format("{}, roughness {}, F0 = {}", r.map, plain_number(r.roughness),
                        plain_number(r.normal_reflectance));
   };
-  const std::string whole =
-      fmt::format("The split sum errs by up to {} of the mean radiance at {}\u00b0 from the normal "
-                  "({})",
-                  percent_text(worst->rmse), std::lround(view_degrees(*worst)), place(*worst));
+  const std::string whole = fmt::format(
+      "The split sum errs by up to {} of the mean radiance at {}\u00b0 from the normal "
+      "({})",
+      percent_text(worst->rmse), std::lround(view_degrees(*worst)), place(*worst));
   std::vector<SplitSumRecord> along;
   std::copy_if(records.begin(), records.end(), std::back_inserter(along),
                [](const SplitSumRecord& r) { return r.view_angle == 0.0; });

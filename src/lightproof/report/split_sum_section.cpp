@@ -20,15 +20,15 @@ constexpr std::string_view kNote =
     "the prefiltered map times F0 A + B, both exact, against the integral of the map and the "
     "surface's own reflection. Each number is a root mean square over all orientations of surface "
     "and view in the map, over the mean of the exact radiance, in luminance; it was computed in "
-    "spherical harmonics up to degree 160, and nothing is sampled: where finer detail may add to it, "
+    "spherical harmonics up to degree 160, and nothing is sampled: where finer detail may add to "
+    "it, "
     "a \u2265 stands before it and the table has a bound. Levels and tables of an engine come on "
     "top. A small bright sun makes large numbers: its highlight has another shape, and at grazing "
     "views another place.";
 
 std::string table_of(const std::vector<SplitSumRecord>& records) {
-  Table table("Error of the split sum",
-              {"Map", "F0", "Roughness", "View angle (\u00b0)", "RMS error / mean",
-               "With finer detail, at most"});
+  Table table("Error of the split sum", {"Map", "F0", "Roughness", "View angle (\u00b0)",
+                                         "RMS error / mean", "With finer detail, at most"});
   for (const SplitSumRecord& r : records) {
     table.add({text_cell(r.map), number_cell(r.normal_reflectance), number_cell(r.roughness),
                number_cell(view_degrees(r)), number_cell(r.rmse),
@@ -54,12 +54,12 @@ std::string small_multiples(const std::vector<SplitSumRecord>& records) {
     const auto most = std::max_element(
         here.begin(), here.end(),
         [](const SplitSumRecord& a, const SplitSumRecord& b) { return a.rmse < b.rmse; });
-    html += chart_figure({fmt::format("split-sum-{}", i + 1),
-                          fmt::format("{}: up to {}", maps[i], percent_text(most->rmse)),
-                          fmt::format("Error of the split sum on {}, over roughness and view angle",
-                                      maps[i]),
-                          "", small_split_sum_chart(here)},
-                         "", true);
+    html += chart_figure(
+        {fmt::format("split-sum-{}", i + 1),
+         fmt::format("{}: up to {}", maps[i], percent_text(most->rmse)),
+         fmt::format("Error of the split sum on {}, over roughness and view angle", maps[i]), "",
+         small_split_sum_chart(here)},
+        "", true);
   }
   return html + "</div>\n";
 }
@@ -72,10 +72,11 @@ std::string split_sum_section(const std::vector<SplitSumRecord>& records) {
     return html + paragraph("The split sum's error was not computed in this study.", "empty") +
            "</section>\n";
   }
-  const Chart chart = {"split-sum-chart", split_sum_finding(records),
-                       "Heat map of the error of the split sum over roughness and view angle, for a "
-                       "map and a reflectance of your choice",
-                       std::string(kNote), split_sum_chart(records)};
+  const Chart chart = {
+      "split-sum-chart", split_sum_finding(records),
+      "Heat map of the error of the split sum over roughness and view angle, for a "
+      "map and a reflectance of your choice",
+      std::string(kNote), split_sum_chart(records)};
   html += chart_figure(chart, collapsible("Errors as a table", table_of(records)) +
                                   download_link("split_sum.csv", split_sum_csv(records)));
   return html + small_multiples(records) + "</section>\n";

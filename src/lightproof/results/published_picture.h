@@ -11,12 +11,12 @@ namespace lightproof {
 
 /// A picture three times, of one size, row 0 at the top.
 struct PublishedPicture {
-  std::string_view system;  ///< its number in the list of systems: "002-6"
-  std::string what;         ///< what is shown, in one line
+  std::string_view system;     ///< its number in the list of systems: "002-6"
+  std::string what;            ///< what is shown, in one line
   std::string published_form;  ///< what differs, in one line
   std::string corrected_form;
-  std::string exact_form;     ///< how the exact picture was made
-  Grid<Rgb> exact;            ///< linear radiance
+  std::string exact_form;  ///< how the exact picture was made
+  Grid<Rgb> exact;         ///< linear radiance
   Grid<Rgb> published;
   Grid<Rgb> corrected;
   /// Signed, in luminance over the mean luminance of the exact picture's own pixels; 0 where the

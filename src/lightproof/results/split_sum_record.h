@@ -14,7 +14,8 @@ struct SplitSumRecord {
   /// Root mean square over all orientations of surface and view in the map, over the mean of the
   /// exact radiance.
   double rmse = 0.0;
-  double left_out = 0.0;  ///< what details finer than the harmonics would add in quadrature, at most
+  double left_out =
+      0.0;  ///< what details finer than the harmonics would add in quadrature, at most
 };
 
 }  // namespace lightproof

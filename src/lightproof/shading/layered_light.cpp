@@ -47,8 +47,8 @@ Direction drawn_from_coat(const LayeredSurface& surface, const ShadingPoint& at,
 }
 
 glm::dvec3 base_value(const LayeredSurface& surface, const ShadingPoint& at, double cosine) {
-  const double seen = surface.share == BaseShare::of_view ? glm::dot(at.frame.normal, at.view)
-                                                          : cosine;
+  const double seen =
+      surface.share == BaseShare::of_view ? glm::dot(at.frame.normal, at.view) : cosine;
   return surface.albedo / kPi * cosine * (1.0 - schlick(surface.normal_reflectance, seen));
 }
 
@@ -78,8 +78,8 @@ glm::dvec3 LayeredLight::contribution(const LayeredSurface& surface, const Shadi
   const double of_map = to_solid_angle(sampler_.pdf(place), place).value;
   const double mixture = (coat.pdf + cosine / kPi + of_map) / kTechniques;
   if (!(mixture > 0.0) || !scene_->is_visible(at.position, light)) return glm::dvec3(0.0);
-  return glm::dvec3(look_up_nearest(map_->radiance, place)) *
-         value_of(surface, at, cosine, coat) / mixture;
+  return glm::dvec3(look_up_nearest(map_->radiance, place)) * value_of(surface, at, cosine, coat) /
+         mixture;
 }
 
 LayeredEstimate LayeredLight::reflected(const LayeredSurface& surface, const ShadingPoint& at,
@@ -91,10 +91,9 @@ LayeredEstimate LayeredLight::reflected(const LayeredSurface& surface, const Sha
     glm::dvec3 squares(0.0);
     for (std::uint64_t i = 0; i < each; ++i) {
       const SquarePoint u = stream.point(technique * each + i);
-      const Direction light =
-          technique == 0   ? drawn_from_coat(surface, at, u)
-          : technique == 1 ? at.frame.to_world(cosine_hemisphere_from_square(u))
-                           : direction_from_square(sampler_.sample(u).at);
+      const Direction light = technique == 0   ? drawn_from_coat(surface, at, u)
+                              : technique == 1 ? at.frame.to_world(cosine_hemisphere_from_square(u))
+                                               : direction_from_square(sampler_.sample(u).at);
       const glm::dvec3 value = contribution(surface, at, light);
       sum += value;
       squares += value * value;

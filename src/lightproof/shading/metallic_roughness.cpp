@@ -40,17 +40,16 @@ Neighbours neighbours(double coordinate, int count) {
 }  // namespace
 
 glm::dvec3 normal_reflectance(const MetallicRoughness& surface) {
-  return glm::mix(glm::dvec3(0.16 * surface.reflectance * surface.reflectance),
-                  surface.base_colour, surface.metallic);
+  return glm::mix(glm::dvec3(0.16 * surface.reflectance * surface.reflectance), surface.base_colour,
+                  surface.metallic);
 }
 
 Radiance shaded(const MetallicRoughness& surface, double cosine, const PrecomputedLight& light,
                 DiffuseShare share) {
   const glm::dvec3 f0 = normal_reflectance(surface);
   const glm::dvec3 specular = f0 * light.brdf.scale + light.brdf.bias;
-  const glm::dvec3 coat = share == DiffuseShare::published
-                              ? f0 + (1.0 - f0) * schlick_weight(cosine)
-                              : specular;
+  const glm::dvec3 coat =
+      share == DiffuseShare::published ? f0 + (1.0 - f0) * schlick_weight(cosine) : specular;
   const glm::dvec3 below = (1.0 - coat) * (1.0 - surface.metallic);
   return {surface.emission + below * surface.base_colour * light.diffuse +
           light.prefiltered * specular};

@@ -124,12 +124,13 @@ PublishedPicture metallic_roughness_picture(const ShadedPictureOptions& options)
   };
   const LayeredSurface surface = {Ggx{gold.roughness, 0.0}, normal_reflectance(gold),
                                   (1.0 - gold.metallic) * gold.base_colour};
-  PublishedPicture picture = shaded_sphere(map, surface, by(LevelForm::published),
-                                           by(LevelForm::corrected), options);
+  PublishedPicture picture =
+      shaded_sphere(map, surface, by(LevelForm::published), by(LevelForm::corrected), options);
   picture.system = "002-6";
-  picture.what = fmt::format("a golden sphere of roughness {} in a room with two windows, shaded by the "
-                             "split sum with {} levels",
-                             gold.roughness, kLevels);
+  picture.what = fmt::format(
+      "a golden sphere of roughness {} in a room with two windows, shaded by the "
+      "split sum with {} levels",
+      gold.roughness, kLevels);
   picture.published_form = "level R mipCount: too rough";
   picture.corrected_form = "level R (mipCount \u2212 1)";
   return picture;
@@ -137,32 +138,34 @@ PublishedPicture metallic_roughness_picture(const ShadedPictureOptions& options)
 
 PublishedPicture reflectivity_picture(const ShadedPictureOptions& options) {
   constexpr double kRoughness = 0.5;
-  constexpr int kFrames = 16;
+  constexpr int kFrames = 64;
+  constexpr Extent kExtent = {96, 48};
   constexpr int kSamplesOfFrame = 16;
   const EnvironmentMap map = room_with_windows();
   const Lobe lobe = HalfVectorLobe{half_vector_shininess(kRoughness)};
   const auto from_top = [](const Grid<Rgb>& level) { return lat_long_level(level).faces.front(); };
   const auto accumulated = [&](ReflectivityForm form) {
-    ReflectivityAccumulation accumulation(map.radiance, kMapExtent, kRoughness, form,
+    ReflectivityAccumulation accumulation(map.radiance, kExtent, kRoughness, form,
                                           RandomStream("reflectivity-picture", options.seed));
     for (int frame = 0; frame < kFrames; ++frame) accumulation.add_frame(kSamplesOfFrame);
     return from_top(accumulation.mean());
   };
   PublishedPicture picture;
   picture.system = "004-7";
-  picture.what = fmt::format("the reflectivity map of roughness {} of a room with two windows, {} frames of "
-                             "{} samples",
-                             kRoughness, kFrames, kSamplesOfFrame);
+  picture.what = fmt::format(
+      "the reflectivity map of roughness {} of a room with two windows, {} frames of "
+      "{} samples",
+      kRoughness, kFrames, kSamplesOfFrame);
   picture.published_form = "divided by the number of good samples";
   picture.corrected_form = "divided by the sum of their weights";
   picture.exact_form = "the map convolved with the lobe";
-  const std::vector<PrefilteredLevel> level = {{lobe, kMapExtent}};
+  const std::vector<PrefilteredLevel> level = {{lobe, kExtent}};
   picture.exact = from_top(prefilter(map.radiance, level).front());
   picture.published = accumulated(ReflectivityForm::published);
   picture.corrected = accumulated(ReflectivityForm::normalised);
   std::vector<Place> places;
-  for (int y = 0; y < kMapExtent.height; ++y) {
-    for (int x = 0; x < kMapExtent.width; ++x) places.push_back({x, y});
+  for (int y = 0; y < kExtent.height; ++y) {
+    for (int x = 0; x < kExtent.width; ++x) places.push_back({x, y});
   }
   compare(picture, places, {});
   return picture;
@@ -183,10 +186,12 @@ PublishedPicture two_maps_picture(const ShadedPictureOptions& options) {
                                   BaseShare::of_light};
   PublishedPicture picture = shaded_sphere(map, surface, by(program), by(corrected), options);
   picture.system = "004-15";
-  picture.what = fmt::format("a red glossy sphere of roughness {} in a room with two windows, shaded with "
-                             "a reflectivity map and an irradiance map",
-                             glossy.roughness);
-  picture.published_form = "the program's maps: c E where c E/\u03c0 is meant, reflections at 2/\u03c0";
+  picture.what = fmt::format(
+      "a red glossy sphere of roughness {} in a room with two windows, shaded with "
+      "a reflectivity map and an irradiance map",
+      glossy.roughness);
+  picture.published_form =
+      "the program's maps: c E where c E/\u03c0 is meant, reflections at 2/\u03c0";
   picture.corrected_form =
       "c E/\u03c0 behind the coat, the lobe's own weight; what is left is F taken at n\u00b7v "
       "(004-14)";

@@ -30,7 +30,7 @@ PublishedPicture shaded_sphere(const EnvironmentMap& map, const LayeredSurface& 
 /// 002-6: a golden sphere, by levels R mipCount and R (mipCount - 1) of five.
 PublishedPicture metallic_roughness_picture(const ShadedPictureOptions& options = {});
 
-/// 004-7: a reflectivity map of roughness 0.5 after 256 samples, divided by the number of good
+/// 004-7: a reflectivity map of roughness 0.5 after 1024 samples, divided by the number of good
 /// samples and by the sum of their weights, beside the exact one.
 PublishedPicture reflectivity_picture(const ShadedPictureOptions& options = {});
 

@@ -11,8 +11,8 @@ namespace lightproof {
 PublishedComparison white_furnace_comparison(double roughness, double cosine) {
   MetallicRoughness surface;
   surface.roughness = roughness;
-  const PrecomputedLight white = {glm::dvec3(1.0), integrate_brdf(cosine, roughness, Masking::karis),
-                                  glm::dvec3(1.0)};
+  const PrecomputedLight white = {
+      glm::dvec3(1.0), integrate_brdf(cosine, roughness, Masking::karis), glm::dvec3(1.0)};
   const auto reflected = [&](DiffuseShare share) {
     return shaded(surface, cosine, white, share).rgb.r;
   };
@@ -41,12 +41,13 @@ PublishedComparison two_maps_comparison(TwoMapsForm published) {
   const auto reflected = [&](TwoMapsForm form) {
     return shaded_by_white(surface, 1.0, form).rgb.r;
   };
-  return {"004-15",
-          published == TwoMapsForm::text
-              ? "white surface under a white sky by the equation of two hemispheres"
-              : "white surface under a white sky by the program's two maps, F times one and c times "
-                "the other",
-          white_along_normal(surface), reflected(published), reflected(TwoMapsForm::corrected)};
+  return {
+      "004-15",
+      published == TwoMapsForm::text
+          ? "white surface under a white sky by the equation of two hemispheres"
+          : "white surface under a white sky by the program's two maps, F times one and c times "
+            "the other",
+      white_along_normal(surface), reflected(published), reflected(TwoMapsForm::corrected)};
 }
 
 std::vector<PublishedComparison> shading_comparisons() {

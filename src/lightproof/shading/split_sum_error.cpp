@@ -1,6 +1,7 @@
 #include "lightproof/shading/split_sum_error.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cassert>
 #include <cmath>
@@ -41,14 +42,16 @@ void visit_nodes(double from, double to, const Visit& visit) {
   }
 }
 
-/// Edges of panels over polar angles from 0 on that double in width from `least` on. Circles meet
-/// the horizon from one angle on and are below it from another: an edge each, the latter the last.
-std::vector<double> panel_edges(double least, double meets_horizon, double below_horizon) {
+/// Edges of panels over polar angles from 0 on that double in width from `least` on; `breaks`, in
+/// their order, are edges, the last one the end.
+std::vector<double> panel_edges(double least, std::span<const double> breaks) {
   std::vector<double> edges = {0.0};
-  for (double width = least; edges.back() < below_horizon;) {
-    const double end = edges.back() < meets_horizon ? meets_horizon : below_horizon;
-    edges.push_back(std::min(end, edges.back() + width));
-    width = std::min(2.0 * width, kWidestPanel);
+  double width = least;
+  for (const double end : breaks) {
+    while (edges.back() < end) {
+      edges.push_back(std::min(end, edges.back() + width));
+      width = std::min(2.0 * width, kWidestPanel);
+    }
   }
   return edges;
 }
@@ -85,9 +88,9 @@ struct Reflection {
 Reflection reflection(double alpha, Direction view, Direction light) {
   if (!(light.z > 0.0)) return {0.0, 0.0};
   const HalfVector half = half_vector(view, light);
-  const double k =
-      ggx_normal_distribution(alpha, half.normal) *
-      smith_visibility(SmithMasking::height_correlated, alpha, view.z, light.z) * light.z;
+  const double k = ggx_normal_distribution(alpha, half.normal) *
+                   smith_visibility(SmithMasking::height_correlated, alpha, view.z, light.z) *
+                   light.z;
   const double fresnel = schlick_weight(half.cosine);
   return {k * (1.0 - fresnel), k * fresnel};
 }
@@ -125,9 +128,10 @@ class KernelTransform {
     sums_.bias.resize(legendre_.size());
     sums_.lobe.resize(degrees());
     // Out of the plane of incidence the lobe is narrower than in it, by the cosine of the view.
+    // Circles meet the horizon from one angle on and are below it from another; the lobe ends between.
     const double tilt = std::atan2(frame_.sine, frame_.cosine);
-    const std::vector<double> edges =
-        panel_edges(0.5 * alpha_ * frame_.cosine, 0.5 * kPi - tilt, 0.5 * kPi + tilt);
+    const std::array breaks = {0.5 * kPi - tilt, 0.5 * kPi, 0.5 * kPi + tilt};
+    const std::vector<double> edges = panel_edges(0.5 * alpha_ * frame_.cosine, breaks);
     for (std::size_t i = 1; i < edges.size(); ++i) {
       visit_nodes(edges[i - 1], edges[i], [&](Node polar) { add(polar); });
     }
@@ -282,8 +286,8 @@ SplitSumError split_sum_error(const SplitSumKernel& kernel, const AngularPower& 
   // Neither power is larger than all that is left of it; and of light that is nowhere negative, no
   // P_l / (2l + 1) is larger than P_0.
   const double next = 2.0 * static_cast<double>(error.size()) + 1.0;
-  const double beyond = kernel.difference.beyond *
-                        std::min(luminance.beyond / next, luminance.of_degree[0]);
+  const double beyond =
+      kernel.difference.beyond * std::min(luminance.beyond / next, luminance.of_degree[0]);
   return {std::sqrt(sum / mean_square), std::sqrt(beyond / mean_square)};
 }
 

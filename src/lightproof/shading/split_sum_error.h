@@ -1,7 +1,7 @@
 // What the split sum gets wrong: the radiance that a GGX surface reflects of a map, L_o = ∫ L k
-// d(omega) with k = f_r (n·l)+, against the product of the prefiltered map in the mirrored direction
-// and the reflectance of the BRDF integration map, (F0 A + B) ∫ L q d(omega) (Karis 2013, "Real
-// Shading in Unreal Engine 4"). Both parts are exact here: no levels, no tables, no samples.
+// d(omega) with k = f_r (n·l)+, against the product of the prefiltered map in the mirrored
+// direction and the reflectance of the BRDF integration map, (F0 A + B) ∫ L q d(omega) (Karis 2013,
+// "Real Shading in Unreal Engine 4"). Both parts are exact here: no levels, no tables, no samples.
 //
 // The error of one orientation of surface and view in the map is ∫ L d, d = k - (F0 A + B) q. Its
 // mean square over all orientations needs no rotation: in spherical harmonics, with the powers

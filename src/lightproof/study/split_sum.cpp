@@ -47,8 +47,8 @@ std::vector<SplitSumRecord> study_split_sum(std::span<const EnvironmentMap> maps
     map_cells.push_back({map_key(map), [&map] { return luminance_power(map); }});
   }
   const CellResults<AngularPower> powers =
-      gather(compute_cells<AngularPower>(map_cells, communicator.share,
-                                         part_of(progress, 0.0, 0.3), "split sum"),
+      gather(compute_cells<AngularPower>(map_cells, communicator.share, part_of(progress, 0.0, 0.3),
+                                         "split sum"),
              communicator);
   const CellResults<Kernels> kernels =
       gather(compute_cells<Kernels>(kernel_cells, communicator.share, part_of(progress, 0.3, 1.0),
@@ -59,10 +59,10 @@ std::vector<SplitSumRecord> study_split_sum(std::span<const EnvironmentMap> maps
     for (std::size_t i = 0; i < options.normal_reflectances.size(); ++i) {
       for (const double roughness : options.roughness) {
         for (const double angle : angles) {
-          const SplitSumError error = split_sum_error(
-              kernels.at(kernel_key(roughness, angle))[i], powers.at(map_key(map)));
-          records.push_back({map.name, roughness, angle, options.normal_reflectances[i],
-                             error.rmse, error.left_out});
+          const SplitSumError error =
+              split_sum_error(kernels.at(kernel_key(roughness, angle))[i], powers.at(map_key(map)));
+          records.push_back({map.name, roughness, angle, options.normal_reflectances[i], error.rmse,
+                             error.left_out});
         }
       }
     }
