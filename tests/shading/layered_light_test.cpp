@@ -81,21 +81,25 @@ LayeredEstimate by_light_batch(const EnvironmentMap& map, const Scene& scene,
 }
 
 TEST(LayeredLight, IsThatOfTheIntegratorOfRenders) {
-  const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
   const Scene scene({true, true});
-  const LayeredLight light(map, scene);
   // On the plane, beside the sphere, which blocks a part of the sky.
   const ShadingPoint at = {{1.3, 0.2, -1.0 + kSurfaceOffset},
                            frame_around({0.0, 0.0, 1.0}),
                            glm::normalize(Direction(0.5, -1.0, 0.7))};
-  const auto agree = [&](const LayeredSurface& surface, const Material& material) {
-    const LayeredEstimate one = light.reflected(surface, at, RandomStream("layered", 1), kSamples);
-    const LayeredEstimate other = by_light_batch(map, scene, material, at);
-    EXPECT_NEAR(one.radiance.r, other.radiance.r,
-                kErrors * std::hypot(one.standard_error.r, other.standard_error.r));
-  };
-  agree({Ggx{0.6, 0.0}, glm::dvec3(0.3), glm::dvec3(0.0)}, Ggx{0.6, 0.3});
-  agree({BlinnMicrofacet{0.6, 0.0}, glm::dvec3(0.3), glm::dvec3(0.0)}, BlinnMicrofacet{0.6, 0.3});
+  for (const char* name : {"sun-sky", "gradient"}) {
+    const EnvironmentMap map = make_synthetic_map(name, {64, 32});
+    const LayeredLight light(map, scene);
+    const auto agree = [&](const LayeredSurface& surface, const Material& material) {
+      const LayeredEstimate one =
+          light.reflected(surface, at, RandomStream("layered", 1), kSamples);
+      const LayeredEstimate other = by_light_batch(map, scene, material, at);
+      EXPECT_NEAR(one.radiance.r, other.radiance.r,
+                  kErrors * std::hypot(one.standard_error.r, other.standard_error.r))
+          << name;
+    };
+    agree({Ggx{0.6, 0.0}, glm::dvec3(0.3), glm::dvec3(0.0)}, Ggx{0.6, 0.3});
+    agree({BlinnMicrofacet{0.6, 0.0}, glm::dvec3(0.3), glm::dvec3(0.0)}, BlinnMicrofacet{0.6, 0.3});
+  }
 }
 
 TEST(LayeredLight, FindsASmallSun) {

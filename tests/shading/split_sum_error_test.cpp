@@ -90,6 +90,21 @@ TEST(SplitSumError, IsNoneUnderAConstantSky) {
   }
 }
 
+TEST(SplitSumError, OfALinearSkyIsItsGradientTimesTheFirstMomentOverTheRootOfThree) {
+  constexpr Extent kFine = {512, 256};
+  const EnvironmentMap map = make_synthetic_map("gradient", kFine);
+  const auto luminance = [&](int y) { return luminance_of(map.radiance(0, y)); };
+  const double height = direction_from_square({0.5 / kFine.width, 0.5 / kFine.height}).z;
+  const double slope = (luminance(kFine.height - 1) - luminance(0)) / (-2.0 * height);
+  const double mean = 0.5 * (luminance(kFine.height - 1) + luminance(0));
+  for (const SplitSumKernel& kernel : split_sum_kernels(0.7, 0.5, kReflectances)) {
+    const double moment = std::sqrt(kernel.difference.of_degree[1] * kSphere / 3.0);
+    const double expected = slope * moment / std::sqrt(3.0) / (mean * kernel.reflectance);
+    // Texels of 0.7 degrees, each constant, are linear to 1e-4.
+    EXPECT_NEAR(split_sum_error(kernel, luminance_power(map)).rmse, expected, 2e-4 * expected);
+  }
+}
+
 TEST(SplitSumError, OfABlackMapIsNone) {
   EnvironmentMap black{"black", Grid<Rgb>(Extent{8, 4})};
   const AngularPower power = luminance_power(black);
