@@ -18,18 +18,26 @@ constexpr std::string_view kNote =
     "mean over what is shaded; at most 1\u00a0% of the differences lie beyond the ends of the "
     "colours.";
 
-std::string form_figure(std::string_view name, const std::string& form, const Grid<Rgb>& picture,
-                        const Grid<double>& error, double rmse, double scale, double range) {
+/// A picture by one form.
+struct Form {
+  std::string_view name;
+  const std::string& text;
+  const Grid<Rgb>& picture;
+  const Grid<double>& error;
+  double rmse;
+};
+
+std::string form_figure(const Form& form, double scale, double range) {
   return fmt::format(
       "<figure>{}\n{}\n<figcaption><strong>{}</strong>: {}<br>RMS difference / mean "
       "{}</figcaption></figure>\n",
-      image_html(tone_mapped(picture, scale), fmt::format("Picture, {}", name)),
+      image_html(tone_mapped(form.picture, scale), fmt::format("Picture, {}", form.name)),
       image_html(
-          diverging_picture(error, range),
+          diverging_picture(form.error, range),
           fmt::format("Signed difference of the {} picture, from blue (too dark) to red (too "
                       "bright)",
-                      name)),
-      escaped(name), escaped(form), percent(rmse));
+                      form.name)),
+      escaped(form.name), escaped(form.text), percent(form.rmse));
 }
 
 std::string noise_text(const PublishedPicture& picture) {
@@ -51,10 +59,12 @@ std::string picture_html(const PublishedPicture& picture) {
       "</figcaption></figure>\n",
       image_html(tone_mapped(picture.exact, scale), "Exact picture"), colour_bar_html(range),
       escaped(picture.exact_form), noise_text(picture));
-  html += form_figure("published", picture.published_form, picture.published,
-                      picture.published_error, picture.published_rmse, scale, range);
-  html += form_figure("corrected", picture.corrected_form, picture.corrected,
-                      picture.corrected_error, picture.corrected_rmse, scale, range);
+  html += form_figure({"published", picture.published_form, picture.published,
+                       picture.published_error, picture.published_rmse},
+                      scale, range);
+  html += form_figure({"corrected", picture.corrected_form, picture.corrected,
+                       picture.corrected_error, picture.corrected_rmse},
+                      scale, range);
   return html + "</div>\n";
 }
 

@@ -24,6 +24,35 @@ std::string kernel_key(double roughness, double angle) {
 
 std::string map_key(const EnvironmentMap& map) { return "split-sum/map/" + map.name; }
 
+using Kernels = std::vector<SplitSumKernel>;
+
+/// A cell of work for every surface and view, whatever the map.
+CellResults<Kernels> kernels_of(const SplitSumOptions& options, std::span<const double> angles,
+                                const Progress& progress, const Communicator& communicator) {
+  std::vector<WorkCell<Kernels>> cells;
+  for (const double roughness : options.roughness) {
+    for (const double angle : angles) {
+      cells.push_back({kernel_key(roughness, angle), [&options, roughness, angle] {
+                         return split_sum_kernels(roughness, std::cos(angle),
+                                                  options.normal_reflectances);
+                       }});
+    }
+  }
+  return gather(compute_cells<Kernels>(cells, communicator.share, progress, "split sum"),
+                communicator);
+}
+
+/// A cell of work for every map.
+CellResults<AngularPower> powers_of(std::span<const EnvironmentMap> maps, const Progress& progress,
+                                    const Communicator& communicator) {
+  std::vector<WorkCell<AngularPower>> cells;
+  for (const EnvironmentMap& map : maps) {
+    cells.push_back({map_key(map), [&map] { return luminance_power(map); }});
+  }
+  return gather(compute_cells<AngularPower>(cells, communicator.share, progress, "split sum"),
+                communicator);
+}
+
 }  // namespace
 
 std::vector<SplitSumRecord> study_split_sum(std::span<const EnvironmentMap> maps,
@@ -32,28 +61,8 @@ std::vector<SplitSumRecord> study_split_sum(std::span<const EnvironmentMap> maps
                                             const Communicator& communicator) {
   if (maps.empty()) return {};
   const std::vector<double> angles = angles_of(options);
-  using Kernels = std::vector<SplitSumKernel>;
-  std::vector<WorkCell<Kernels>> kernel_cells;
-  for (const double roughness : options.roughness) {
-    for (const double angle : angles) {
-      kernel_cells.push_back({kernel_key(roughness, angle), [&options, roughness, angle] {
-                                return split_sum_kernels(roughness, std::cos(angle),
-                                                         options.normal_reflectances);
-                              }});
-    }
-  }
-  std::vector<WorkCell<AngularPower>> map_cells;
-  for (const EnvironmentMap& map : maps) {
-    map_cells.push_back({map_key(map), [&map] { return luminance_power(map); }});
-  }
-  const CellResults<AngularPower> powers =
-      gather(compute_cells<AngularPower>(map_cells, communicator.share, part_of(progress, 0.0, 0.3),
-                                         "split sum"),
-             communicator);
-  const CellResults<Kernels> kernels =
-      gather(compute_cells<Kernels>(kernel_cells, communicator.share, part_of(progress, 0.3, 1.0),
-                                    "split sum"),
-             communicator);
+  const auto powers = powers_of(maps, part_of(progress, 0.0, 0.3), communicator);
+  const auto kernels = kernels_of(options, angles, part_of(progress, 0.3, 1.0), communicator);
   std::vector<SplitSumRecord> records;
   for (const EnvironmentMap& map : maps) {
     for (std::size_t i = 0; i < options.normal_reflectances.size(); ++i) {
