@@ -133,14 +133,11 @@ TEST(StudyJson, HoldsEverythingButThePixels) {
                                                       "renders",
                                                       "self_test",
                                                       "published_forms",
+                                                      "published_pictures",
+                                                      "split_sum",
                                                       "frames",
                                                       "points",
                                                       "level_costs"}));
-  EXPECT_EQ(keys_of(document),
-            (std::set<std::string>{
-                "format_version", "version", "commit", "command", "machine", "seed", "maps", "gate",
-                "convergence", "throughput", "throughput_origin", "caches", "growth", "tables",
-                "renders", "self_test", "published_forms", "published_pictures", "split_sum"}));
   EXPECT_EQ(document["maps"].size(), 8U);
   EXPECT_EQ(document["maps"][0]["size"], (json{64, 32}));
   EXPECT_EQ(document["maps"][0]["drawn"].size(), 300U);

@@ -33,8 +33,7 @@ std::string report_page(const StudyResult& study) {
                            variance_section(study.convergence) + throughput_section(study) +
                            render_section(study.renders) + level_cost_section(study.level_costs) +
                            point_section(study.points) + frame_section(study.frames) +
-                           published_section(study.published_forms);
-                           render_section(study.renders) + split_sum_section(study.split_sum) +
+                           split_sum_section(study.split_sum) +
                            published_section(study.published_forms, study.published_pictures);
   return html_document("Lightproof: " + headline(study), kNavigation, body, study.version);
 }

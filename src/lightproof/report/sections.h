@@ -15,7 +15,6 @@ std::string convergence_section(const std::vector<ConvergenceRecord>& records);
 std::string variance_section(const std::vector<ConvergenceRecord>& records);
 std::string throughput_section(const StudyResult& study);
 std::string render_section(const std::vector<RenderRecord>& renders);
-std::string published_section(const std::vector<PublishedComparison>& comparisons);
 std::string frame_section(const std::vector<FrameErrorRecord>& frames);
 std::string point_section(const PointStudy& points);
 std::string level_cost_section(const LevelCosts& costs);

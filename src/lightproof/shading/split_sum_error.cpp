@@ -128,7 +128,8 @@ class KernelTransform {
     sums_.bias.resize(legendre_.size());
     sums_.lobe.resize(degrees());
     // Out of the plane of incidence the lobe is narrower than in it, by the cosine of the view.
-    // Circles meet the horizon from one angle on and are below it from another; the lobe ends between.
+    // Circles meet the horizon from one angle on and are below it from another; the lobe ends
+    // between.
     const double tilt = std::atan2(frame_.sine, frame_.cosine);
     const std::array breaks = {0.5 * kPi - tilt, 0.5 * kPi, 0.5 * kPi + tilt};
     const std::vector<double> edges = panel_edges(0.5 * alpha_ * frame_.cosine, breaks);

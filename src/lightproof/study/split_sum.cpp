@@ -53,6 +53,19 @@ CellResults<AngularPower> powers_of(std::span<const EnvironmentMap> maps, const 
                 communicator);
 }
 
+/// Every combination, in the order of the records; what is computed is left at 0.
+std::vector<SplitSumRecord> cases_of(const std::string& map, double normal_reflectance,
+                                     std::span<const double> roughnesses,
+                                     std::span<const double> angles) {
+  std::vector<SplitSumRecord> cases;
+  for (const double roughness : roughnesses) {
+    for (const double angle : angles) {
+      cases.push_back({map, roughness, angle, normal_reflectance, 0.0, 0.0});
+    }
+  }
+  return cases;
+}
+
 }  // namespace
 
 std::vector<SplitSumRecord> study_split_sum(std::span<const EnvironmentMap> maps,
@@ -65,14 +78,15 @@ std::vector<SplitSumRecord> study_split_sum(std::span<const EnvironmentMap> maps
   const auto kernels = kernels_of(options, angles, part_of(progress, 0.3, 1.0), communicator);
   std::vector<SplitSumRecord> records;
   for (const EnvironmentMap& map : maps) {
+    const AngularPower& power = powers.at(map_key(map));
     for (std::size_t i = 0; i < options.normal_reflectances.size(); ++i) {
-      for (const double roughness : options.roughness) {
-        for (const double angle : angles) {
-          const SplitSumError error =
-              split_sum_error(kernels.at(kernel_key(roughness, angle))[i], powers.at(map_key(map)));
-          records.push_back({map.name, roughness, angle, options.normal_reflectances[i], error.rmse,
-                             error.left_out});
-        }
+      for (SplitSumRecord record :
+           cases_of(map.name, options.normal_reflectances[i], options.roughness, angles)) {
+        const std::string key = kernel_key(record.roughness, record.view_angle);
+        const SplitSumError error = split_sum_error(kernels.at(key)[i], power);
+        record.rmse = error.rmse;
+        record.left_out = error.left_out;
+        records.push_back(std::move(record));
       }
     }
   }
