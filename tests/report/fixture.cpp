@@ -175,6 +175,24 @@ std::vector<TableRecord> tables() {
           {"packed_alias", "sun-sky", extent, 4.2, 8.0, 4.7e-4, 35.2, 0.52}};
 }
 
+std::vector<DirectionRecord> directions() {
+  const Extent extent = {2048, 1024};
+  std::vector<DirectionRecord> records;
+  for (const char* density : {"A", "B", "C"}) {
+    const double slower = *density == 'B' ? 1.1 : 1.0;
+    records.push_back(
+        {"upper_bound_baseline", "sun-sky", extent, density, "fused", 260.0, 0.0, 0.0});
+    records.push_back({"bare_gather_2B", "sun-sky", extent, density, "fused", 3.6, 0.0, 0.0});
+    records.push_back({"packed_alias", "sun-sky", extent, density, "fused", 5.2 * slower,
+                       50.0 / slower, 0.69 / slower});
+    records.push_back({"packed_alias", "sun-sky", extent, density, "scalar", 31.0, 7.5, 0.0});
+    records.push_back(
+        {"guide_table", "sun-sky", extent, density, "fused", 8.0 * slower, 32.5, 0.45});
+    records.push_back({"guide_table", "sun-sky", extent, density, "scalar", 58.0, 4.1, 0.0});
+  }
+  return records;
+}
+
 double shade(double x, double y) {
   const double r2 = x * x + y * y;
   return r2 > 1.0 ? 0.0 : 0.2 + std::max(0.0, 0.6 * std::sqrt(1.0 - r2) + 0.5 * y - 0.4 * x);
@@ -316,6 +334,7 @@ StudyResult synthetic_study() {
   }
   study.throughput = throughput();
   study.tables = tables();
+  study.directions = directions();
   const Extent small = {256, 128};
   const Extent large = {4096, 2048};
   study.caches = {1048576.0, 33554432.0};

@@ -130,6 +130,7 @@ TEST(StudyJson, HoldsEverythingButThePixels) {
                                                       "caches",
                                                       "growth",
                                                       "tables",
+                                                      "directions",
                                                       "renders",
                                                       "self_test",
                                                       "published_forms",

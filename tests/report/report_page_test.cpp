@@ -81,8 +81,8 @@ TEST(Report, WritesAllItsFiles) {
   write_report(testing::synthetic_study(), folder);
   for (const char* name :
        {"report.html", "results.json", "gate.csv", "convergence.csv", "variance.csv",
-        "throughput.csv", "growth.csv", "build.csv", "tables.csv", "renders.csv", "maps.csv",
-        "split_sum.csv", "manifest.json", "city-sphere-GGX__roughness_0.3-uniform.exr",
+        "throughput.csv", "growth.csv", "build.csv", "tables.csv", "directions.csv", "renders.csv",
+        "maps.csv", "split_sum.csv", "manifest.json", "city-sphere-GGX__roughness_0.3-uniform.exr",
         "city-sphere-GGX__roughness_0.3-uniform-error.exr",
         "city-sphere-GGX__roughness_0.3-reference.exr"}) {
     EXPECT_TRUE(fs::exists(folder / name) && fs::file_size(folder / name) > 0) << name;

@@ -130,6 +130,16 @@ std::string tables_csv(const std::vector<TableRecord>& records) {
   return csv;
 }
 
+std::string directions_csv(const std::vector<DirectionRecord>& records) {
+  std::string csv =
+      "sampler,map,width,height,density,order,ns_per_sample,times_baseline,share_of_limit\n";
+  for (const DirectionRecord& r : records) {
+    csv += row(r.sampler, r.map, r.extent.width, r.extent.height, r.density, r.order,
+               r.ns_per_sample, r.times_baseline, r.share_of_limit);
+  }
+  return csv;
+}
+
 std::string renders_csv(const std::vector<RenderRecord>& records) {
   std::string csv = "map,receiver,material,estimator,samples,width,height,rmse,seconds,picture\n";
   const std::vector<std::string> stems = render_stems(records);

@@ -33,6 +33,7 @@ std::string growth_csv(const std::vector<GrowthFit>& growth);
 std::string build_csv(const std::vector<ThroughputRecord>& records);
 /// Tables: one row per sampler and map size, with time, bytes and error of the worst texel.
 std::string tables_csv(const std::vector<TableRecord>& records);
+std::string directions_csv(const std::vector<DirectionRecord>& records);
 /// Renders: one row per picture.
 std::string renders_csv(const std::vector<RenderRecord>& records);
 /// Mutants: one row per mutant and test that rejects it.

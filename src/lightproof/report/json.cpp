@@ -91,6 +91,7 @@ Json json_of(const ConvergencePoint& p);
 Json json_of(const ConvergenceRecord& r);
 Json json_of(const ThroughputRecord& r);
 Json json_of(const TableRecord& r);
+Json json_of(const DirectionRecord& r);
 Json json_of(const GrowthFit& fit);
 Json json_of(const StepTime& step);
 Json json_of(const MapRecord& r);
@@ -193,6 +194,17 @@ Json json_of(const TableRecord& r) {
           {"ns_per_sample", number(r.ns_per_sample)},
           {"bytes_per_texel", number(r.bytes_per_texel)},
           {"worst_texel_error", number(r.worst_texel_error)},
+          {"times_baseline", number(r.times_baseline)},
+          {"share_of_limit", number(r.share_of_limit)}};
+}
+
+Json json_of(const DirectionRecord& r) {
+  return {{"sampler", r.sampler},
+          {"map", r.map},
+          {"size", json_of(r.extent)},
+          {"density", r.density},
+          {"order", r.order},
+          {"ns_per_sample", number(r.ns_per_sample)},
           {"times_baseline", number(r.times_baseline)},
           {"share_of_limit", number(r.share_of_limit)}};
 }
@@ -355,6 +367,7 @@ std::string study_json(const StudyResult& study, const RunDescription& run) {
                   {"caches", {{"l2", number(study.caches.l2)}, {"l3", number(study.caches.l3)}}},
                   {"growth", list_of(study.growth)},
                   {"tables", list_of(study.tables)},
+                  {"directions", list_of(study.directions)},
                   {"renders", renders_json(study.renders)}});
 }
 

@@ -49,6 +49,7 @@ NamedTables tables_of(const StudyResult& study) {
           {"growth.csv", growth_csv(study.growth)},
           {"build.csv", build_csv(study.throughput)},
           {"tables.csv", tables_csv(study.tables)},
+          {"directions.csv", directions_csv(study.directions)},
           {"renders.csv", renders_csv(study.renders)},
           {"maps.csv", maps_csv(study.maps)},
           {"split_sum.csv", split_sum_csv(study.split_sum)},

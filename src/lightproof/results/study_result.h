@@ -35,6 +35,7 @@ struct StudyResult {
   CacheSizes caches;              ///< caches of the machine that measured the throughput
   std::vector<GrowthFit> growth;
   std::vector<TableRecord> tables;
+  std::vector<DirectionRecord> directions;
   std::vector<RenderRecord> renders;
   std::optional<SelfTestResult> self_test = {};
   std::vector<PublishedComparison> published_forms = {};

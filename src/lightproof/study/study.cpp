@@ -38,6 +38,7 @@ MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed) {
 void set_throughput(StudyResult& study, Throughput measured) {
   study.throughput = std::move(measured.samplers);
   study.tables = std::move(measured.tables);
+  study.directions = std::move(measured.directions);
   study.caches = measured.caches;
   study.throughput_origin = std::move(measured.origin);
   study.growth = growth_of(study.throughput, study.caches);
