@@ -136,7 +136,7 @@ TEST(Bilinear, BlackMapIsRefusedByName) {
 }
 
 TEST(Bilinear, TheLargestFloatBesideTheSmallestStaysFinite) {
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     const Bilinear sampler =
         sampler_of({3, 2}, {3e38F, 1e-37F, 0.0F, 0.0F, 0.0F, 3e38F}, density_space);
     const RandomStream stream("extremes", 1);
