@@ -228,7 +228,7 @@ TEST_P(Batch, OfDirectionsAtGivenPointsAndDirectionsOneByOneLieAtTheSamplesPosit
   if (GetParam().known_defects) return;  // may leave the map
   for (const Extent extent : {Extent{64, 32}, Extent{37, 19}, Extent{1, 1}, Extent{2, 1}}) {
     const EnvironmentMap map = make_synthetic_map("sun-sky", extent);
-    for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+    for (const DensitySpace density_space : kDensitySpaces) {
       std::visit(
           [&](const auto& sampler) {
             const std::vector<SquarePoint> points = test_points(1000);
