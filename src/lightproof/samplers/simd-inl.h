@@ -260,11 +260,12 @@ class PositionKernel {
                                number(1.0 - SolidAngleRows::kMargin));
     static_assert(sizeof(SolidAngleRows::Line) == 4 * sizeof(double));
     const Int line = hn::ShiftLeft<2>(to_whole(row));
+    const Number span = of_line(line, &SolidAngleRows::Line::span);
     const Number squared =
         hn::Add(of_line(line, &SolidAngleRows::Line::squared_sine), hn::Mul(f, span));
     const Number rest = hn::Sub(number(1.0), squared);
     const Number sine = hn::Mul(number(2.0), hn::Sqrt(hn::Mul(squared, rest)));
-    return {upper, row, line, squared, sine, hn::Sub(rest, squared)};
+    return {upper, row, line, span, squared, sine, hn::Sub(rest, squared)};
   }
 
   /// Per steradian.
