@@ -270,8 +270,7 @@ class PositionKernel {
 
   /// Per steradian.
   HWY_INLINE Number density_by_solid_angle(const Place& place, Number mass) const {
-    return hn::Div(
-        mass, hn::Mul(number(view_.solid_angle), of_line(place.line, &SolidAngleRows::Line::span)));
+    return hn::Div(mass, hn::Mul(number(view_.solid_angle), place.span));
   }
 
   HWY_INLINE Number position_by_solid_angle(Number y, const Place& place) const {
