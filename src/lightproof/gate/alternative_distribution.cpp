@@ -145,7 +145,7 @@ Grid<double> half_turn(const DeclaredDistribution& declared) {
   });
 }
 
-/// Only the first half of the columns, twice as likely.
+/// The distribution without the second half of the columns, and the first half twice as likely.
 Grid<double> half_circle(const DeclaredDistribution& declared) {
   return moved(declared, [](const Grid<double>& m, int x, int y) {
     return 2 * x < m.extent().width ? m(x, y) : 0.0;
@@ -279,7 +279,8 @@ Grid<double> without_dim_rows(const DeclaredDistribution& declared) {
   });
 }
 
-/// Without the texel that is nearest to six times as likely as the median of the lit ones.
+/// The distribution without the texel that is nearest to six times as likely as the median of the
+/// lit ones.
 Grid<double> without_one_texel(const DeclaredDistribution& declared) {
   const Grid<double>& masses = *declared.masses;
   std::vector<double> lit;
@@ -302,7 +303,7 @@ Grid<double> without_one_texel(const DeclaredDistribution& declared) {
   return rest;
 }
 
-/// Half of every texel's mass goes to the next column.
+/// The distribution after half of every texel's mass went to the next column.
 Grid<double> half_column(const DeclaredDistribution& declared) {
   return moved(declared, [](const Grid<double>& m, int x, int y) {
     return 0.5 * (m(x, y) + m(x == 0 ? m.extent().width - 1 : x - 1, y));

@@ -128,7 +128,8 @@ void create_history(const fs::path& file) {
   }
 }
 
-/// Of all that is stored of a run. SQLite notices broken pages, but not a broken number in one.
+/// The checksum of all that is stored of a run. SQLite notices broken pages, but not a broken
+/// number in one.
 std::int64_t checksum_of(const BenchmarkRun& run) {
   std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n", run.session, run.started,
                                  run.machine, run.compiler, run.flags, run.commit, run.digest);

@@ -200,7 +200,7 @@ constexpr std::array kMutants = {
            .diagnosis = "uneven-in-texel",
            .oracle = Oracle::reference,
            .sample = defects::change_measure_in_pole_rows},
-    // Of our own.
+    // The following mutants are our own.
     Mutant{.name = "columns-of-next-row",
            .defect = "columns drawn from the next row's sums",
            .diagnosis = "columns-of-next-row",
