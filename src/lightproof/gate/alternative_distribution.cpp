@@ -310,7 +310,7 @@ Grid<double> half_column(const DeclaredDistribution& declared) {
   });
 }
 
-constexpr std::array<AlternativeDistribution, 30> kAlternatives = {{
+constexpr auto kAlternatives = std::to_array<AlternativeDistribution>({
     {"other-density", "a missing sin(theta) (or one too many): the other target density",
      other_density},
     {"other-lookup", "the other look-up: whole texels for interpolated ones, or the reverse",
@@ -351,7 +351,7 @@ constexpr std::array<AlternativeDistribution, 30> kAlternatives = {{
     {"dim-rows-skipped", "rows darker than an absolute threshold are never drawn",
      without_dim_rows},
     {"uniform", "the map is not looked at: uniform samples", uniform},
-}};
+});
 
 }  // namespace
 
