@@ -21,9 +21,11 @@ add_library(lightproof_glue INTERFACE)
 target_compile_options(lightproof_glue INTERFACE $<$<CONFIG:Release>:-O1>)
 
 # Beside the settings, for sources with vectors, which Highway compiles once for each of AVX-512,
-# AVX2, SSE4 and plain C++; the one that fits the processor is taken at run time.
+# AVX2, SSE4 and plain C++, on ARM for NEON; the one that fits the processor is taken at run time.
+# Vectors whose size the compiler does not know (SVE, RISC-V) cannot be members, as the kernels' are.
 add_library(lightproof_vectors INTERFACE)
-target_compile_definitions(lightproof_vectors INTERFACE HWY_DISABLED_TARGETS=HWY_SSSE3)
+target_compile_definitions(lightproof_vectors INTERFACE
+  "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV)")
 
 # What only the build of a folder needs: nothing of it is left in what is installed.
 set(lightproof_build_only
