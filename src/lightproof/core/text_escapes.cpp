@@ -89,7 +89,7 @@ std::string markdown_character(const Character& character) {
   if (c == ">") return "&gt;";
   if (c == "|") return "&#124;";
   if (c == "@" || c == "#") return std::string(c) + "<!-- -->";
-  if (c.find_first_of("\\`*[]~$") != std::string_view::npos) return "\\" + std::string(c);
+  if (c.find_first_of("\\`*[]~$") != std::string_view::npos) return fmt::format("\\{}", c);
   return terminal_character(character);
 }
 
