@@ -325,6 +325,7 @@ StudyResult synthetic_study() {
   study.seed = 20240607;
   for (std::size_t i = 0; i < kMaps.size(); ++i) study.maps.push_back(map_record(i));
   study.gate = gate();
+  study.directions_origin = "2024-06-07T13:40:31+00:00, synthetic processor, GNU 12.2.0";
   for (std::size_t map = 0; map < 8; ++map) {
     for (std::size_t receiver = 0; receiver < 4; ++receiver) {
       for (std::size_t estimator = 0; estimator < 4; ++estimator) {

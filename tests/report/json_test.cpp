@@ -127,6 +127,7 @@ TEST(StudyJson, HoldsEverythingButThePixels) {
                                                       "convergence",
                                                       "throughput",
                                                       "throughput_origin",
+                                                      "directions_origin",
                                                       "caches",
                                                       "growth",
                                                       "tables",

@@ -70,13 +70,12 @@ fs::path cache_folder() {
 }
 
 /// All that goes into the report. Progress is shown until it returns.
-StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options,
-                   const std::string& commit) {
+StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
   const Progress progress = progress_of(options);
   StudyResult result = run_study(std::move(maps), options.study, progress);
   result.gate.input_options = input_options(options);
   result.published_forms = system_comparisons();
-  const MeasurementCache cache = {cache_folder(), kThisProgram, commit, options.measure_again};
+  const MeasurementCache& cache = options.study.cache;
   result.frames = study_frames();
   result.points = kept_points(options.seed, cache, progress);
   if (!options.no_throughput) {
@@ -104,7 +103,8 @@ int run(Options options) {
   std::vector<EnvironmentMap> maps = load_maps(options);
   check_folder(options.output, options.force, report_file_names(), options.command_line);
   const RunDescription description = describe_run(options, maps);
-  StudyResult result = run_on(std::move(maps), options, description.commit);
+  options.study.cache = {cache_folder(), kThisProgram, description.commit, options.measure_again};
+  StudyResult result = run_on(std::move(maps), options);
   if (!throughput.samplers.empty()) set_throughput(result, std::move(throughput));
   write_report(result, options.output, description, overwriting(options.force));
   if (!options.quiet) fmt::print("{}\n", path_text(fs::path(options.output) / "report.html"));
@@ -133,9 +133,9 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
              "width of the largest map that throughput is measured on; 16384 takes 8 GB")
       ->excludes(file);
   command
-      ->add_flag(
-          "--measure-again", options->measure_again,
-          "measure throughput and self-test, even if they are kept of this program and machine")
+      ->add_flag("--measure-again", options->measure_again,
+                 "measure what is kept of this program and machine: throughput, self-test, first "
+                 "tests of warps and materials, costs of levels, point sets")
       ->excludes(file);
   command->add_flag("--no-self-test", options->no_self_test,
                     "leave out the test of the gate itself (mutants, calibration, power)");

@@ -11,7 +11,7 @@
 namespace lightproof {
 namespace {
 
-/// Of the factors that fade by a power law there are at least so many.
+/// There are at least so many of the factors that fade by a power law.
 constexpr int kLeastDegree = 256;
 
 /// The degree at which the factors have fallen below the tolerance, by their asymptotic form:
@@ -42,7 +42,7 @@ bool fades_slowly(std::span<const double> factors) {
   return 9.0 * power(factors, factors.size() / 10 * 9) > kMost * kMost * power(factors, 0);
 }
 
-/// Without the last factors that are below the tolerance together.
+/// Drops the last factors that are below the tolerance together.
 void trim(std::vector<double>& factors, double whole) {
   double rest = 0.0;
   const double most = kHarmonicsTolerance * kHarmonicsTolerance * whole;
@@ -67,7 +67,7 @@ LobePlan sum_whole(const Lobe& lobe) {
   return plan;
 }
 
-/// Falls from 1 on the axis to 0 at `reach`, both to 1e-8.
+/// A window that falls from 1 on the axis to 0 at `reach`, both to 1e-8.
 double window(double angle, double reach) {
   return 0.5 * std::erfc(4.0 * (2.0 * angle / reach - 1.0));
 }

@@ -364,6 +364,7 @@ std::string study_json(const StudyResult& study, const RunDescription& run) {
                   {"convergence", list_of(study.convergence)},
                   {"throughput", list_of(study.throughput)},
                   {"throughput_origin", study.throughput_origin},
+                  {"directions_origin", study.directions_origin},
                   {"caches", {{"l2", number(study.caches.l2)}, {"l3", number(study.caches.l3)}}},
                   {"growth", list_of(study.growth)},
                   {"tables", list_of(study.tables)},

@@ -18,7 +18,7 @@ constexpr std::string_view kIntroduction =
     "corrected. Each row computes one quantity whose exact value is known by both forms. "
     "`lightproof list systems` names the documents and the tests.";
 
-/// Relative to the exact value, or absolute where that is 0.
+/// The error relative to the exact value, or absolute where that is 0.
 double error_of(double value, double exact) { return exact == 0.0 ? value : value / exact - 1.0; }
 
 Cell error_cell(double value, double exact) {

@@ -27,7 +27,8 @@ constexpr std::string_view kNavigation = R"(<nav aria-label="Sections"><ul>
 }  // namespace
 
 std::string report_page(const StudyResult& study) {
-  const std::string body = overview_section(study) + gate_section(study.gate) +
+  const std::string body = overview_section(study) +
+                           gate_section(study.gate, study.directions_origin) +
                            self_test_section(study.self_test) + map_section(study.maps) +
                            convergence_section(study.convergence) +
                            variance_section(study.convergence) + throughput_section(study) +

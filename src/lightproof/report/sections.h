@@ -8,7 +8,8 @@
 namespace lightproof {
 
 std::string overview_section(const StudyResult& study);
-std::string gate_section(const GateResult& gate);
+/// `directions_origin`: of the tests of warps and materials; empty if it is not known.
+std::string gate_section(const GateResult& gate, const std::string& directions_origin);
 std::string self_test_section(const std::optional<SelfTestResult>& self_test);
 std::string map_section(const std::vector<MapRecord>& maps);
 std::string convergence_section(const std::vector<ConvergenceRecord>& records);

@@ -29,6 +29,8 @@ struct StudyResult {
   std::uint64_t seed = 0;
   std::vector<MapRecord> maps;
   GateResult gate;
+  /// When, where and of what warps and materials went through the gate's first stage.
+  std::string directions_origin;
   std::vector<ConvergenceRecord> convergence;
   std::vector<ThroughputRecord> throughput;
   std::string throughput_origin;  ///< when, where and of what the throughput was measured

@@ -10,6 +10,7 @@
 #include "lightproof/image/map_figures.h"
 #include "lightproof/samplers/binary_search.h"
 #include "lightproof/study/growth.h"
+#include "lightproof/study/kept_directions.h"
 #include "lightproof/study/split_sum.h"
 
 namespace lightproof {
@@ -60,8 +61,11 @@ StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& opti
   for (const EnvironmentMap& map : maps) {
     result.maps.push_back(describe_map(map, options.gate.seed));
   }
+  const KeptMeasurement<ScreenedRuns> directions =
+      kept_directions(options.gate, options.cache, part_of(progress, gate_start, 0.2));
+  result.directions_origin = directions.origin;
   result.gate = run_gate(test_cases_of(maps, all_samplers_under_test(), direction_samplers()),
-                         options.gate, part_of(progress, gate_start, 0.5));
+                         options.gate, part_of(progress, 0.2, 0.5), {}, directions.value);
   result.convergence = study_convergence(maps, options.convergence, part_of(progress, 0.5, 0.93));
   result.renders = study_renders(maps, options.renders, part_of(progress, 0.93, 0.98));
   result.split_sum = study_split_sum(maps, {}, part_of(progress, 0.98, 1.0));

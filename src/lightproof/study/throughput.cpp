@@ -70,7 +70,7 @@ struct SampleName {
   std::string order;
 };
 
-/// Nothing for benchmarks of other things.
+/// The parts of a benchmark's name; none for benchmarks of other things.
 std::optional<SampleName> sample_name(const std::string& name) {
   const std::vector<std::string> parts = split(name, '/');
   if (parts.size() != 5 || parts[0] != "sample") return std::nullopt;
@@ -209,7 +209,8 @@ Throughput records_of(const nlohmann::json& document) {
   return records;
 }
 
-/// Empty where nothing can be kept: without a folder, or of a program that cannot be read.
+/// The file that keeps the throughput; empty where nothing can be kept: without a folder, or of a
+/// program that cannot be read.
 fs::path kept_file(const ThroughputSource& source, const std::string& filter) {
   const std::optional<std::uint64_t> program = hash_of_file(source.program);
   if (source.cache.empty() || !program) return {};
