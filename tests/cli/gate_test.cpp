@@ -241,7 +241,8 @@ TEST(GateRejections, AreWrittenAsFiles) {
               ElementsAre("manifest.json", "squared-A-sun-sky-residual.exr",
                           "squared-A-sun-sky-residual.png", "squared-A-sun-sky.json",
                           "squared-B-sun-sky-residual.exr", "squared-B-sun-sky-residual.png",
-                          "squared-B-sun-sky.json"));
+                          "squared-B-sun-sky.json", "squared-C-sun-sky-residual.exr",
+                          "squared-C-sun-sky-residual.png", "squared-C-sun-sky.json"));
   const json rejection = json_of(folder / "rejected" / "squared-B-sun-sky.json");
   EXPECT_EQ(rejection.at("looks_like"), "squared");
   EXPECT_EQ(rejection.at("worst_bins").size(), 20U);
@@ -279,7 +280,7 @@ TEST(GateGithub, PrintsOneAnnotationForEachDefectEvenIfQuiet) {
   const Finished gate = lightproof({"gate", "sun-sky", "--size", "128x64", "--sampler", "squared",
                                     "-n", "65536", "-q", "--github"});
   EXPECT_EQ(gate.exit_code, 1);
-  EXPECT_EQ(std::count(gate.out.begin(), gate.out.end(), '\n'), 2) << gate.out;
+  EXPECT_EQ(std::count(gate.out.begin(), gate.out.end(), '\n'), 3) << gate.out;
   EXPECT_THAT(gate.out, AllOf(StartsWith("::error title=lightproof%3A squared "),
                               HasSubstr("looks like: "), HasSubstr("Again: lightproof gate ")));
 }
@@ -382,7 +383,7 @@ TEST_P(GateReplay, ReproducesTheSameBits) {
     EXPECT_EQ(json_of(folder / "again.json").at("tests"), json(expected)) << replay;
     ++replayed;
   }
-  EXPECT_EQ(replayed, 4U);
+  EXPECT_EQ(replayed, 6U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Whole, GateReplay, testing::Values(false, true),
