@@ -123,13 +123,13 @@ TEST(ScreenedRuns, AreNotScreenedAgain) {
       };
     }
   }
-  EXPECT_EQ(bytes_of_result(run_gate(test_cases, options, {}, {}, screened)), whole);
+  EXPECT_TRUE(bytes_of_result(run_gate(test_cases, options, {}, {}, screened)) == whole);
   const int again = bound;
   EXPECT_LT(again, static_cast<int>(all.size()) / 2);
   // Those of some runs alone, after a way through bytes.
   ScreenedRuns some = results_of<std::vector<Measured>>(bytes_of(screened));
   some.erase(some.begin());
-  EXPECT_EQ(bytes_of_result(run_gate(test_cases, options, {}, {}, some)), whole);
+  EXPECT_TRUE(bytes_of_result(run_gate(test_cases, options, {}, {}, some)) == whole);
   EXPECT_GT(bound, 2 * again);
 }
 
