@@ -329,7 +329,9 @@ TEST(Diagnosis, OfDefectsOutsideTheListGivesNoNameFromIt) {
     samplers_under_test.push_back(narrowed_sampler(density_space));
   }
   const GateResult result = run_gate(maps, samplers_under_test, {.samples = 1U << 20U});
-  EXPECT_GE(result.rejections.size(), 2 * samplers_under_test.size() - 2);
+  // On the gradient, whose columns are all alike, rows weighted by their maximum are right: one run
+  // of each density is.
+  EXPECT_GE(result.rejections.size(), 2 * samplers_under_test.size() - kDensitySpaces.size());
   for (const Rejection& rejection : result.rejections) {
     // Where all columns are alike this is the distribution that lacks the last one.
     if (rejection.sampler == "narrowed" && rejection.map == "gradient") {
