@@ -39,14 +39,18 @@ MapDensity density_of(const Grid<double>& radiance, double compensation) {
 struct Technique {
   double light = 0.0;
   double square = 0.0;
+  double largest = 0.0;  ///< w f / p
 
   void add(double weight, double f, double p, double solid_angle) {
     light += weight * f * solid_angle;
-    if (p > 0.0) square += weight * weight * f * f / p * solid_angle;
+    if (!(p > 0.0)) return;
+    square += weight * weight * f * f / p * solid_angle;
+    largest = std::max(largest, weight * f / p);
   }
   void merge(const Technique& other) {
     light += other.light;
     square += other.square;
+    largest = std::max(largest, other.largest);
   }
 };
 
@@ -117,7 +121,9 @@ std::vector<MeanAndVariance> combined_moments(const Kernel& kernel,
     const double squares = lobes.square + map.square;
     const double off = sampling.is_one_sample ? 0.5 * mean * mean
                                               : lobes.light * lobes.light + map.light * map.light;
-    moments.push_back({mean, std::max(0.0, 2.0 * (squares - off))});
+    const double largest = sampling.is_one_sample ? 2.0 * std::max(lobes.largest, map.largest)
+                                                  : lobes.largest + map.largest;
+    moments.push_back({mean, std::max(0.0, 2.0 * (squares - off)), largest});
   }
   return moments;
 }
@@ -132,8 +138,8 @@ std::vector<MeanAndVariance> density_moments(const Kernel& kernel,
                              sum.add(1.0, light * value.k, pdf(node.direction), node.solid_angle);
                            });
   std::vector<MeanAndVariance> moments;
-  for (const auto& [light, square] : sums) {
-    moments.push_back({light, std::max(0.0, square - light * light)});
+  for (const auto& [light, square, largest] : sums) {
+    moments.push_back({light, std::max(0.0, square - light * light), largest});
   }
   return moments;
 }

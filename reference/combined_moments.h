@@ -36,6 +36,9 @@ struct CombinedSampling {
 struct MeanAndVariance {
   double mean = 0.0;
   double variance = 0.0;
+  /// The largest estimate at any node, of one sample or, of a multi-sample estimator, of a pair;
+  /// between nodes it is a few percent more.
+  double largest = 0.0;
 };
 
 /// One entry per grid of radiance L, which is constant inside a texel; all grids have one extent.
