@@ -117,11 +117,14 @@ TEST(TabulatedIrradiance, LosesNoMoreThanItsStep) {
 
 TEST(MedianCut, KeepsAllLight) {
   for (const std::string_view name : {"gradient", "sun-sky", "checker"}) {
-    const EnvironmentMap map = make_synthetic_map(name, kExtent);
+    const EnvironmentMap map = make_synthetic_map(name, {256, 128});
     const double whole = project(map, 0)(0, 0).g * std::sqrt(kSphere);
     for (const int cuts : {0, 4, 10}) {
       const auto lights = median_cut(map, cuts);
-      EXPECT_EQ(lights.size(), std::size_t{1} << static_cast<unsigned>(cuts)) << name;
+      const std::size_t most = std::size_t{1} << static_cast<unsigned>(cuts);
+      // The sun's nine texels are cut no further.
+      EXPECT_LE(lights.size(), most) << name;
+      EXPECT_EQ(lights.size() < most, name == "sun-sky" && cuts == 10) << name;
       double sum = 0.0;
       for (const DirectedLight& light : lights) {
         sum += light.flux.g;
@@ -329,41 +332,45 @@ TEST(PrefilteredPhong, IsExactAtNormalView) {
   }
 }
 
-// At the middle of an entry the table has no step, but what 256 samples leave: 256 of uniform or
-// better directions of a gradient, whose relative variance is below 2 for pairs.
+// At the middle of an entry the table has no step, but what 64 samples leave: at Sobol's points
+// less than independent ones, whose relative variance is below 2 where half are of the lobes and
+// the map is nearly uniform.
 TEST(OutgoingTable, HoldsTheLightOfItsEntries) {
   const EnvironmentMap map = make_synthetic_map("gradient", kExtent);
   for (const std::string_view name : {"lambert", "phong", "ggx"}) {
     const Material& material = material_by_name(name).material;
     const BoundEstimator estimator = bound("outgoing table", map, material);
-    for (const SquarePoint normal : {SquarePoint{10.5 / 32, 3.5 / 16}, {20.5 / 32, 12.5 / 16}}) {
-      const Frame frame = frame_around(direction_from_square(normal));
-      const double cosine = 6.5 / 8.0;
+    EXPECT_GT(estimator.bytes, 32U * 16U * 16U * 8U * sizeof(float));
+    double squares = 0.0;
+    constexpr int kEntries = 16;
+    for (int i = 0; i < kEntries; ++i) {
+      const Frame frame = frame_around(direction_from_square({(2 * i + 0.5) / 32, (i + 0.5) / 16}));
+      const double cosine = (i % 8 + 0.5) / 8.0;
       const double sine = std::sqrt(1.0 - cosine * cosine);
-      const double phi = kPi - 2.0 * kPi * 3.5 / 16.0;
+      const double phi = kPi - 2.0 * kPi * (i + 0.5) / 16.0;
       const ShadingPoint at = {
           glm::dvec3(0.0), frame,
           frame.to_world({sine * std::cos(phi), sine * std::sin(phi), cosine})};
-      const auto exact = exact_moments(map, material, at)[reference::SampledDensity::uniform];
-      EXPECT_NEAR(luminance(estimator, at, 1), exact.mean(),
-                  6.0 * std::sqrt(2.0 / 256.0) * exact.mean())
-          << name;
-      EXPECT_GT(estimator.bytes, 32U * 16U * 16U * 8U * sizeof(float));
+      const double exact = exact_light_at(map, material, at);
+      squares += std::pow(luminance(estimator, at, 1) / exact - 1.0, 2.0) / kEntries;
     }
+    EXPECT_LT(std::sqrt(squares), std::sqrt(2.0 / 64.0)) << name;
   }
 }
 
 class EveryEstimator : public testing::TestWithParam<std::string_view> {};
 
-// All materials on all receivers: finite, not negative, the same for the same stream and budget;
-// the same for any budget, if it is said to ignore it; what is not served is refused.
+// All materials, in the open and with something in the way: finite, not negative, the same for the
+// same stream and budget; the same for any budget, if it is said to ignore it; what is not served
+// is refused.
 TEST_P(EveryEstimator, ServesItsMaterialsAndRefusesOthers) {
   const EstimatorInfo& info = estimator_by_name(GetParam());
   const EnvironmentMap map = make_synthetic_map("sun-sky", {32, 16});
   const PreparedEstimator prepared = info.prepare(map);
   const RandomStream stream("every", 1);
   bool serves_any = false;
-  for (const ReceiverInfo& receiver : receivers()) {
+  for (const std::string_view name : {"point", "sphere-on-plane"}) {
+    const ReceiverInfo& receiver = receiver_by_name(name);
     const Scene scene(receiver.content);
     const ShadingPoint at = visible_pixels(receiver, scene, {3, 2}).front().point;
     for (const MaterialInfo& material : materials()) {
@@ -379,7 +386,9 @@ TEST_P(EveryEstimator, ServesItsMaterialsAndRefusesOthers) {
           EXPECT_TRUE(std::isfinite(channel) && channel >= 0.0F) << material.name;
         }
         EXPECT_EQ(estimator.integrate(at, stream, {5, samples}, {}), once);
-        if (info.ignores_budget) EXPECT_EQ(estimator.integrate(at, stream, {9, 7}, {}), once);
+        if (info.ignores_budget) {
+          EXPECT_EQ(estimator.integrate(at, stream, {9, 7}, {}), once);
+        }
       }
     }
   }

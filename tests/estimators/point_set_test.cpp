@@ -123,7 +123,10 @@ TEST(PointSetEstimates, ScatterLessThanIndependentSamples) {
                       RandomStream(fmt::format("scatter/{}/{}", info.name, i), 1), kSamples, 1024);
         const double independent =
             stage.exact[i][density].variance() / static_cast<double>(kSamples);
-        EXPECT_LT(measured.variance(), 0.5 * independent) << info.name << ", " << material.name;
+        // One random point in each cell never scatters more than as many independent ones, and has
+        // no more than that in common with lattices and nets.
+        const double factor = info.name.ends_with("stratified") ? 1.0 : 0.5;
+        EXPECT_LT(measured.variance(), factor * independent) << info.name << ", " << material.name;
       }
     }
   }

@@ -5,6 +5,7 @@
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/estimators/multiple_importance.h"
+#include "lightproof/estimators/sampled.h"
 #include "lightproof/samplers/sampler.h"
 #include "lightproof/warp/hemisphere.h"
 #include "lightproof/warp/lat_long.h"
@@ -15,7 +16,7 @@ namespace {
 constexpr Extent kNormals = {32, 16};
 /// Azimuths and cosines of views around the normal.
 constexpr Extent kViews = {16, 8};
-constexpr std::uint64_t kSamples = 256;
+constexpr std::uint64_t kSamples = 64;
 constexpr std::uint64_t kSeed = 1;
 
 std::size_t cell_at(Extent cells, SquarePoint at) {
@@ -67,7 +68,7 @@ std::vector<Rgb> tabulated(const PreparedEstimator& estimator, const Material& m
 
 PreparedEstimator outgoing_table(const EnvironmentMap& map) {
   const auto filling = std::make_shared<const PreparedEstimator>(
-      multi_sample(map, DensitySpace::solid_angle, reference::Heuristic::balance, 0.0));
+      samples_at_points(one_sample_mixture(map, DensitySpace::solid_angle, 0.0), "sobol"));
   return {[filling](const Scene& /*scene*/, const Material& material) -> BoundEstimator {
     const auto table = std::make_shared<const std::vector<Rgb>>(tabulated(*filling, material));
     return {[table](const ShadingPoint& at, const RandomStream& /*stream*/, Budget /*budget*/,

@@ -21,14 +21,14 @@ constexpr int kLevels = 5;
 constexpr Extent kNormals = {64, 32};
 constexpr std::size_t kCosines = 64;
 
-/// Values at the cosines (i + 1/2)/kCosines, interpolated linearly between them.
+/// Values at the cosines i/(kCosines - 1), interpolated linearly between them.
 class CosineTable {
  public:
   explicit CosineTable(std::vector<double> values) : values_(std::move(values)) {}
 
   double operator()(double cosine) const {
     const double last = static_cast<double>(values_.size() - 1);
-    const double place = std::clamp(cosine * static_cast<double>(values_.size()) - 0.5, 0.0, last);
+    const double place = std::clamp(cosine, 0.0, 1.0) * last;
     const auto below = static_cast<std::size_t>(std::min(place, last - 1.0));
     return std::lerp(values_[below], values_[below + 1], place - static_cast<double>(below));
   }
@@ -41,7 +41,7 @@ class CosineTable {
 std::vector<double> table_cosines() {
   std::vector<double> cosines;
   for (std::size_t i = 0; i < kCosines; ++i) {
-    cosines.push_back((static_cast<double>(i) + 0.5) / static_cast<double>(kCosines));
+    cosines.push_back(static_cast<double>(i) / static_cast<double>(kCosines - 1));
   }
   return cosines;
 }
