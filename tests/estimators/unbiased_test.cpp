@@ -10,6 +10,7 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/moments.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/estimators/environment.h"
 #include "lightproof/estimators/registry.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/render/receiver.h"
@@ -289,6 +290,28 @@ TEST(Resampling, DividesTheVarianceByTheCandidates) {
     EXPECT_NEAR(relative_variance(stage, "ris 4", i) * 4.0 / one, 1.0, 0.1);
     EXPECT_NEAR(relative_variance(stage, "ris 16", i) * 16.0 / one, 1.0, 0.1);
     EXPECT_NEAR(relative_variance(stage, "ris 64", i) * 64.0 / one, 1.0, 0.1);
+  }
+}
+
+// What the table says of a direction's density is what it draws, but for the step of its sums: in
+// every measure of texels and positions, with and without compensation.
+TEST(EnvironmentTable, DrawsTheDensityThatItSays) {
+  const EnvironmentMap map = make_synthetic_map("gradient", {64, 32});
+  for (const DensitySpace density_space : kDensitySpaces) {
+    for (const double compensation : {0.0, 0.5, 1.0}) {
+      const EnvironmentTable table(map, density_space, compensation);
+      LightSamples samples;
+      samples.count = LightSamples::kCapacity;
+      table.draw(BatchPoints(RandomStream("table", 1), 0), samples);
+      for (std::size_t i = 0; i < samples.count; ++i) {
+        const double says = table.pdf(map.radiance(samples.column[i], samples.row[i]),
+                                      samples.row[i], std::hypot(samples.x[i], samples.y[i]));
+        // A texel has some 2^31/64 units of its row; compensated ones a hundredth of that, and
+        // float luminances there six digits.
+        EXPECT_NEAR(samples.pdf[i] / says, 1.0, 1e-4)
+            << to_string(density_space) << ", " << compensation;
+      }
+    }
   }
 }
 

@@ -11,20 +11,24 @@ namespace {
 /// Less of a map's light than this is rounding.
 constexpr double kLeastShareLeft = 1e-6;
 
-/// The area by which a density space weighs a texel of row y, up to a factor.
-double area_of(DensitySpace density_space, Extent extent, int y) {
-  return density_space == DensitySpace::texture
-             ? 2.0 * kPi * kPi / static_cast<double>(extent.count())
-             : texel_solid_angle(extent, y);
+/// The size of a texel of row y in a measure; of the square that of a sphere whose sine is 1
+/// everywhere.
+double area_of(MapMeasure measure, Extent extent, int y) {
+  return measure == MapMeasure::square ? 2.0 * kPi * kPi / static_cast<double>(extent.count())
+                                       : texel_solid_angle(extent, y);
+}
+/// The size of the whole map in a measure.
+double area_of(MapMeasure measure) {
+  return measure == MapMeasure::square ? 2.0 * kPi * kPi : kSphere;
 }
 
 /// The integral of what stands above a floor, over the areas of texels.
-double light_above(const Grid<double>& luminance, DensitySpace density_space, double floor) {
+double light_above(const Grid<double>& luminance, MapMeasure measure, double floor) {
   double sum = 0.0;
   for (int y = 0; y < luminance.extent().height; ++y) {
     double row = 0.0;
     for (const double value : luminance.row(y)) row += std::max(0.0, value - floor);
-    sum += row * area_of(density_space, luminance.extent(), y);
+    sum += row * area_of(measure, luminance.extent(), y);
   }
   return sum;
 }
@@ -59,21 +63,24 @@ PreparedSource table_source(const EnvironmentMap& map, DensitySpace density_spac
 
 EnvironmentTable::EnvironmentTable(const EnvironmentMap& map, DensitySpace density_space,
                                    double compensation)
-    : density_space_(density_space), weights_(map.weights) {
+    : positions_(position_measure(density_space)), weights_(map.weights) {
   const Grid<double> luminance = luminance_of(map);
-  const double whole = light_above(luminance, density_space, 0.0);
+  const MapMeasure measure = texel_measure(density_space);
+  const double whole = light_above(luminance, measure, 0.0);
   if (!(whole > 0.0)) return;
-  const double area = density_space == DensitySpace::texture ? 2.0 * kPi * kPi : kSphere;
   double left = whole;
   if (compensation > 0.0) {
-    const double floor = compensation * whole / area;
-    const double above = light_above(luminance, density_space, floor);
+    const double floor = compensation * whole / area_of(measure);
+    const double above = light_above(luminance, measure, floor);
     if (above >= kLeastShareLeft * whole) {
       floor_ = floor;
       left = above;
     }
   }
-  scale_ = 1.0 / left;
+  for (int y = 0; y < luminance.extent().height; ++y) {
+    scales_.push_back(area_of(measure, luminance.extent(), y) /
+                      (area_of(positions_, luminance.extent(), y) * left));
+  }
   if (floor_ > 0.0) {
     const EnvironmentMap rest = map_above(luminance, floor_);
     table_.emplace(rest, on_map({density_space}, rest));

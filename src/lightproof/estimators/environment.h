@@ -26,24 +26,28 @@ class EnvironmentTable {
   void draw(const BatchPoints& points, LightSamples& samples) const {
     draw_batch(*table_, points, samples.batch());
   }
-  /// The density of the direction with this distance from the axis in a texel, per steradian, but
-  /// for what the table rounds.
-  double pdf(Rgb texel, double sine) const {
+  /// The density of the direction with this distance from the axis in a texel of a row, per
+  /// steradian, but for what the table rounds.
+  double pdf(Rgb texel, int row, double sine) const {
     const double left = luminance_of(texel, weights_) - floor_;
     if (!(left > 0.0)) return 0.0;
-    return density_space_ == DensitySpace::texture ? left * scale_ / sine : left * scale_;
+    const double density = left * scales_[static_cast<std::size_t>(row)];
+    return positions_ == MapMeasure::square ? density / sine : density;
   }
-  std::size_t bytes() const { return table_ ? table_->table_bytes() : 0; }
+  std::size_t bytes() const {
+    return table_ ? table_->table_bytes() + scales_.size() * sizeof(double) : 0;
+  }
 
  private:
-  DensitySpace density_space_;
+  MapMeasure positions_;
   LuminanceWeights weights_;
   double floor_ = 0.0;  ///< luminance that is taken off
-  double scale_ = 0.0;  ///< density over luminance, under A times the sine
+  /// Of each row: density over luminance, times the sine if positions are uniform in the square.
+  std::vector<double> scales_;
   std::optional<GuideTable> table_;
 };
 
-/// Density A or B, by the fastest monotone table. Throws InputError if the map is black.
+/// The map by this density, by the fastest monotone table. Throws InputError if the map is black.
 PreparedSource environment_source(const EnvironmentMap& map, DensitySpace density_space);
 
 /// The same by one alias table over all texels, which is not monotone: neighbouring points go to

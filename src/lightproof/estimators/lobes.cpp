@@ -5,39 +5,40 @@
 namespace lightproof {
 namespace {
 
-/// Draws local directions around the normal, one by one.
-template <class Warp, class Pdf>
-PreparedSource warp_source(const EnvironmentMap& map, Warp warp, Pdf pdf) {
-  const auto bind = [&map, warp, pdf](const Material& material) -> SamplesAt {
-    return [&map, warp, pdf, material](const ShadingPoint& at) -> DrawSamples {
-      return [&map, warp, pdf, &material, &at](const BatchPoints& points, LightSamples& samples) {
-        std::array<double, LightSamples::kCapacity> s;
-        std::array<double, LightSamples::kCapacity> t;
-        points.fill(0, std::span(s).first(samples.count), std::span(t).first(samples.count));
-        for (std::size_t i = 0; i < samples.count; ++i) {
-          const Direction local = warp(SquarePoint{s[i], t[i]});
-          samples.set(i, at.frame.to_world(local));
-          samples.pdf[i] = pdf(local).value;
-        }
-        samples.locate(map.radiance.extent());
-        samples.reflect(material, at);
-      };
-    };
-  };
-  return {&map, bind};
+/// The numbers of a batch's points.
+struct Numbers {
+  Numbers(const BatchPoints& points, std::size_t all) : count(all) {
+    points.fill(0, std::span(s).first(count), std::span(t).first(count));
+  }
+
+  std::size_t count;
+  std::array<double, LightSamples::kCapacity> s;
+  std::array<double, LightSamples::kCapacity> t;
+};
+
+/// Draws from a material's lobes, with their densities and k.
+void draw_lobes(const Material& material, const ShadingPoint& at, const BatchPoints& points,
+                LightSamples& samples) {
+  const Numbers u(points, samples.count);
+  sample_material(material, at, std::span(u.s).first(u.count), std::span(u.t).first(u.count),
+                  {std::span(samples.x).first(u.count), std::span(samples.y).first(u.count),
+                   std::span(samples.z).first(u.count), std::span(samples.pdf).first(u.count),
+                   std::span(samples.reflected_cosine).first(u.count)});
+}
+
+void draw_hemisphere(const ShadingPoint& at, const BatchPoints& points, LightSamples& samples) {
+  const Numbers u(points, samples.count);
+  for (std::size_t i = 0; i < u.count; ++i) {
+    const Direction local = uniform_hemisphere_from_square({u.s[i], u.t[i]});
+    samples.set(i, at.frame.to_world(local));
+    samples.pdf[i] = uniform_hemisphere_pdf(local).value;
+  }
 }
 
 SamplesAt lobes_of(const EnvironmentMap& map, const Material& material) {
   return [&map, material](const ShadingPoint& at) -> DrawSamples {
     return [&map, &material, &at](const BatchPoints& points, LightSamples& samples) {
-      const std::size_t count = samples.count;
-      std::array<double, LightSamples::kCapacity> s;
-      std::array<double, LightSamples::kCapacity> t;
-      points.fill(0, std::span(s).first(count), std::span(t).first(count));
-      sample_material(material, at, std::span(s).first(count), std::span(t).first(count),
-                      {std::span(samples.x).first(count), std::span(samples.y).first(count),
-                       std::span(samples.z).first(count), std::span(samples.pdf).first(count),
-                       std::span(samples.reflected_cosine).first(count)});
+      draw_lobes(material, at, points, samples);
       samples.locate(map.radiance.extent());
     };
   };
@@ -46,11 +47,27 @@ SamplesAt lobes_of(const EnvironmentMap& map, const Material& material) {
 }  // namespace
 
 PreparedSource hemisphere_source(const EnvironmentMap& map) {
-  return warp_source(map, uniform_hemisphere_from_square, uniform_hemisphere_pdf);
+  return {&map, [&map](const Material& material) -> SamplesAt {
+            return [&map, material](const ShadingPoint& at) -> DrawSamples {
+              return [&map, &material, &at](const BatchPoints& points, LightSamples& samples) {
+                draw_hemisphere(at, points, samples);
+                samples.locate(map.radiance.extent());
+                samples.reflect(material, at);
+              };
+            };
+          }};
 }
 
 PreparedSource cosine_source(const EnvironmentMap& map) {
-  return warp_source(map, cosine_hemisphere_from_square, cosine_hemisphere_pdf);
+  return {&map, [&map](const Material& material) -> SamplesAt {
+            return [&map, material](const ShadingPoint& at) -> DrawSamples {
+              return [&map, &material, &at](const BatchPoints& points, LightSamples& samples) {
+                draw_lobes(Lambert{1.0}, at, points, samples);
+                samples.locate(map.radiance.extent());
+                samples.reflect(material, at);
+              };
+            };
+          }};
 }
 
 PreparedSource material_source(const EnvironmentMap& map) {

@@ -77,7 +77,7 @@ class TwoTechniques {
  private:
   double table_pdf(const LightSamples& samples, std::size_t i) const {
     const Rgb texel = map_->radiance(samples.column[i], samples.row[i]);
-    return table_.pdf(texel, std::hypot(samples.x[i], samples.y[i]));
+    return table_.pdf(texel, samples.row[i], std::hypot(samples.x[i], samples.y[i]));
   }
 
   const EnvironmentMap* map_;
