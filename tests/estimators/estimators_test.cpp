@@ -227,7 +227,7 @@ TEST(Estimators, HaveNamesThatAreFoundAndDiffer) {
     EXPECT_FALSE(info.source.empty());
   }
   EXPECT_EQ(names.size(), estimators().size());
-  EXPECT_THROW(estimator_by_name("environment C"), InputError);
+  EXPECT_THROW(estimator_by_name("environment Z"), InputError);
 }
 
 }  // namespace
