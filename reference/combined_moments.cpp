@@ -64,6 +64,16 @@ struct Techniques {
   }
 };
 
+/// Those of several estimators; none before the first node.
+struct AllTechniques {
+  std::vector<Techniques> of;
+
+  void merge(const AllTechniques& other) {
+    of.resize(std::max(of.size(), other.of.size()));
+    for (std::size_t i = 0; i < other.of.size(); ++i) of[i].merge(other.of[i]);
+  }
+};
+
 /// Sums add(sum of a row, map, radiance, value, node) over all nodes at which k is positive.
 template <class Sum, class Add>
 std::vector<Sum> sums_over(const Kernel& kernel, std::span<const Grid<double>> radiance,
@@ -93,39 +103,62 @@ std::vector<Sum> sums_over(const Kernel& kernel, std::span<const Grid<double>> r
   return sums;
 }
 
+MeanAndVariance moments_of(const Techniques& techniques, const CombinedSampling& sampling) {
+  const auto& [lobes, map] = techniques;
+  const double mean = lobes.light + map.light;
+  const double squares = lobes.square + map.square;
+  const double off = sampling.is_one_sample ? 0.5 * mean * mean
+                                            : lobes.light * lobes.light + map.light * map.light;
+  const double largest = sampling.is_one_sample ? 2.0 * std::max(lobes.largest, map.largest)
+                                                : lobes.largest + map.largest;
+  return {mean, std::max(0.0, 2.0 * (squares - off)), largest};
+}
+
 double emphasised(Heuristic heuristic, double x) {
   return heuristic == Heuristic::balance ? x : x * x;
 }
 
 }  // namespace
 
+std::vector<std::vector<MeanAndVariance>> combined_moments(
+    const Kernel& kernel, std::span<const Grid<double>> radiance,
+    std::span<const CombinedSampling> samplings) {
+  std::vector<std::vector<MapDensity>> densities;  // [estimator][grid]
+  for (const CombinedSampling& sampling : samplings) {
+    densities.emplace_back();
+    for (const auto& grid : radiance) {
+      densities.back().push_back(density_of(grid, sampling.compensation));
+    }
+  }
+  const auto sums =
+      sums_over<AllTechniques>(kernel, radiance,
+                               [&](AllTechniques& sum, std::size_t map, double light,
+                                   const KernelValue& value, const Node& node) {
+                                 sum.of.resize(samplings.size());
+                                 for (std::size_t i = 0; i < samplings.size(); ++i) {
+                                   const double f = light * value.k;
+                                   const double p = value.pdf;
+                                   const double q = densities[i][map].pdf(light);
+                                   const double a = emphasised(samplings[i].heuristic, p);
+                                   const double b = emphasised(samplings[i].heuristic, q);
+                                   sum.of[i].lobes.add(a / (a + b), f, p, node.solid_angle);
+                                   sum.of[i].map.add(b / (a + b), f, q, node.solid_angle);
+                                 }
+                               });
+  std::vector<std::vector<MeanAndVariance>> moments(samplings.size());
+  for (std::size_t i = 0; i < samplings.size(); ++i) {
+    for (const AllTechniques& all : sums) {
+      moments[i].push_back(all.of.empty() ? MeanAndVariance{}
+                                          : moments_of(all.of[i], samplings[i]));
+    }
+  }
+  return moments;
+}
+
 std::vector<MeanAndVariance> combined_moments(const Kernel& kernel,
                                               std::span<const Grid<double>> radiance,
                                               const CombinedSampling& sampling) {
-  std::vector<MapDensity> densities;
-  for (const auto& grid : radiance) densities.push_back(density_of(grid, sampling.compensation));
-  const auto sums = sums_over<Techniques>(kernel, radiance,
-                                          [&](Techniques& sum, std::size_t map, double light,
-                                              const KernelValue& value, const Node& node) {
-                                            const double f = light * value.k;
-                                            const double p = value.pdf;
-                                            const double q = densities[map].pdf(light);
-                                            const double a = emphasised(sampling.heuristic, p);
-                                            const double b = emphasised(sampling.heuristic, q);
-                                            sum.lobes.add(a / (a + b), f, p, node.solid_angle);
-                                            sum.map.add(b / (a + b), f, q, node.solid_angle);
-                                          });
-  std::vector<MeanAndVariance> moments;
-  for (const auto& [lobes, map] : sums) {
-    const double mean = lobes.light + map.light;
-    const double squares = lobes.square + map.square;
-    const double off = sampling.is_one_sample ? 0.5 * mean * mean
-                                              : lobes.light * lobes.light + map.light * map.light;
-    const double largest = sampling.is_one_sample ? 2.0 * std::max(lobes.largest, map.largest)
-                                                  : lobes.largest + map.largest;
-    moments.push_back({mean, std::max(0.0, 2.0 * (squares - off)), largest});
-  }
-  return moments;
+  return combined_moments(kernel, radiance, std::span(&sampling, 1)).front();
 }
 
 std::vector<MeanAndVariance> density_moments(const Kernel& kernel,

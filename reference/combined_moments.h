@@ -46,6 +46,11 @@ std::vector<MeanAndVariance> combined_moments(const Kernel& kernel,
                                               std::span<const Grid<double>> radiance,
                                               const CombinedSampling& sampling);
 
+/// The same of several estimators, as [estimator][grid], which share the kernel's values.
+std::vector<std::vector<MeanAndVariance>> combined_moments(
+    const Kernel& kernel, std::span<const Grid<double>> radiance,
+    std::span<const CombinedSampling> samplings);
+
 /// The moments of the one-sample estimator of any density over directions: `pdf` of a direction,
 /// positive wherever k is.
 std::vector<MeanAndVariance> density_moments(const Kernel& kernel,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "lightproof/core/error.h"
@@ -71,32 +72,55 @@ std::optional<Material> drawn_by_name(const Stage& stage, std::string_view name)
   return ggx;
 }
 
-/// Mean, variance of one sample, and the largest single estimate, of every map; none where they are
-/// not known.
-std::vector<MeanAndVariance> exact_moments(const Stage& stage, std::size_t pixel,
-                                           const EstimatorInfo& info) {
-  const reference::Kernel kernel = stage.kernel(pixel, stage.material);
-  const Direction normal = stage.pixels[pixel].point.frame.normal;
-  if (info.combined) return reference::combined_moments(kernel, stage.luminances, *info.combined);
-  if (info.name == "hemisphere") {
-    return reference::density_moments(kernel, stage.luminances,
-                                      [](Direction) { return 0.5 / kPi; });
-  }
-  if (info.name == "cosine") {
-    return reference::density_moments(kernel, stage.luminances,
-                                      [normal](Direction d) { return glm::dot(normal, d) / kPi; });
-  }
-  const auto drawn = drawn_by_name(stage, info.name);
-  if (!info.density && !drawn) return {};
-  const auto density = info.density.value_or(reference::SampledDensity::material);
-  std::vector<MeanAndVariance> all;
-  for (const reference::LightMoments& each : reference::light_moments(
-           stage.kernel(pixel, drawn.value_or(stage.material)), stage.luminances)) {
-    const reference::EstimatorMoments& moments = each[density];
-    all.push_back({moments.mean(), moments.variance(), moments.largest});
+/// Mean, variance of one sample, and the largest single estimate, of one estimator on every map.
+using ExactMoments = std::vector<MeanAndVariance>;
+
+ExactMoments of_density(std::span<const reference::LightMoments> moments,
+                        reference::SampledDensity density) {
+  ExactMoments all;
+  for (const reference::LightMoments& each : moments) {
+    all.push_back({each[density].mean(), each[density].variance(), each[density].largest});
   }
   return all;
 }
+
+/// What is exact at one pixel.
+struct Exact {
+  std::vector<reference::LightMoments> light;             ///< of every map
+  std::map<std::string_view, ExactMoments> of_estimator;  ///< of those whose moments are known
+
+  Exact(const Stage& stage, std::size_t pixel)
+      : light(reference::light_moments(stage.kernel(pixel, stage.material), stage.luminances)) {
+    std::vector<std::string_view> combined;
+    std::vector<reference::CombinedSampling> samplings;
+    for (const EstimatorInfo& info : estimators()) {
+      if (!info.serves(stage.material)) continue;
+      if (info.density) of_estimator[info.name] = of_density(light, *info.density);
+      if (const auto drawn = drawn_by_name(stage, info.name)) {
+        of_estimator[info.name] =
+            of_density(reference::light_moments(stage.kernel(pixel, *drawn), stage.luminances),
+                       reference::SampledDensity::material);
+      }
+      if (!info.combined) continue;
+      combined.push_back(info.name);
+      samplings.push_back(*info.combined);
+    }
+    const reference::Kernel kernel = stage.kernel(pixel, stage.material);
+    const auto moments = reference::combined_moments(kernel, stage.luminances, samplings);
+    for (std::size_t i = 0; i < combined.size(); ++i) of_estimator[combined[i]] = moments[i];
+    of_estimator["hemisphere"] =
+        reference::density_moments(kernel, stage.luminances, [](Direction) { return 0.5 / kPi; });
+    const Direction normal = stage.pixels[pixel].point.frame.normal;
+    of_estimator["cosine"] = reference::density_moments(
+        kernel, stage.luminances, [normal](Direction d) { return glm::dot(normal, d) / kPi; });
+  }
+
+  std::optional<MeanAndVariance> known(std::string_view estimator, std::size_t map) const {
+    const auto found = of_estimator.find(estimator);
+    if (found == of_estimator.end()) return std::nullopt;
+    return found->second[map];
+  }
+};
 
 /// Luminances of estimates of so many samples each.
 Moments estimates(const BoundEstimator& estimator, const ShadingPoint& at,
@@ -164,14 +188,13 @@ TEST_P(Unbiased, EstimatesAgreeWithQuadrature) {
   for (const std::string_view name : {"lambert", "phong", "ggx"}) {
     const Stage stage(kMaps, GetParam(), material_by_name(name).material);
     for (std::size_t i = 0; i < stage.pixels.size(); ++i) {
-      const auto light =
-          reference::light_moments(stage.kernel(i, stage.material), stage.luminances);
+      const Exact exact(stage, i);
       for (const EstimatorInfo& info : estimators()) {
         if (info.is_biased || !info.serves(stage.material)) continue;
-        const auto exact = exact_moments(stage, i, info);
         for (std::size_t map = 0; map < stage.maps.size(); ++map) {
-          if (exact.empty() && !has_normal_tails(info, light[map])) continue;
-          const double mean = light[map][reference::SampledDensity::uniform].mean();
+          const auto known = exact.known(info.name, map);
+          if (!known && !has_normal_tails(info, exact.light[map])) continue;
+          const double mean = exact.light[map][reference::SampledDensity::uniform].mean();
           // Float radiance and weights: a few roundings; positions found to 2e-8 of the map's
           // width.
           const double rounding = mean * (1e-6 + (stage.receiver.occluded ? kSilhouette : 0.0));
@@ -182,7 +205,6 @@ TEST_P(Unbiased, EstimatesAgreeWithQuadrature) {
           const Moments measured =
               estimates(bound, stage.pixels[i].point, RandomStream("quadrature/" + label, 1),
                         kSamples, kEstimates);
-          const auto known = exact.empty() ? std::nullopt : std::optional(exact[map]);
           EXPECT_GT(log10_p(measured, known, mean, rounding), log10_level)
               << label << ": " << measured.mean() << " for " << mean << ", standard error "
               << measured.standard_error();
@@ -213,25 +235,24 @@ TEST(Variances, AreTheExactOnes) {
   constexpr std::uint64_t kCount = std::uint64_t{1} << 17U;
   for (const std::string_view name : {"lambert", "phong", "ggx"}) {
     const Stage stage("gradient", "sphere", material_by_name(name).material);
-    for (const EstimatorInfo& info : estimators()) {
-      if (info.is_biased || !info.serves(stage.material)) continue;
-      const BoundEstimator estimator = stage.bound(info);
-      for (std::size_t i = 0; i < stage.pixels.size(); ++i) {
-        const auto all = exact_moments(stage, i, info);
-        if (all.empty()) continue;
-        const MeanAndVariance& exact = all.front();
+    for (std::size_t i = 0; i < stage.pixels.size(); ++i) {
+      const Exact all(stage, i);
+      for (const auto& [estimator, moments] : all.of_estimator) {
+        const EstimatorInfo& info = estimator_by_name(estimator);
         Moments measured;
-        estimator.integrate(stage.pixels[i].point,
-                            RandomStream(fmt::format("variance/{}/{}/{}", name, info.name, i), 1),
-                            {0, kCount}, [&](std::span<const Rgb> shown) {
-                              for (const Rgb rgb : shown) measured.add(luminance_of(rgb));
-                            });
+        stage.bound(info).integrate(
+            stage.pixels[i].point,
+            RandomStream(fmt::format("variance/{}/{}/{}", name, info.name, i), 1), {0, kCount},
+            [&](std::span<const Rgb> shown) {
+              for (const Rgb rgb : shown) measured.add(luminance_of(rgb));
+            });
         const double scale = static_cast<double>(info.samples_per_estimate);
         ASSERT_EQ(measured.count(), kCount / info.samples_per_estimate);
         const double variance = measured.variance();
         const double error = std::sqrt((measured.fourth_central() - variance * variance) /
                                        static_cast<double>(measured.count()));
-        EXPECT_NEAR(variance, exact.variance / scale, kZ * error + 1e-9 * exact.variance)
+        const double exact = moments.front().variance;
+        EXPECT_NEAR(variance, exact / scale, kZ * error + 1e-9 * exact)
             << info.name << ", " << name << ", pixel " << i;
       }
     }

@@ -91,7 +91,7 @@ TEST(CombinedMoments, OfPairsAreSumsOverTechniques) {
   EXPECT_NEAR(lobes + map, kPi, 1e-9);
   const Grid<double> constant({32, 16}, 1.0);
   const MeanAndVariance m =
-      combined_moments(drawn_cosine(kOblique, cosine_pdf), {&constant, 1}, {})[0];
+      combined_moments(drawn_cosine(kOblique, cosine_pdf), {&constant, 1}, CombinedSampling{})[0];
   EXPECT_NEAR(m.variance / (2.0 * variance), 1.0, kTolerance);
 }
 
@@ -99,20 +99,22 @@ TEST(CombinedMoments, OfPairsAreSumsOverTechniques) {
 // an even number N of samples. Compensation helps pairs and harms one-sample estimates.
 TEST(CombinedMoments, ShowThatCompensationIsForPairs) {
   const Grid<double> map = zonal({64, 256}, [](double z) { return 1.0 + 0.2 * z; });
-  const auto mean_over_normals = [&](CombinedSampling sampling) {
-    constexpr int kNormals = 32;
-    double sum = 0.0;
-    for (int i = 0; i < kNormals; ++i) {
-      const double z = -1.0 + (2.0 * i + 1.0) / kNormals;
-      const Kernel kernel = drawn_cosine({std::sqrt(1.0 - z * z), 0.0, z}, cosine_pdf);
-      sum += relative(combined_moments(kernel, {&map, 1}, sampling)[0]) / kNormals;
-    }
-    return sum;
-  };
-  EXPECT_NEAR(mean_over_normals({}), 0.246, 1e-3);
-  EXPECT_NEAR(mean_over_normals({.compensation = 1.0}), 0.154, 1e-3);
-  EXPECT_NEAR(mean_over_normals({.is_one_sample = true}), 0.407, 1e-3);
-  EXPECT_NEAR(mean_over_normals({.is_one_sample = true, .compensation = 1.0}), 0.544, 1e-3);
+  const CombinedSampling samplings[] = {{},
+                                        {.compensation = 1.0},
+                                        {.is_one_sample = true},
+                                        {.is_one_sample = true, .compensation = 1.0}};
+  constexpr int kNormals = 32;
+  double means[4] = {};
+  for (int n = 0; n < kNormals; ++n) {
+    const double z = -1.0 + (2.0 * n + 1.0) / kNormals;
+    const Kernel kernel = drawn_cosine({std::sqrt(1.0 - z * z), 0.0, z}, cosine_pdf);
+    const auto moments = combined_moments(kernel, {&map, 1}, samplings);
+    for (std::size_t i = 0; i < 4; ++i) means[i] += relative(moments[i][0]) / kNormals;
+  }
+  EXPECT_NEAR(means[0], 0.246, 1e-3);
+  EXPECT_NEAR(means[1], 0.154, 1e-3);
+  EXPECT_NEAR(means[2], 0.407, 1e-3);
+  EXPECT_NEAR(means[3], 0.544, 1e-3);
 }
 
 TEST(DensityMoments, OfUniformDirectionsAreThoseOfOneDensity) {
