@@ -66,6 +66,22 @@ TEST(ListSamplers, MarksKnownDefects) {
   EXPECT_THAT(lightproof({"list", "samplers"}).out, HasSubstr("known defects"));
 }
 
+TEST(ListEstimators, SaysWhatTheyAre) {
+  const auto json = nlohmann::json::parse(lightproof({"list", "estimators", "--json"}).out);
+  const auto entry = [&](const std::string& name) {
+    for (const auto& one : json.at("entries")) {
+      if (one.at("name") == name) return one;
+    }
+    return nlohmann::json();
+  };
+  EXPECT_EQ(entry("mis balance").at("kind"), "multi-sample");
+  EXPECT_EQ(entry("mis balance").at("biased"), false);
+  EXPECT_EQ(entry("mis balance").at("source"), "Veach and Guibas 1995");
+  EXPECT_EQ(entry("split-sum").at("biased"), true);
+  EXPECT_EQ(entry("split-sum").at("ignores_occlusion"), true);
+  EXPECT_EQ(entry("split-sum").at("materials"), nlohmann::json({"ggx", "ggx_rough"}));
+}
+
 TEST(ListPoints, SaysWhatTheyAre) {
   const Finished list = lightproof({"list", "points"});
   EXPECT_THAT(list.out, HasSubstr("in float as shaders have it; defect: "));

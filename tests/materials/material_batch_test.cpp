@@ -71,7 +71,7 @@ TEST_P(MaterialBatch, SamplesAreThoseOfOnePointAtATime) {
   });
 }
 
-TEST_P(MaterialBatch, ReflectedCosinesAreThoseOfOneDirectionAtATime) {
+TEST_P(MaterialBatch, ValuesAndDensitiesAreThoseOfOneDirectionAtATime) {
   const auto& [name, material, at] = GetParam();
   const RandomStream stream("material batch", 2);
   Samples all;
@@ -85,12 +85,16 @@ TEST_P(MaterialBatch, ReflectedCosinesAreThoseOfOneDirectionAtATime) {
   }
   for_each_kind_of_vector([&, &at = at, &material = material](const char* vectors) {
     SCOPED_TRACE(vectors);
+    Samples both;
     reflected_cosines(material, at, {all.x, all.y, all.z}, all.reflected_cosine);
+    scatterings(material, at, {all.x, all.y, all.z}, {both.reflected_cosine, both.pdf});
     std::visit(
         [&](const auto& surface) {
           for (std::size_t i = 0; i < kSize; ++i) {
-            const double expected = surface.evaluate(at, all.direction(i)).reflected_cosine;
+            const auto [expected, pdf] = surface.evaluate(at, all.direction(i));
             EXPECT_NEAR(all.reflected_cosine[i], expected, value_error(expected));
+            EXPECT_NEAR(both.reflected_cosine[i], expected, value_error(expected));
+            EXPECT_NEAR(both.pdf[i], pdf.value, value_error(pdf.value));
           }
         },
         material);
@@ -108,6 +112,8 @@ TEST_P(MaterialBatch, IsDoneByVectors) {
     std::vector<double> reflected(kSize);
     const DirectionArrays light = {samples.x, samples.y, samples.z};
     expect_whole_vectors(vectors, reflected_cosines(material, at, light, reflected), kSize);
+    expect_whole_vectors(vectors, scatterings(material, at, light, {reflected, samples.pdf}),
+                         kSize);
   });
 }
 

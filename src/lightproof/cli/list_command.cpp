@@ -57,12 +57,26 @@ std::vector<Entry> sampler_entries() {
   return entries;
 }
 
+/// The names of the materials that an estimator serves.
+Json served_by(const EstimatorInfo& info) {
+  Json names = Json::array();
+  for (const MaterialInfo& material : materials()) {
+    if (info.serves(material.material)) names.push_back(material.name);
+  }
+  return names;
+}
+
 std::vector<Entry> estimator_entries() {
   std::vector<Entry> entries;
   for (const EstimatorInfo& info : estimators()) {
     entries.push_back({std::string(info.name),
                        fmt::format("{}; {}, {} ({})", info.description, to_string(info.kind),
-                                   info.is_biased ? "biased" : "unbiased", info.source)});
+                                   info.is_biased ? "biased" : "unbiased", info.source),
+                       {{"kind", to_string(info.kind)},
+                        {"biased", info.is_biased},
+                        {"source", info.source},
+                        {"ignores_occlusion", info.ignores_occlusion},
+                        {"materials", served_by(info)}}});
   }
   return entries;
 }

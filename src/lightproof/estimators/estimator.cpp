@@ -8,6 +8,8 @@ std::string_view to_string(EstimatorKind kind) {
       return "one-sample";
     case EstimatorKind::multi_sample:
       return "multi-sample";
+    case EstimatorKind::resampled:
+      return "resampled";
     case EstimatorKind::point_set:
       return "point-set";
     case EstimatorKind::deterministic:

@@ -14,6 +14,7 @@
 #include "lightproof/image/environment_map.h"
 #include "lightproof/materials/material.h"
 #include "lightproof/render/scene.h"
+#include "reference/combined_moments.h"
 #include "reference/estimator_moments.h"
 
 namespace lightproof {
@@ -29,8 +30,8 @@ struct Budget {
 /// is, in order, some at a time.
 using EachEstimate = std::function<void(std::span<const Rgb> estimates)>;
 
-/// An estimator that is ready for a map, a scene and a material, which must outlive it. Many
-/// threads may call it.
+/// An estimator that is ready for a map, a scene and a material. Map and scene must outlive it.
+/// Many threads may call it.
 struct BoundEstimator {
   /// The radiance that a point reflects to where it is seen from: ∫ L f_r (n·l)+ V d(omega), in the
   /// unit of the map. `each` may be empty; an estimate that is no mean of independent ones never
@@ -38,11 +39,15 @@ struct BoundEstimator {
   std::function<Rgb(const ShadingPoint& at, const RandomStream& stream, Budget budget,
                     const EachEstimate& each)>
       integrate;
+  /// Memory that it takes for the material, beside what was prepared for the map.
+  std::size_t bytes = 0;
 };
 
 /// What an estimator keeps of a map, which must outlive it: tables, or a map computed beforehand.
-/// The time that it takes to make is the estimator's set-up time.
+/// The estimator's set-up time is that of making this and of binding it; what is set up anew for
+/// every shading point is part of integrate()'s.
 struct PreparedEstimator {
+  /// Throws InputError if the estimator does not serve the material.
   std::function<BoundEstimator(const Scene& scene, const Material& material)> bind;
   std::size_t bytes = 0;  ///< memory that it takes beside the map itself
 };
@@ -51,13 +56,18 @@ struct PreparedEstimator {
 enum class EstimatorKind {
   one_sample,     ///< each sample from the one density; independent
   multi_sample,   ///< each estimate from samples of several densities, weighted; independent
+  resampled,      ///< each sample chosen of several candidates; independent
   point_set,      ///< samples that depend on each other: stratified, low-discrepancy
   deterministic,  ///< no random numbers
   precomputed,    ///< a look-up in what was computed beforehand
 };
 
-/// The name of a kind: "one-sample", "multi-sample", "point-set", "deterministic", "precomputed".
+/// The name of a kind: "one-sample", "multi-sample", "resampled", "point-set", "deterministic",
+/// "precomputed".
 std::string_view to_string(EstimatorKind kind);
+
+/// Serves every material.
+constexpr bool serves_all(const Material& /*material*/) { return true; }
 
 /// A row of the registry of estimators.
 struct EstimatorInfo {
@@ -68,6 +78,21 @@ struct EstimatorInfo {
   bool is_biased = false;
   /// The density whose exact moments are those of its single estimates; none if they are not known.
   std::optional<reference::SampledDensity> density = {};
+  /// How it combines the densities of material and map, if its exact mean and variance follow from
+  /// that.
+  std::optional<reference::CombinedSampling> combined = {};
+  /// Samples of the budget that make one of the independent estimates that are shown; budgets that
+  /// are no multiple of it show none.
+  std::uint64_t samples_per_estimate = 1;
+  /// Whether it takes nothing to be in the way of light: it is wrong where something is.
+  bool ignores_occlusion = false;
+  /// Whether the budget is without meaning to it: one estimate costs what it costs.
+  bool ignores_budget = false;
+  /// Whether studies measure how it converges, if its moments are known, and render by it.
+  bool is_studied = false;
+  /// Whether it can be used for a material. Binding to one that it cannot serve throws InputError.
+  bool (*serves)(const Material& material) = serves_all;
+  /// Throws InputError if it draws from the map and the map is black.
   PreparedEstimator (*prepare)(const EnvironmentMap& map) = nullptr;
 };
 

@@ -19,6 +19,10 @@ std::size_t evaluate_front(const Material& /*material*/, const ShadingPoint& /*a
                            const DirectionArrays& /*light*/, std::span<double> /*out*/) {
   return 0;
 }
+std::size_t scatter_front(const Material& /*material*/, const ShadingPoint& /*at*/,
+                          const DirectionArrays& /*light*/, const ScatteringSpans& /*out*/) {
+  return 0;
+}
 std::size_t sample_front(const Material& /*material*/, const ShadingPoint& /*at*/,
                          std::span<const double> /*s*/, std::span<const double> /*t*/,
                          const MaterialSamples& /*samples*/) {
@@ -37,6 +41,21 @@ HWY_INLINE std::size_t evaluate_vectors(const Kernel& kernel, const DirectionArr
     const Directions at = {hn::LoadU(d, light.x.data() + i), hn::LoadU(d, light.y.data() + i),
                            hn::LoadU(d, light.z.data() + i)};
     hn::StoreU(kernel.evaluate(at).reflected_cosine, d, out.data() + i);
+  }
+  return i;
+}
+
+template <class Kernel>
+HWY_INLINE std::size_t scatter_vectors(const Kernel& kernel, const DirectionArrays& light,
+                                       const ScatteringSpans& out) {
+  const Numbers d;
+  std::size_t i = 0;
+  for (; i + hn::Lanes(d) <= out.pdf.size(); i += hn::Lanes(d)) {
+    const Directions at = {hn::LoadU(d, light.x.data() + i), hn::LoadU(d, light.y.data() + i),
+                           hn::LoadU(d, light.z.data() + i)};
+    const Scatterings scattering = kernel.evaluate(at);
+    hn::StoreU(scattering.reflected_cosine, d, out.reflected_cosine.data() + i);
+    hn::StoreU(scattering.pdf, d, out.pdf.data() + i);
   }
   return i;
 }
@@ -65,6 +84,13 @@ std::size_t evaluate_front(const Material& material, const ShadingPoint& at,
                     material);
 }
 
+std::size_t scatter_front(const Material& material, const ShadingPoint& at,
+                          const DirectionArrays& light, const ScatteringSpans& out) {
+  return std::visit([&](const auto& surface)
+                        HWY_ATTR { return scatter_vectors(kernel_of(surface, at), light, out); },
+                    material);
+}
+
 std::size_t sample_front(const Material& material, const ShadingPoint& at,
                          std::span<const double> s, std::span<const double> t,
                          const MaterialSamples& samples) {
@@ -84,6 +110,7 @@ namespace lightproof {
 namespace {
 
 HWY_EXPORT(evaluate_front);
+HWY_EXPORT(scatter_front);
 HWY_EXPORT(sample_front);
 
 }  // namespace
@@ -97,6 +124,21 @@ std::size_t reflected_cosines(const Material& material, const ShadingPoint& at,
         for (std::size_t i = by_vectors; i < reflected_cosine.size(); ++i) {
           const Direction direction = {light.x[i], light.y[i], light.z[i]};
           reflected_cosine[i] = surface.evaluate(at, direction).reflected_cosine;
+        }
+      },
+      material);
+  return by_vectors;
+}
+
+std::size_t scatterings(const Material& material, const ShadingPoint& at,
+                        const DirectionArrays& light, const ScatteringSpans& out) {
+  const std::size_t by_vectors = HWY_DYNAMIC_DISPATCH(scatter_front)(material, at, light, out);
+  std::visit(
+      [&](const auto& surface) {
+        for (std::size_t i = by_vectors; i < out.pdf.size(); ++i) {
+          const auto [value, pdf] = surface.evaluate(at, {light.x[i], light.y[i], light.z[i]});
+          out.reflected_cosine[i] = value;
+          out.pdf[i] = pdf.value;
         }
       },
       material);

@@ -67,26 +67,14 @@ void LightBatch::shade(const Lighting& lighting, const ShadingPoint& at) {
   }
   if (!lighting.light->sampler()) locate(radiance.extent());
   const auto width = static_cast<std::size_t>(radiance.extent().width);
-  // Every sample is written; those that do not matter are overwritten by the next.
-  ray_count_ = 0;
+  arrivals_.begin(count_);
   for (std::size_t i = 0; i < count_; ++i) {
-    estimates_[i] = Rgb(0.0F);
-    rays_[ray_count_] = shadow_ray(at.position, direction(i));
-    arrivals_[ray_count_] = {radiance.values().data() + static_cast<std::size_t>(row_[i]) * width +
-                                 static_cast<std::size_t>(column_[i]),
-                             static_cast<float>(reflected_cosine_[i] / pdf_[i]),
-                             static_cast<std::uint32_t>(i)};
-    __builtin_prefetch(arrivals_[ray_count_].radiance);
-    ray_count_ += reflected_cosine_[i] > 0.0 && pdf_[i] > 0.0 ? 1 : 0;
+    const Rgb* texel = radiance.values().data() + static_cast<std::size_t>(row_[i]) * width +
+                       static_cast<std::size_t>(column_[i]);
+    arrivals_.add(i, at.position, direction(i), texel,
+                  static_cast<float>(reflected_cosine_[i] / pdf_[i]),
+                  reflected_cosine_[i] > 0.0 && pdf_[i] > 0.0);
   }
-}
-
-std::span<const Rgb> LightBatch::resolve() {
-  for (std::size_t i = 0; i < ray_count_; ++i) {
-    const Arrival& arrival = arrivals_[i];
-    if (!is_blocked(rays_[i])) estimates_[arrival.sample] = *arrival.radiance * arrival.weight;
-  }
-  return {estimates_.data(), count_};
 }
 
 std::span<const Rgb> LightBatch::estimate(const Lighting& lighting, const ShadingPoint& at,

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "lightproof/materials/material.h"
+#include "lightproof/render/arrivals.h"
 #include "lightproof/render/environment_light.h"
 #include "lightproof/render/scene.h"
 #include "lightproof/samplers/batch.h"
@@ -24,7 +25,7 @@ struct Lighting {
 /// Up to kCapacity samples on their way through the phases. Each thread has one, and uses it again.
 class LightBatch {
  public:
-  static constexpr std::size_t kCapacity = 256;
+  static constexpr std::size_t kCapacity = Arrivals::kCapacity;
 
   /// Goes through all four phases over the first `count` of these points, count <= kCapacity.
   /// Returns each sample's estimate of the outgoing radiance; their mean converges to L_o.
@@ -38,21 +39,14 @@ class LightBatch {
   /// that matter.
   void shade(const Lighting& lighting, const ShadingPoint& at);
   /// The third phase: asks the scene which rays are blocked.
-  void trace(const Scene& scene) { scene.trace({rays_.data(), ray_count_}); }
+  void trace(const Scene& scene) { arrivals_.trace(scene); }
   /// The last phase: collects the radiance along the rays that nothing blocks. Returns each
   /// sample's estimate.
-  std::span<const Rgb> resolve();
+  std::span<const Rgb> resolve() { return arrivals_.resolve(); }
 
-  std::span<const ShadowRay> rays() const { return {rays_.data(), ray_count_}; }
+  std::span<const ShadowRay> rays() const { return arrivals_.rays(); }
 
  private:
-  /// A sample that may bring light, if nothing blocks its ray.
-  struct Arrival {
-    const Rgb* radiance;
-    float weight;
-    std::uint32_t sample;
-  };
-
   void fill_from_material(std::size_t count, const Material& material, const ShadingPoint& at);
   void fill_from_sphere(std::size_t count);
   void fill_from_map(std::size_t count, const GuideTable& sampler, const BatchPoints& points);
@@ -73,12 +67,7 @@ class LightBatch {
   std::array<double, kCapacity> reflected_cosine_;
   std::array<std::int32_t, kCapacity> column_;  ///< column of the texel
   std::array<std::int32_t, kCapacity> row_;
-  std::array<Rgb, kCapacity> estimates_;
-
-  // Of those that matter.
-  std::size_t ray_count_ = 0;
-  std::array<Arrival, kCapacity> arrivals_;
-  std::array<ShadowRay, kCapacity> rays_;
+  Arrivals arrivals_;
 };
 
 }  // namespace lightproof

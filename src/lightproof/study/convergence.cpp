@@ -216,6 +216,9 @@ struct Stage {
   std::vector<Pixel> pixels;
 };
 
+/// Whether the estimator's convergence is measured, beside its exact moments.
+bool is_measured(const EstimatorInfo& info) { return info.is_studied && info.density; }
+
 /// The estimators in the registry's order, prepared for one map; empty where the error is not
 /// predicted.
 using PreparedEstimators = std::vector<PreparedEstimator>;
@@ -223,7 +226,7 @@ using PreparedEstimators = std::vector<PreparedEstimator>;
 PreparedEstimators prepared_for(const EnvironmentMap& map) {
   PreparedEstimators prepared;
   for (const EstimatorInfo& info : estimators()) {
-    prepared.push_back(info.density ? info.prepare(map) : PreparedEstimator{});
+    prepared.push_back(is_measured(info) ? info.prepare(map) : PreparedEstimator{});
   }
   return prepared;
 }
@@ -251,7 +254,7 @@ std::vector<Line> lines_of(const Lights& lights, const Stage& stage, const Mater
   for (std::size_t map = 0; map < lights.maps.size(); ++map) {
     for (std::size_t i = 0; i < estimators().size(); ++i) {
       const EstimatorInfo& info = estimators()[i];
-      if (!info.density) continue;
+      if (!is_measured(info)) continue;
       Line line{&lights.maps[map],
                 stage.receiver,
                 &material,

@@ -63,6 +63,7 @@ std::vector<RenderRecord> study_renders(std::span<const EnvironmentMap> maps,
     const Grid<Rgb> reference =
         render(best, bound_to_scene(best), options.reference_samples, "render-reference");
     for (const EstimatorInfo& info : estimators()) {
+      if (!info.is_studied || !info.serves(material.material)) continue;
       const BoundEstimator estimator = bound_to_scene(info);  // set-up is not rendering
       const auto start = std::chrono::steady_clock::now();
       RenderRecord record;
