@@ -5,6 +5,7 @@
 //   ahead    the same, each point prefetched eight samples before it is drawn
 //   batch    the same points, in batches
 //   fused    in batches, random numbers included
+//   places   as fused, but as positions over the map with their density over it
 //
 // All carry times_baseline, how many times as fast they are as the usual way: std::upper_bound over
 // sums in float, and the library's sine and cosine. `fused` carries share_of_limit too, of the
@@ -37,8 +38,6 @@
 
 namespace lightproof::bench {
 namespace {
-
-constexpr std::array kDensities = {DensitySpace::texture, DensitySpace::solid_angle};
 
 /// How many samples lie between the prefetch of a point and its draw.
 constexpr std::size_t kAhead = 8;
@@ -132,6 +131,16 @@ auto draw_fused(const Sampler& sampler) {
   };
 }
 
+template <class Sampler>
+auto draw_places(const Sampler& sampler) {
+  return [&sampler,
+          samples = std::make_shared<std::vector<TexelSample>>(kBatch)](std::uint64_t first) {
+    sample(sampler, fused_stream(), first, *samples);
+    benchmark::DoNotOptimize(samples->data());
+    benchmark::ClobberMemory();
+  };
+}
+
 /// The baseline with random numbers included.
 auto draw_fused_baseline(const UpperBoundBaseline& baseline) {
   return [&baseline, points = std::make_shared<std::vector<SquarePoint>>(kBatch),
@@ -160,7 +169,7 @@ void time_against(benchmark::State& state, const Draw& draw, const Baseline& bas
   state.counters["times_baseline"] = mean / state.counters["ns_per_sample"];
 }
 
-enum class Order { scalar, ahead, batch, fused };
+enum class Order { scalar, ahead, batch, fused, places };
 
 template <class Sampler>
 void time_order(benchmark::State& state, const Sampler& sampler, const Baselines& baselines,
@@ -177,6 +186,8 @@ void time_order(benchmark::State& state, const Sampler& sampler, const Baselines
       return;
     case Order::batch:
       return time_against(state, draw_batch_of(sampler), draw_scalar(usual));
+    case Order::places:
+      return time_against(state, draw_places(sampler), draw_fused_baseline(baselines.baseline));
     case Order::fused: {
       const double before = ns_per_sample(draw_limit(baselines.limit));
       time_against(state, draw_fused(sampler), draw_fused_baseline(baselines.baseline));
@@ -230,10 +241,11 @@ struct OrderInfo {
   Order order;
   std::string_view name;
 };
-constexpr std::array<OrderInfo, 4> kOrders = {{{Order::scalar, "scalar"},
+constexpr std::array<OrderInfo, 5> kOrders = {{{Order::scalar, "scalar"},
                                                {Order::ahead, "ahead"},
                                                {Order::batch, "batch"},
-                                               {Order::fused, "fused"}}};
+                                               {Order::fused, "fused"},
+                                               {Order::places, "places"}}};
 
 bool prefetches(const SamplerInfo& info) {
   static const EnvironmentMap small = map_of({16, 8});
@@ -264,7 +276,7 @@ void register_baselines(Extent extent, DensitySpace density_space) {
 
 void register_direction_benchmarks() {
   for (const Extent extent : kExtents) {
-    for (const DensitySpace density_space : kDensities) {
+    for (const DensitySpace density_space : kDensitySpaces) {
       register_baselines(extent, density_space);
       for (const SamplerInfo& info : samplers()) {
         for (const auto& [order, order_name] : kOrders) {

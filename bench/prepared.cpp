@@ -16,6 +16,7 @@
 #include "lightproof/samplers/batch.h"
 #include "lightproof/stats/goodness_of_fit.h"
 #include "lightproof/stats/median.h"
+#include "lightproof/warp/lat_long.h"
 #include "reference/slow_sampler.h"
 #include "reference/texel_masses.h"
 
@@ -166,12 +167,16 @@ double worst_texel_error(Extent extent, TargetDensity target,
                          const std::function<double(SquarePoint)>& pdf) {
   const Grid<double>& masses = exact_distribution(extent, target).masses;
   const double texels = static_cast<double>(extent.count());
+  const bool is_flat = position_measure(target.density_space) == MapMeasure::square;
   std::vector<double> worst(static_cast<std::size_t>(extent.height));
   parallel_for(worst.size(), [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < extent.width; ++x) {
       if (!(masses(x, y) > 0.0)) continue;
-      const double drawn = pdf({(x + 0.5) / extent.width, (y + 0.5) / extent.height}) / texels;
+      const SquarePoint at = {(x + 0.5) / extent.width, (y + 0.5) / extent.height};
+      const double drawn = is_flat
+                               ? pdf(at) / texels
+                               : to_solid_angle({pdf(at)}, at).value * texel_solid_angle(extent, y);
       worst[row] = std::max(worst[row], std::abs(drawn / masses(x, y) - 1.0));
     }
   });

@@ -82,11 +82,12 @@ struct NamedSource {
   std::string_view name;
   DirectionSource source;
 };
-const std::array<NamedSource, 4> kSources = {
+const std::array<NamedSource, 5> kSources = {
     {{"uniform", UniformSphere{}},
      {"brdf", MaterialLobes{}},
      {"environment_A", MapDensity{DensitySpace::texture}},
-     {"environment_B", MapDensity{DensitySpace::solid_angle}}}};
+     {"environment_B", MapDensity{DensitySpace::solid_angle}},
+     {"environment_C", MapDensity{DensitySpace::sine_weighted}}}};
 
 void render_benchmark(benchmark::State& state, const NamedSource& named,
                       const MaterialInfo& material) {

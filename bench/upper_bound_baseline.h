@@ -16,7 +16,7 @@ namespace lightproof::bench {
 
 class UpperBoundBaseline {
  public:
-  /// A table of the luminances, times the texels' solid angles unless the density is over (s,t).
+  /// A table of the luminances, times the texels' solid angles as the density says.
   explicit UpperBoundBaseline(const EnvironmentMap& map,
                               DensitySpace density_space = DensitySpace::texture)
       : extent_(map.radiance.extent()), density_space_(density_space) {
@@ -24,7 +24,7 @@ class UpperBoundBaseline {
     for (int y = 0; y < extent_.height; ++y) {
       std::vector<double> weights;
       const double solid_angle =
-          density_space == DensitySpace::texture ? 1.0 : texel_solid_angle(extent_, y);
+          texel_measure(density_space) == MapMeasure::square ? 1.0 : texel_solid_angle(extent_, y);
       for (const Rgb rgb : map.radiance.row(y)) {
         weights.push_back(luminance_of(rgb, kRec709) * solid_angle);
       }
@@ -46,7 +46,7 @@ class UpperBoundBaseline {
     double sine;
     double z;
     double pdf;
-    if (density_space_ == DensitySpace::solid_angle) {
+    if (position_measure(density_space_) == MapMeasure::solid_angle) {
       const double span = heights_[y + 1] - heights_[y];
       z = heights_[y] + row.fraction * span;
       sine = std::sqrt(std::max(0.0, 1.0 - z * z));

@@ -43,12 +43,12 @@ std::array<int, 2> ends_of(int patch, int texels, bool wraps) {
   return {std::max(patch - 1, 0), std::min(patch, texels - 1)};
 }
 
-double along_weight(DensitySpace density_space, double t) {
-  return density_space == DensitySpace::texture ? 1.0 : sin_theta(t);
+double along_weight(MapMeasure measure, double t) {
+  return measure == MapMeasure::square ? 1.0 : sin_theta(t);
 }
 
-std::function<double(double)> weight_along(DensitySpace density_space) {
-  return [density_space](double t) { return along_weight(density_space, t); };
+std::function<double(double)> weight_along(MapMeasure measure) {
+  return [measure](double t) { return along_weight(measure, t); };
 }
 
 /// The parts of all tents of a line for each of `cells` equal cells.
@@ -117,12 +117,24 @@ std::vector<TentPart> tent_parts(double low, double high, int texels, bool wraps
   return parts;
 }
 
+Grid<double> interpolated_by(DensitySpace density_space, Grid<double> luminance) {
+  if (!weighs_texels(density_space)) return luminance;
+  const int height = luminance.extent().height;
+  for (int y = 0; y < height; ++y) {
+    const double solid_angle =
+        cos_theta((y + 1.0) / height) - cos_theta(static_cast<double>(y) / height);
+    for (double& value : luminance.row(y)) value *= height * solid_angle;
+  }
+  return luminance;
+}
+
 Grid<double> bilinear_masses(const EnvironmentMap& map, TargetDensity target, Extent cells) {
   const Extent extent = map.radiance.extent();
-  const Grid<double> luminance = luminance_of(map, target.weights);
+  const Grid<double> luminance =
+      interpolated_by(target.density_space, luminance_of(map, target.weights));
   const auto across = parts_of_cells(cells.width, extent.width, true, one);
-  const auto along =
-      parts_of_cells(cells.height, extent.height, false, weight_along(target.density_space));
+  const auto along = parts_of_cells(cells.height, extent.height, false,
+                                    weight_along(position_measure(target.density_space)));
   Grid<double> folded({cells.width, extent.height});
   parallel_for(static_cast<std::size_t>(extent.height), [&](std::size_t row) {
     const int y = static_cast<int>(row);
@@ -150,8 +162,8 @@ Grid<double> bilinear_masses(const EnvironmentMap& map, TargetDensity target, Ex
 
 BilinearTransform::BilinearTransform(const EnvironmentMap& map, TargetDensity target)
     : extent_(map.radiance.extent()),
-      density_space_(target.density_space),
-      luminance_(luminance_of(map, target.weights)),
+      measure_(position_measure(target.density_space)),
+      luminance_(interpolated_by(target.density_space, luminance_of(map, target.weights))),
       columns_(static_cast<std::size_t>(extent_.width)) {
   for (int y = 0; y < extent_.height; ++y) {
     sums_.push_back(sums_over(luminance_.row(y)));
@@ -163,8 +175,7 @@ BilinearTransform::BilinearTransform(const EnvironmentMap& map, TargetDensity ta
     along_.push_back(along_.back() + mass_along(low, patch_edge(row + 1, extent_.height)));
   }
   total_ = along_.back();
-  for (const TentPart& part :
-       tent_parts(0.0, 1.0, extent_.height, false, weight_along(density_space_))) {
+  for (const TentPart& part : tent_parts(0.0, 1.0, extent_.height, false, weight_along(measure_))) {
     for (int x = 0; x < extent_.width; ++x) {
       columns_[static_cast<std::size_t>(x)] += part.integral * luminance_(x, part.texel);
     }
@@ -184,7 +195,7 @@ double BilinearTransform::mass_along(double low, double high) const {
   const double to = row_means_[static_cast<std::size_t>(second)];
   return integrate(low, high, [&](double t) {
     const double rising = std::clamp(t * extent_.height + 0.5 - row, 0.0, 1.0);
-    return (from + rising * (to - from)) * along_weight(density_space_, t);
+    return (from + rising * (to - from)) * along_weight(measure_, t);
   });
 }
 

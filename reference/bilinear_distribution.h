@@ -25,12 +25,17 @@ struct TentPart {
 std::vector<TentPart> tent_parts(double low, double high, int texels, bool wraps,
                                  const std::function<double(double)>& weight);
 
+/// What a density interpolates between the centres of texels, given their luminances: these
+/// themselves, or, of a density that weighs texels, these times the solid angle of their texel, up
+/// to a constant factor.
+Grid<double> interpolated_by(DensitySpace density_space, Grid<double> luminance);
+
 /// Probability of every cell of a `cells` grid laid over the square; they sum to 1. Throws
 /// InputError if the map is black.
 Grid<double> bilinear_masses(const EnvironmentMap& map, TargetDensity target, Extent cells);
 
-/// The Rosenblatt transform of the density over the square that is proportional to the bilinearly
-/// interpolated luminance, under B times sin(pi t).
+/// The Rosenblatt transform of the density over the square that is proportional to what is
+/// interpolated bilinearly, see interpolated_by(), under B times sin(pi t).
 class BilinearTransform {
  public:
   /// Integrates the map once; it must not be black.
@@ -43,7 +48,7 @@ class BilinearTransform {
   /// Probability of every row of patches, H + 1 of them from t = 0 up; they sum to 1.
   std::vector<double> rows() const;
 
-  /// ∫ of the interpolated luminance over the square, under B times sin(pi t).
+  /// ∫ of what is interpolated over the square, under B times sin(pi t).
   double total() const { return total_; }
 
  private:
@@ -55,8 +60,8 @@ class BilinearTransform {
   double mass_along(double low, double high) const;
 
   Extent extent_;
-  DensitySpace density_space_;
-  Grid<double> luminance_;
+  MapMeasure measure_;      ///< in which the density is that of the interpolation
+  Grid<double> luminance_;  ///< as interpolated_by() says
   std::vector<double> row_means_;
   std::vector<double> along_;    ///< mass below the lower edge of every row of patches, and 1
   std::vector<double> columns_;  ///< luminance of the columns, weighted as their rows are

@@ -17,10 +17,10 @@
 namespace lightproof::reference {
 namespace {
 
-/// ∫ of the radiance over the square (under A) or in steradian (under B).
-double total_of(const Grid<double>& radiance, DensitySpace density_space) {
-  const auto weight = [density_space](double t) {
-    return density_space == DensitySpace::texture ? 1.0 : solid_angle_per_square(t);
+/// ∫ of the interpolation over the square or in steradian.
+double total_of(const Grid<double>& radiance, MapMeasure measure) {
+  const auto weight = [measure](double t) {
+    return measure == MapMeasure::square ? 1.0 : solid_angle_per_square(t);
   };
   const auto [width, height] = radiance.extent();
   double total = 0.0;
@@ -52,48 +52,65 @@ class CellMoments {
   CellMoments(const Kernel& kernel, const Grid<double>& radiance, Extent cells)
       : kernel_(&kernel),
         radiance_(&radiance),
+        weighted_(interpolated_by(DensitySpace::sine_weighted, radiance)),
         quadrature_(cells),
-        a_(2.0 * kPi * kPi * total_of(radiance, DensitySpace::texture)),
-        b_(total_of(radiance, DensitySpace::solid_angle)) {}
+        a_(2.0 * kPi * kPi * total_of(radiance, MapMeasure::square)),
+        b_(total_of(radiance, MapMeasure::solid_angle)),
+        c_(2.0 * kPi * kPi * total_of(weighted_, MapMeasure::square)) {}
 
   void add_row(LightMoments& moments, int j) const {
-    const std::vector<double> low = corners_along(j);
-    const std::vector<double> high = corners_along(j + 1);
+    const Edge low = edge_at(j);
+    const Edge high = edge_at(j + 1);
     for (int i = 0; i < quadrature_.extent().width; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      add_cell(moments, {i, j, {{{low[k], low[k + 1]}, {high[k], high[k + 1]}}}});
+      const auto corners = [&](std::vector<double> Edge::*of) {
+        return Corners{{{{(low.*of)[k], (low.*of)[k + 1]}, {(high.*of)[k], (high.*of)[k + 1]}}}};
+      };
+      add_cell(moments, {i, j, corners(&Edge::radiance), corners(&Edge::weighted)});
     }
   }
 
  private:
-  /// A cell, in which the radiance is bilinear, and what it is at the corners.
-  struct Cell {
-    int i;
-    int j;
-    std::array<std::array<double, 2>, 2> corners;  ///< [t][s]
+  /// A function that is bilinear in a cell, by what it is at the corners.
+  struct Corners {
+    std::array<std::array<double, 2>, 2> values;  ///< [t][s]
 
-    double brightest() const {
-      return std::max({corners[0][0], corners[0][1], corners[1][0], corners[1][1]});
+    double largest() const {
+      return std::max({values[0][0], values[0][1], values[1][0], values[1][1]});
     }
     double at(double p, double q) const {
-      return (1.0 - q) * ((1.0 - p) * corners[0][0] + p * corners[0][1]) +
-             q * ((1.0 - p) * corners[1][0] + p * corners[1][1]);
+      return (1.0 - q) * ((1.0 - p) * values[0][0] + p * values[0][1]) +
+             q * ((1.0 - p) * values[1][0] + p * values[1][1]);
     }
   };
 
-  /// The radiance at all corners of cells on the lower edge of row j.
-  std::vector<double> corners_along(int j) const {
+  /// A cell, in which the radiance is bilinear, and what the sine-weighted density interpolates.
+  struct Cell {
+    int i;
+    int j;
+    Corners radiance;
+    Corners weighted;
+  };
+
+  /// Both at all corners of cells on one edge between rows.
+  struct Edge {
+    std::vector<double> radiance;
+    std::vector<double> weighted;
+  };
+  /// The lower edge of row j.
+  Edge edge_at(int j) const {
     const auto [width, height] = quadrature_.extent();
-    std::vector<double> values;
+    Edge edge;
     for (int i = 0; i <= width; ++i) {
-      values.push_back(look_up_bilinear(
-          *radiance_, {static_cast<double>(i) / width, static_cast<double>(j) / height}));
+      const SquarePoint at = {static_cast<double>(i) / width, static_cast<double>(j) / height};
+      edge.radiance.push_back(look_up_bilinear(*radiance_, at));
+      edge.weighted.push_back(look_up_bilinear(weighted_, at));
     }
-    return values;
+    return edge;
   }
 
   void add_cell(LightMoments& moments, const Cell& cell) const {
-    if (!(cell.brightest() > 0.0)) return;
+    if (!(cell.radiance.largest() > 0.0)) return;
     visit_kernel(
         *kernel_, quadrature_, cell.i, cell.j,
         [&](const Node& node, const KernelValue& value) { add_node(moments, node, value, cell); });
@@ -103,25 +120,33 @@ class CellMoments {
                 const Cell& cell) const {
     const auto [width, height] = quadrature_.extent();
     const auto [k, pdf] = value;
-    const double radiance = cell.at(node.at.s * width - cell.i, node.at.t * height - cell.j);
+    const SquarePoint within = {node.at.s * width - cell.i, node.at.t * height - cell.j};
+    const double radiance = cell.radiance.at(within.s, within.t);
+    const double brightest = cell.radiance.largest();
     const double light = radiance * k * node.solid_angle;
     const double over_pdf = pdf > 0.0 ? k / pdf : 0.0;
     add(moments[SampledDensity::uniform], light, kSphere * radiance * k);
     add(moments[SampledDensity::material], light, radiance * over_pdf);
     add(moments[SampledDensity::texture_space], light, a_ * k * node.sin_theta);
     add(moments[SampledDensity::solid_angle], light, b_ * k);
+    const double weighted = cell.weighted.at(within.s, within.t);
+    const double of_c = weighted > 0.0 ? c_ * k * node.sin_theta * radiance / weighted : 0.0;
+    add(moments[SampledDensity::sine_weighted], light, of_c);
     // Bilinear functions are largest at a corner.
-    raise(moments[SampledDensity::uniform], kSphere * cell.brightest() * k);
-    raise(moments[SampledDensity::material], cell.brightest() * over_pdf);
+    raise(moments[SampledDensity::uniform], kSphere * brightest * k);
+    raise(moments[SampledDensity::material], brightest * over_pdf);
     raise(moments[SampledDensity::texture_space], a_ * k * node.sin_theta);
     raise(moments[SampledDensity::solid_angle], b_ * k);
+    raise(moments[SampledDensity::sine_weighted], of_c);
   }
 
   const Kernel* kernel_;
   const Grid<double>* radiance_;
+  Grid<double> weighted_;
   SphereQuadrature quadrature_;
   double a_;  ///< X = a k sin(theta) under A
   double b_;  ///< X = b k under B
+  double c_;  ///< X = c k sin(theta) L / (what is interpolated) under C
 };
 
 /// A quarter of a texel, from its centre to a corner.
@@ -205,10 +230,12 @@ LightMoments bilinear_light_moments(const Kernel& kernel, const Grid<double>& ra
 EstimatorMoments bilinear_inverse_pdf(const Grid<double>& radiance, DensitySpace density_space,
                                       const std::function<bool(double)>& is_bright) {
   const Extent extent = radiance.extent();
-  const double total = total_of(radiance, density_space);
-  // 1/p(omega) = factor(t) / L.
+  const MapMeasure measure = position_measure(density_space);
+  const Grid<double> interpolated = interpolated_by(density_space, radiance);
+  const double total = total_of(interpolated, measure);
+  // 1/p(omega) = factor(t) / what is interpolated.
   const auto factor = [&](double t) {
-    return total * (density_space == DensitySpace::texture ? solid_angle_per_square(t) : 1.0);
+    return total * (measure == MapMeasure::square ? solid_angle_per_square(t) : 1.0);
   };
   const auto weight = [&](double t) { return factor(t) * solid_angle_per_square(t); };
   const double quarter_area = 0.25 / static_cast<double>(extent.count());
@@ -220,7 +247,7 @@ EstimatorMoments bilinear_inverse_pdf(const Grid<double>& radiance, DensitySpace
     for (int x = 0; x < extent.width; ++x) {
       if (!is_bright(radiance(x, y))) continue;
       rows[row].raw[0] += texel_solid_angle(extent, y);
-      for (const Quarter& quarter : quarters_of(radiance, x, y)) {
+      for (const Quarter& quarter : quarters_of(interpolated, x, y)) {
         const auto [near, far, centre, height] = quarter;
         rows[row].raw[1] += quarter_area * mean_over_light(quarter, 0.0, 1.0, weight);
         raise(rows[row], most / std::min({near[0], near[1], far[0], far[1]}));

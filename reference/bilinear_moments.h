@@ -14,8 +14,8 @@ namespace lightproof::reference {
 LightMoments bilinear_light_moments(const Kernel& kernel, const Grid<double>& radiance);
 
 /// Mean, mean square and a bound of the largest value of the estimator that is 1/p(omega) where the
-/// sample lies in a texel whose own value is bright, and 0 elsewhere; p is proportional to the
-/// interpolated radiance. Its higher moments are left at 0. Bright texels must be positive.
+/// sample lies in a texel whose own value is bright, and 0 elsewhere; p interpolates the radiance
+/// as the density does. Its higher moments are left at 0. Bright texels must be positive.
 EstimatorMoments bilinear_inverse_pdf(const Grid<double>& radiance, DensitySpace density_space,
                                       const std::function<bool(double)>& is_bright);
 

@@ -70,30 +70,41 @@ Totals totals_of(const Grid<double>& radiance) {
   return totals;
 }
 
+/// Where a texel lies: what of a row the moments depend on.
+struct RowOfTexels {
+  double solid_angle;  ///< of a texel, in steradian
+  double area;         ///< of a texel, over the square
+};
+
 /// Adds one texel: E[X^m] = ∫ (L k)^m / p^(m-1) d(omega).
-void accumulate(LightMoments& moments, double radiance, const Totals& totals,
+void accumulate(LightMoments& moments, double radiance, const Totals& totals, RowOfTexels row,
                 const TexelIntegrals& texel) {
   const double a = 2.0 * kPi * kPi * totals.mean;
+  const double c = 2.0 * kPi * kPi * totals.solid_angle_sum * row.area / row.solid_angle;
   const auto raise = [](EstimatorMoments& m, double x) { m.largest = std::max(m.largest, x); };
   raise(moments[SampledDensity::uniform], kSphere * radiance * texel.largest);
   raise(moments[SampledDensity::material], radiance * texel.largest_ratio);
   if (radiance > 0.0) {
     raise(moments[SampledDensity::texture_space], a * texel.largest_sine);
     raise(moments[SampledDensity::solid_angle], totals.solid_angle_sum * texel.largest);
+    raise(moments[SampledDensity::sine_weighted], c * texel.largest_sine);
   }
   double uniform = radiance;
   double material = radiance;
   double environment_a = radiance;
   double environment_b = radiance;
+  double environment_c = radiance;
   for (std::size_t m = 0; m < texel.plain.size(); ++m) {
     moments[SampledDensity::uniform].raw[m] += uniform * texel.plain[m];
     moments[SampledDensity::material].raw[m] += material * texel.material[m];
     moments[SampledDensity::texture_space].raw[m] += environment_a * texel.sine[m];
     moments[SampledDensity::solid_angle].raw[m] += environment_b * texel.plain[m];
+    moments[SampledDensity::sine_weighted].raw[m] += environment_c * texel.sine[m];
     uniform *= kSphere * radiance;
     material *= radiance;
     environment_a *= a;
     environment_b *= totals.solid_angle_sum;
+    environment_c *= c;
   }
 }
 
@@ -139,6 +150,8 @@ std::vector<LightMoments> light_moments(const Kernel& kernel,
   std::vector<std::vector<LightMoments>> rows(height, std::vector<LightMoments>(radiance.size()));
   parallel_for(height, [&](std::size_t row) {
     const int y = static_cast<int>(row);
+    const RowOfTexels of_texel = {texel_solid_angle(extent, y),
+                                  1.0 / static_cast<double>(extent.count())};
     for (int x = 0; x < extent.width; ++x) {
       const bool dark = std::all_of(radiance.begin(), radiance.end(),
                                     [&](const auto& grid) { return grid(x, y) == 0.0; });
@@ -147,7 +160,7 @@ std::vector<LightMoments> light_moments(const Kernel& kernel,
       if (texel.plain[0] == 0.0) continue;
       for (std::size_t map = 0; map < radiance.size(); ++map) {
         if (radiance[map](x, y) == 0.0) continue;  // whatever the powers of 1/pdf are
-        accumulate(rows[row][map], radiance[map](x, y), totals[map], texel);
+        accumulate(rows[row][map], radiance[map](x, y), totals[map], of_texel, texel);
       }
     }
   });

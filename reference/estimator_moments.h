@@ -10,6 +10,7 @@
 
 #include "lightproof/core/direction.h"
 #include "lightproof/core/grid.h"
+#include "lightproof/image/target_density.h"
 
 namespace lightproof::reference {
 
@@ -53,8 +54,22 @@ enum class SampledDensity {
   material,       ///< KernelValue::pdf
   texture_space,  ///< p(s,t) proportional to L
   solid_angle,    ///< p(omega) proportional to L
+  sine_weighted,  ///< p(s,t) proportional to L times the texel's solid angle
 };
-inline constexpr std::size_t kSampledDensities = 4;
+inline constexpr std::size_t kSampledDensities = 5;
+
+/// The density of an estimator that samples a map by this density.
+constexpr SampledDensity sampled_density(DensitySpace density_space) {
+  switch (density_space) {
+    case DensitySpace::texture:
+      return SampledDensity::texture_space;
+    case DensitySpace::solid_angle:
+      return SampledDensity::solid_angle;
+    case DensitySpace::sine_weighted:
+      return SampledDensity::sine_weighted;
+  }
+  __builtin_unreachable();
+}
 
 /// The moments of the one-sample estimators of every density, over one map.
 class LightMoments {
@@ -74,8 +89,8 @@ class LightMoments {
 };
 
 /// The moments of the one-sample estimators of ∫ L k d(omega), one entry per grid of radiance L,
-/// which is constant inside a texel; all grids have one extent. Under A and B the density is
-/// proportional to the same L, so X is bounded however bright a sun is.
+/// which is constant inside a texel; all grids have one extent. Under A, B and C the density
+/// of a texel is proportional to the same L, so X is bounded however bright a sun is.
 std::vector<LightMoments> light_moments(const Kernel& kernel,
                                         std::span<const Grid<double>> radiance);
 

@@ -27,7 +27,7 @@ double between(double low, double high, double share) { return low + (high - low
 
 RosenblattTransform::RosenblattTransform(const Grid<double>& masses, DensitySpace density_space)
     : extent_(masses.extent()),
-      density_space_(density_space),
+      measure_(position_measure(density_space)),
       rows_(static_cast<std::size_t>(extent_.height) + 1),
       columns_(static_cast<std::size_t>(extent_.width) + 1),
       within_({extent_.width + 1, extent_.height}) {
@@ -48,7 +48,7 @@ RosenblattPoint RosenblattTransform::operator()(SquarePoint at, double cosine, i
   const auto row = static_cast<std::size_t>(y);
   const double across = std::clamp(at.s * extent_.width - x, 0.0, 1.0);
   const double low = heights_[row];
-  const double along = density_space_ == DensitySpace::texture
+  const double along = measure_ == MapMeasure::square
                            ? std::clamp(at.t * extent_.height - y, 0.0, 1.0)
                            : std::clamp((cosine - low) / (heights_[row + 1] - low), 0.0, 1.0);
   return {between(rows_[row], rows_[row + 1], along),

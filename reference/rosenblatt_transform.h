@@ -27,7 +27,7 @@ struct RosenblattPoint {
 class RosenblattTransform {
  public:
   /// The transform of a density given by texel masses that sum to 1; uniform inside a texel in s,
-  /// and in t or cos(theta) by the density space.
+  /// and in t or cos(theta) by position_measure() of the density.
   RosenblattTransform(const Grid<double>& masses, DensitySpace density_space);
 
   /// The transformed coordinates of `at`, which lies in texel (x, y).
@@ -39,7 +39,7 @@ class RosenblattTransform {
 
  private:
   Extent extent_;
-  DensitySpace density_space_;
+  MapMeasure measure_;           ///< in which positions are uniform
   std::vector<double> rows_;     ///< CDF entries
   std::vector<double> columns_;  ///< CDF entries
   Grid<double> within_;          ///< CDF entries of every row, W + 1

@@ -45,7 +45,7 @@ Grid<double> texel_masses(const EnvironmentMap& map, TargetDensity target) {
   for (int y = 0; y < extent.height; ++y) {
     const double low = static_cast<double>(y) / extent.height;
     const double high = (y + 1.0) / extent.height;
-    const double area = target.density_space == DensitySpace::texture
+    const double area = texel_measure(target.density_space) == MapMeasure::square
                             ? high - low
                             : cos_theta(high) - cos_theta(low);
     for (int x = 0; x < extent.width; ++x) {
@@ -62,7 +62,7 @@ Grid<double> bin_masses(const Grid<double>& texel_masses, DensitySpace density_s
   const Extent extent = texel_masses.extent();
   const Grid<double> across = overlaps(extent.width, bins.width, [](double s) { return s; });
   const Grid<double> along = overlaps(extent.height, bins.height, [&](double t) {
-    return density_space == DensitySpace::texture ? t : cos_theta(t);
+    return position_measure(density_space) == MapMeasure::square ? t : cos_theta(t);
   });
   Grid<double> folded({bins.width, extent.height});
   for (int b = 0; b < bins.width; ++b) {

@@ -12,7 +12,8 @@ namespace lightproof::reference {
 Grid<double> texel_masses(const EnvironmentMap& map, TargetDensity target);
 
 /// Probability of every bin of a `bins` grid laid over the same square, from the exact overlap of
-/// texels and bins: linear in s; linear in t under A, in cos(theta) under B.
+/// texels and bins: linear in s; in t or in cos(theta) by
+/// position_measure() of the density.
 Grid<double> bin_masses(const Grid<double>& texel_masses, DensitySpace density_space, Extent bins);
 
 /// Probability of every bin of a `bins` grid laid over the square, of a map's target density by

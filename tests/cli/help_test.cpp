@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
             {"gate", "constant", "--size", "8x4", "-n", "1024", "--seed", "18446744073709551616"},
             "--seed"},
         UsageCase{"UnknownColor", {"gate", "--color", "red"}, "always"},
-        UsageCase{"UnknownDensity", {"gate", "--density", "C"}, "--density"},
+        UsageCase{"UnknownDensity", {"gate", "--density", "D"}, "--density"},
         UsageCase{"UnknownRegistry", {"list", "cats"}, "samplers"},
         UsageCase{"NoRegistry", {"list"}, "WHAT"},
         UsageCase{"NoHistoryCommand", {"history"}, "subcommand is required"},

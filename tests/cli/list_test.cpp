@@ -56,9 +56,9 @@ TEST_P(List, SaysTheSameAsJson) {
 
 INSTANTIATE_TEST_SUITE_P(
     Registries, List,
-    testing::Values(Registry{"samplers", "binary_search"}, Registry{"maps", "sun-sky"},
-                    Registry{"presets", "openexr"}, Registry{"materials", "phong"},
-                    Registry{"receivers", "sphere-on-plane"},
+    testing::Values(Registry{"samplers", "binary_search"}, Registry{"densities", "C"},
+                    Registry{"maps", "sun-sky"}, Registry{"presets", "openexr"},
+                    Registry{"materials", "phong"}, Registry{"receivers", "sphere-on-plane"},
                     Registry{"estimators", "environment B"}, Registry{"points", "sobol"}),
     [](const auto& test) { return test.param.name; });
 

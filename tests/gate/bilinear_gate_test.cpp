@@ -30,7 +30,7 @@ TEST(BilinearGate, AcceptsMapsOfAwkwardShapes) {
   for (const Extent extent : {Extent{1, 2}, Extent{1, 7}, Extent{9, 1}, Extent{6, 5}}) {
     for (const char* name : {"sun-sky", "one-texel"}) {
       const EnvironmentMap map = make_synthetic_map(name, extent);
-      for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+      for (const DensitySpace density_space : kDensitySpaces) {
         const GateResult result = gate(map, bilinear(density_space));
         EXPECT_EQ(overall_outcome(result, true), Outcome::accept)
             << name << ", " << extent.width << "x" << extent.height << ": "
@@ -42,7 +42,7 @@ TEST(BilinearGate, AcceptsMapsOfAwkwardShapes) {
 
 TEST(BilinearGate, TheLookUpThatASamplerDeclaresIsHeldAgainstIt) {
   const EnvironmentMap map = make_synthetic_map("checker", kExtent);
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     SamplerUnderTest interpolates = bilinear(density_space);
     interpolates.target.lookup = Lookup::nearest;
     SamplerUnderTest takes_texels =
@@ -109,7 +109,7 @@ EnvironmentMap ramp() {
 // column gets 1 in place of 7/8 + 2/8, about ten standard deviations of its 5500 samples.
 TEST(BilinearGate, RejectsASamplerThatForgetsToWrapAtTheSeam) {
   const EnvironmentMap map = ramp();
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     const SamplerUnderTest under_test = changed(
         density_space, beside_its_mirror_image,
         [](SquarePoint at) {

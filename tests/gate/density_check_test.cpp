@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "lightproof/gate/discrete_sampler.h"
 #include "lightproof/gate/exact_checks.h"
@@ -30,7 +31,7 @@ BoundSampler with_mass(const EnvironmentMap& map, int x, int y, double factor) {
 }
 
 TEST(DensityCheck, ACorrectPdfIsTheDeclaredDensity) {
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
     const TargetDensity target = {density_space, kRec709};
     const auto sampler =
@@ -41,6 +42,24 @@ TEST(DensityCheck, ACorrectPdfIsTheDeclaredDensity) {
     EXPECT_LT(density.largest_error, 1e-12);
     EXPECT_TRUE(density.ratio.is_constant());
     EXPECT_FALSE(density.times_jacobian.is_constant());
+    EXPECT_FALSE(density.over_other_measure.is_constant());
+  }
+}
+
+// One density's pdf where another with the same texels is declared: at the centres of texels they
+// differ by (pi/2H)^2/6 = 4e-4, and by one factor.
+TEST(DensityCheck, APdfThatIsUniformInTheOtherMeasureIsKnown) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
+  const TargetDensity b = {DensitySpace::solid_angle};
+  const TargetDensity c = {DensitySpace::sine_weighted};
+  for (const auto [declared, claimed] : {std::pair(b, c), std::pair(c, b)}) {
+    const auto sampler =
+        bound(DiscreteSampler(reference::texel_masses(map, claimed), claimed.density_space));
+    const DensityComparison density = compare_density(sampler, expectation_of(map, declared), {});
+    EXPECT_FALSE(check_declared_density(density).passed);
+    EXPECT_FALSE(density.ratio.is_constant());
+    EXPECT_TRUE(density.over_other_measure.is_constant());
+    EXPECT_NEAR(density.over_other_measure.largest, 1.0, 1e-12);
   }
 }
 

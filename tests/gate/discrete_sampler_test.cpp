@@ -20,7 +20,7 @@ namespace {
 // points fall in between with a probability of 3 %: up to two points may differ.
 TEST(DiscreteSampler, DrawsTheTexelsOfTheDeclaredDistribution) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     const TargetDensity target = {density_space, kRec709};
     const Expectation shares = expectation_of(map, target);
     const DiscreteSampler distribution(shares.masses, density_space);
@@ -40,7 +40,9 @@ TEST(DiscreteSampler, DrawsTheTexelsOfTheDeclaredDistribution) {
       const double texel = shares.masses(a.x, a.y) / row;
       const double error = 0x1p-31 * ((32 + 1) / row + (64 + 1) / texel);
       EXPECT_NEAR(b.pdf.value / a.pdf.value, 1.0, error);
-      EXPECT_EQ(distribution.pdf(a.at).value, a.pdf.value);
+      // Of the sine of a position that is rounded, near a pole.
+      const double near = std::min(a.at.t, 1.0 - a.at.t);
+      EXPECT_NEAR(distribution.pdf(a.at).value / a.pdf.value, 1.0, 1e-15 * (8.0 + 1.0 / near));
     }
     EXPECT_LE(different, 2);
   }
@@ -84,7 +86,7 @@ TEST(AlternativeDistributions, SumToOneAndDifferFromTheDeclaredOne) {
     }
   }
   map.radiance(30, 20) = Rgb(0.0F);
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     const TargetDensity target = {density_space, kRec709};
     const Grid<double> declared = reference::texel_masses(map, target);
     for (const AlternativeDistribution& distribution : alternative_distributions()) {

@@ -45,7 +45,7 @@ void expect_accepted(const EnvironmentMap& map, const std::string& what) {
   std::erase_if(samplers_under_test,
                 [](const SamplerUnderTest& under_test) { return under_test.known_defects; });
   std::vector<std::string> found(samplers_under_test.size());
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     for (const Lookup lookup : {Lookup::nearest, Lookup::bilinear}) {
       const TargetDensity target = {density_space, kRec709, lookup};
       const Expectation expectation = expectation_of(map, target);

@@ -58,6 +58,7 @@ TEST(BilinearMoments, TwoColumns) {
     // X = 2 pi^2 A sin(theta), and p(s,t) = L / A.
     const double a = std::pow(4.0 * kPi * kPi, m) * sines[i];
     EXPECT_NEAR(moments[SampledDensity::texture_space].raw[i], a, kQuadrature * a);
+    EXPECT_NEAR(moments[SampledDensity::sine_weighted].raw[i], a, kQuadrature * a) << "of one row";
     const double b = std::pow(8.0 * kPi, m);
     EXPECT_NEAR(moments[SampledDensity::solid_angle].raw[i], b, kQuadrature * b);
   }

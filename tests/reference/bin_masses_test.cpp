@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -11,19 +12,32 @@
 namespace lightproof::reference {
 namespace {
 
-constexpr DensitySpace kDensitySpaces[] = {DensitySpace::texture, DensitySpace::solid_angle};
 constexpr Extent kBins[] = {{1, 1}, {16, 8}, {32, 16}, {16, 32}, {5, 7}};
 
 double sum_of(const Grid<double>& grid) {
   return std::accumulate(grid.values().begin(), grid.values().end(), 0.0);
 }
 
-/// The bin's share of the square under A, of the sphere under B.
-double exact_area(DensitySpace density_space, Extent bins, int y) {
+double share_of_sphere(Extent cells, int y) {
+  const double low = std::cos(kPi * y / cells.height);
+  const double high = std::cos(kPi * (y + 1) / cells.height);
+  return 0.5 * (low - high) / cells.width;
+}
+
+/// The bin's share of the square under A, of the sphere under B; under C of the sphere, each row of
+/// texels spread evenly over its height.
+double exact_area(DensitySpace density_space, Extent texels, Extent bins, int y) {
   if (density_space == DensitySpace::texture) return 1.0 / static_cast<double>(bins.count());
-  const double low = std::cos(kPi * y / bins.height);
-  const double high = std::cos(kPi * (y + 1) / bins.height);
-  return 0.5 * (low - high) / bins.width;
+  if (density_space == DensitySpace::solid_angle) return share_of_sphere(bins, y);
+  double area = 0.0;
+  for (int row = 0; row < texels.height; ++row) {
+    const double from =
+        std::max(static_cast<double>(y) / bins.height, static_cast<double>(row) / texels.height);
+    const double to = std::min((y + 1.0) / bins.height, (row + 1.0) / texels.height);
+    if (from >= to) continue;
+    area += (to - from) * texels.height * share_of_sphere({bins.width, texels.height}, row);
+  }
+  return area;
 }
 
 Grid<double> masses_of(const EnvironmentMap& map, DensitySpace density_space, Extent bins) {
@@ -35,7 +49,7 @@ void expect_areas(const EnvironmentMap& map, DensitySpace density_space, Extent 
   ASSERT_EQ(masses.extent(), bins);
   for (int y = 0; y < bins.height; ++y) {
     for (const double mass : masses.row(y)) {
-      EXPECT_NEAR(mass, exact_area(density_space, bins, y), 1e-12);
+      EXPECT_NEAR(mass, exact_area(density_space, map.radiance.extent(), bins, y), 1e-12);
     }
   }
 }

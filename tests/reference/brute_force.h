@@ -63,7 +63,18 @@ inline Grid<double> lattice_masses(const Grid<double>& luminance, Value value, b
   return masses;
 }
 
-/// Of all four estimators E[X^m], X = L k / p, and the largest X.
+/// Every texel's value times the solid angle of the texel, up to a constant.
+inline Grid<double> times_solid_angle(Grid<double> luminance) {
+  const int height = luminance.extent().height;
+  for (int y = 0; y < height; ++y) {
+    const double bottom = std::cos(kPi * y / height);
+    const double top = std::cos(kPi * (y + 1) / height);
+    for (double& value : luminance.row(y)) value *= bottom - top;
+  }
+  return luminance;
+}
+
+/// Of all five estimators E[X^m], X = L k / p, and the largest X.
 struct EstimatorSums {
   struct RawMoments {
     std::array<double, 4> raw = {};
@@ -73,6 +84,7 @@ struct EstimatorSums {
   RawMoments material;
   RawMoments environment_a;
   RawMoments environment_b;
+  RawMoments environment_c;
 };
 
 /// The integrand's other factor at a unit vector, and the density that a material draws it with.
@@ -84,10 +96,13 @@ struct Factor {
 inline EstimatorSums estimator_sums(const Grid<double>& luminance, Value value,
                                     const std::function<Factor(double, double, double)>& at,
                                     Extent cells) {
-  double mean = 0.0;   // of L over the square
+  const Grid<double> weighted = times_solid_angle(luminance);
+  double mean = 0.0;  // of L over the square
+  double mean_weighted = 0.0;
   double whole = 0.0;  // of L over the sphere
   visit_middles(cells, [&](double s, double t, double area) {
     mean += value(luminance, s, t) * area;
+    mean_weighted += value(weighted, s, t) * area;
     whole += value(luminance, s, t) * 2.0 * kPi * kPi * std::sin(kPi * t) * area;
   });
   EstimatorSums moments;
@@ -110,6 +125,7 @@ inline EstimatorSums estimator_sums(const Grid<double>& luminance, Value value,
     add(moments.material, pdf);
     add(moments.environment_a, light / mean / jacobian);
     add(moments.environment_b, light / whole);
+    add(moments.environment_c, value(weighted, s, t) / mean_weighted / jacobian);
   });
   return moments;
 }

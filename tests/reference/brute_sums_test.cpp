@@ -31,6 +31,12 @@ EnvironmentMap uneven_map() {
 /// 2^-24 of a weight is what a 32-bit texel may be off.
 Grid<double> uneven_luminance() { return luminance_of(uneven_map()); }
 
+/// What the density is in proportion to, over the square or over directions.
+Grid<double> uneven_weights(DensitySpace density_space) {
+  return density_space == DensitySpace::sine_weighted ? test::times_solid_angle(uneven_luminance())
+                                                      : uneven_luminance();
+}
+
 /// Smooth on the upper hemisphere, and 0 on the lower one, with an edge on an edge of all cells.
 KernelValue half_kernel(Direction d) {
   if (d.z < 0.0) return {0.0, 0.0};
@@ -80,6 +86,10 @@ void expect_estimators(const LightMoments& exact, test::Value value) {
     SCOPED_TRACE("environment B");
     expect_moments(exact[SampledDensity::solid_angle], coarse.environment_b, fine.environment_b);
   }
+  {
+    SCOPED_TRACE("environment C");
+    expect_moments(exact[SampledDensity::sine_weighted], coarse.environment_c, fine.environment_c);
+  }
 }
 
 TEST(LightMoments, AreThoseOfABruteSum) {
@@ -93,18 +103,20 @@ TEST(BilinearMoments, AreThoseOfABruteSum) {
 }
 
 /// E[1/p], E[1/p^2] and the largest 1/p where the texel's own value is 1 and more.
-test::EstimatorSums::RawMoments inverse_pdf(bool over_directions, Extent cells) {
+test::EstimatorSums::RawMoments inverse_pdf(DensitySpace density_space, Extent cells) {
   const Grid<double> luminance = uneven_luminance();
+  const Grid<double> weights = uneven_weights(density_space);
+  const bool over_directions = density_space == DensitySpace::solid_angle;
   double total = 0.0;
   test::visit_middles(cells, [&](double s, double t, double area) {
     const double jacobian = 2.0 * kPi * kPi * std::sin(kPi * t);
-    total += test::interpolated_value(luminance, s, t) * (over_directions ? jacobian : 1.0) * area;
+    total += test::interpolated_value(weights, s, t) * (over_directions ? jacobian : 1.0) * area;
   });
   test::EstimatorSums::RawMoments moments;
   test::visit_middles(cells, [&](double s, double t, double area) {
     if (test::nearest_value(luminance, s, t) < 0.9) return;
     const double jacobian = 2.0 * kPi * kPi * std::sin(kPi * t);
-    const double light = test::interpolated_value(luminance, s, t);
+    const double light = test::interpolated_value(weights, s, t);
     const double pdf = light / total / (over_directions ? 1.0 : jacobian);
     moments.raw[0] += jacobian * area;
     moments.raw[1] += jacobian * area / pdf;
@@ -114,10 +126,10 @@ test::EstimatorSums::RawMoments inverse_pdf(bool over_directions, Extent cells) 
 }
 
 TEST(BilinearInversePdf, IsThatOfABruteSum) {
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     const bool over_directions = density_space == DensitySpace::solid_angle;
-    const auto coarse = inverse_pdf(over_directions, {320, 256});
-    const auto fine = inverse_pdf(over_directions, {640, 512});
+    const auto coarse = inverse_pdf(density_space, {320, 256});
+    const auto fine = inverse_pdf(density_space, {640, 512});
     const EstimatorMoments exact = bilinear_inverse_pdf(
         uneven_luminance(), density_space, [](double radiance) { return radiance >= 0.9; });
     for (std::size_t m = 0; m < 2; ++m) {
@@ -149,7 +161,7 @@ constexpr double kLattice = 1e-5;
 constexpr double kLatticeOfMean = 4e-5;
 
 TEST(BinMasses, AreThoseOfABruteSumHoweverBinsLie) {
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     for (const Lookup look_up : {Lookup::nearest, Lookup::bilinear}) {
       const auto value =
           look_up == Lookup::nearest ? test::nearest_value : test::interpolated_value;
@@ -157,7 +169,7 @@ TEST(BinMasses, AreThoseOfABruteSumHoweverBinsLie) {
         const Extent cells = {10 * bins.width, 384};
         const double mean = 1.0 / static_cast<double>(bins.count());
         const Grid<double> sums =
-            sums_of_bins(test::lattice_masses(uneven_luminance(), value,
+            sums_of_bins(test::lattice_masses(uneven_weights(density_space), value,
                                               density_space == DensitySpace::solid_angle, cells),
                          bins);
         const Grid<double> exact =
@@ -211,7 +223,7 @@ constexpr Extent kLatticeOfPositions = {320, 384};
 /// transform({s, t}) at all positions but the ends.
 template <class Transform>
 void expect_transform(test::Value value, DensitySpace density_space, const Transform& transform) {
-  const Grid<double> luminance = uneven_luminance();
+  const Grid<double> luminance = uneven_weights(density_space);
   const CumulativeMasses below(test::lattice_masses(
       luminance, value, density_space == DensitySpace::solid_angle, kLatticeOfPositions));
   for (int j = 1; j < kPositions.height; ++j) {
@@ -232,7 +244,7 @@ void expect_transform(test::Value value, DensitySpace density_space, const Trans
 }
 
 TEST(RosenblattTransform, IsThatOfABruteSum) {
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     const RosenblattTransform transform(texel_masses(uneven_map(), {density_space}), density_space);
     expect_transform(test::nearest_value, density_space, [&](SquarePoint at) {
       return transform(at, static_cast<int>(at.s * kExtent.width),
@@ -242,7 +254,7 @@ TEST(RosenblattTransform, IsThatOfABruteSum) {
 }
 
 TEST(BilinearTransform, IsThatOfABruteSum) {
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     const BilinearTransform transform(uneven_map(), {density_space, kRec709, Lookup::bilinear});
     expect_transform(test::interpolated_value, density_space, transform);
   }

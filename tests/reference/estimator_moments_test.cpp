@@ -153,6 +153,43 @@ double second_moment_of_a(const Grid<double>& luminance) {
   return 4.0 * std::pow(kPi, 4) * mean * sum;
 }
 
+/// 4 pi^4 mean(L w) Σ L W2 / w, w being the solid angle of a texel of the row.
+double second_moment_of_c(const Grid<double>& luminance) {
+  const Extent extent = luminance.extent();
+  const auto primitive = [](double theta) { return 0.5 * theta - 0.25 * std::sin(2.0 * theta); };
+  double mean = 0.0;
+  double sum = 0.0;
+  for (int y = 0; y < extent.height; ++y) {
+    const double low = kPi * (1.0 - (y + 1.0) / extent.height);
+    const double high = kPi * (1.0 - static_cast<double>(y) / extent.height);
+    const double w = 2.0 * kPi / extent.width * (std::cos(low) - std::cos(high));
+    const double w2 = (primitive(high) - primitive(low)) / (kPi * extent.width);
+    for (const double value : luminance.row(y)) {
+      mean += value * w / static_cast<double>(extent.count());
+      sum += value / w * w2;
+    }
+  }
+  return 4.0 * std::pow(kPi, 4) * mean * sum;
+}
+
+// What positions uniform in (s,t) cost where positions uniform in solid angle cost nothing: less
+// than a digit of what is printed.
+TEST(LightMoments, OfTheConstantMapUnderCAreThoseThatArePrinted) {
+  struct Printed {
+    int height;
+    double variance;
+    double digit;
+  };
+  for (const auto [height, variance, digit] :
+       {Printed{4, 9.65e-2, 1e-4}, Printed{16, 1.05e-2, 1e-4}, Printed{64, 9.4e-4, 1e-5},
+        Printed{256, 7.6e-5, 1e-6}}) {
+    const LightMoments m = constant_map(constant_kernel(), {2 * height, height});
+    EXPECT_NEAR(m[SampledDensity::sine_weighted].mean() / kSphere, 1.0, kSmooth);
+    EXPECT_NEAR(relative_variance(m[SampledDensity::sine_weighted]), variance, 0.5 * digit)
+        << height << " rows";
+  }
+}
+
 TEST(LightMoments, OfTheIntegralOfAnyMapAreClosedForms) {
   // Under B X is the integral G itself, whatever the map.
   for (const SyntheticMap& synthetic : synthetic_maps()) {
@@ -171,6 +208,9 @@ TEST(LightMoments, OfTheIntegralOfAnyMapAreClosedForms) {
       }
       EXPECT_NEAR(m[SampledDensity::texture_space].mean() / total, 1.0, kSmooth);
       EXPECT_NEAR(m[SampledDensity::texture_space].raw[1] / second_moment_of_a(luminance), 1.0,
+                  kSmooth);
+      EXPECT_NEAR(m[SampledDensity::sine_weighted].mean() / total, 1.0, kSmooth);
+      EXPECT_NEAR(m[SampledDensity::sine_weighted].raw[1] / second_moment_of_c(luminance), 1.0,
                   kSmooth);
     }
   }
@@ -217,6 +257,8 @@ TEST(LightMoments, ScaleWithTheExposure) {
     EXPECT_EQ(b[SampledDensity::texture_space].raw[m],
               a[SampledDensity::texture_space].raw[m] * scale);
     EXPECT_EQ(b[SampledDensity::solid_angle].raw[m], a[SampledDensity::solid_angle].raw[m] * scale);
+    EXPECT_EQ(b[SampledDensity::sine_weighted].raw[m],
+              a[SampledDensity::sine_weighted].raw[m] * scale);
     EXPECT_EQ(b[SampledDensity::uniform].raw[m], a[SampledDensity::uniform].raw[m] * scale);
   }
 }

@@ -39,7 +39,7 @@ TEST(RosenblattTransform, IsLinearInTheCosineUnderB) {
 }
 
 TEST(RosenblattTransform, TakesTheUnitSquareToTheUnitSquare) {
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     const RosenblattTransform transform = transform_of(density_space);
     const RosenblattPoint low = transform({0.0, 0.0}, 0, 0);
     EXPECT_EQ(low.marginal, 0.0);

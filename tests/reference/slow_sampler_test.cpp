@@ -16,7 +16,6 @@ void PrintTo(Texel texel, std::ostream* out) { *out << "(" << texel.x << ", " <<
 namespace {
 
 constexpr double kBelowOne = 1.0 - 0x1p-53;
-constexpr DensitySpace kDensitySpaces[] = {DensitySpace::texture, DensitySpace::solid_angle};
 
 /// Black rows first and last, black texels at both ends of the lit rows.
 EnvironmentMap framed_map() {

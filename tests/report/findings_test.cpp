@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "fixture.h"
@@ -277,6 +278,33 @@ TEST(SavingFinding, ComparesTheBestWithTheWorstByPrediction) {
   bad.predicted_variance = 18157.5;
   EXPECT_EQ(saving_finding({&bad, &good}), "good needs 36,000 times fewer samples than bad");
   EXPECT_EQ(saving_finding({&good}), "no estimator is ahead");
+}
+
+ConvergenceRecord by_density(const char* name, const char* map, double variance) {
+  ConvergenceRecord r = estimator(-0.5, 1.0);
+  r.estimator = name;
+  r.map = map;
+  r.predicted_variance = variance;
+  return r;
+}
+
+TEST(DensityFinding, CountsWhereEachHasTheLeastVariance) {
+  const std::vector<ConvergenceRecord> records = {
+      by_density("uniform", "city", 0.01),        by_density("environment A", "city", 3.0),
+      by_density("environment B", "city", 1.0),   by_density("environment C", "city", 1.5),
+      by_density("environment A", "night", 0.25), by_density("environment C", "night", 0.5),
+      by_density("environment B", "studio", 1.0)};
+  const std::vector<DensityVariances> places = density_variances(records);
+  ASSERT_EQ(places.size(), 2U) << "nothing is compared on the studio";
+  EXPECT_EQ(places[0].place->map, "city");
+  EXPECT_EQ(places[0].variances, (std::array{3.0, 1.0, 1.5}));
+  EXPECT_EQ(places[0].least, 1U);
+  EXPECT_TRUE(std::isnan(places[1].variances[1]));
+  EXPECT_EQ(places[1].least, 0U);
+  EXPECT_EQ(density_finding(places),
+            "Least exact variance of the densities of the map, over 2 places: A (texture-space) in "
+            "1, B (solid-angle) in 1");
+  EXPECT_EQ(density_finding({}), "");
 }
 
 TEST(ThroughputFinding, DoesNotClaimGrowthOrSpeedThatIsNotThere) {

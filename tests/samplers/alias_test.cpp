@@ -386,7 +386,7 @@ TYPED_TEST(TableSamplers, DrawTheReferencesMasses) {
                             : std::is_same_v<TypeParam, PackedAlias> ? 1.0 / 256.0
                                                                      : 0x1p-22;
   for (const std::string_view name : {"sun-sky", "gradient", "checker", "one-texel"}) {
-    for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+    for (const DensitySpace density_space : kDensitySpaces) {
       const Extent extent = {130, 65};
       const EnvironmentMap map = make_synthetic_map(name, extent);
       const TypeParam sampler(map, {density_space, kRec709});
@@ -395,7 +395,7 @@ TYPED_TEST(TableSamplers, DrawTheReferencesMasses) {
         for (int x = 0; x < extent.width; ++x) {
           const SquarePoint at = {(x + 0.5) / extent.width, (y + 0.5) / extent.height};
           const double mass =
-              density_space == DensitySpace::texture
+              position_measure(density_space) == MapMeasure::square
                   ? sampler.pdf(at).value / static_cast<double>(extent.count())
                   : to_solid_angle(sampler.pdf(at), at).value * texel_solid_angle(extent, y);
           // Two units of sums of a row or of thresholds of 24 bits.

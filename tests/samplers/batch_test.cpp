@@ -37,11 +37,15 @@ void expect_close(double a, double b, double tolerance) {
   EXPECT_TRUE(is_same || std::abs(a - b) <= tolerance) << a << " is not " << b;
 }
 
-void expect_same(const TexelSample& batch, const TexelSample& scalar, DensitySpace density_space) {
+/// Bit for bit, but for the arc sines and sines of maps of few rows.
+void expect_same(const TexelSample& batch, const TexelSample& scalar, DensitySpace density_space,
+                 int rows = 0) {
   EXPECT_EQ(batch.x, scalar.x);
   EXPECT_EQ(batch.y, scalar.y);
   expect_close(batch.at.s, scalar.at.s, 0.0);
-  const double error = density_space == DensitySpace::texture ? 0.0 : kPositionError;
+  const bool is_exact =
+      position_measure(density_space) == MapMeasure::square || SolidAngleRows::has_many_rows(rows);
+  const double error = is_exact ? 0.0 : kPositionError;
   expect_close(batch.at.t, scalar.at.t, error);
   // Near a pole the density follows the sine, and so the rounding of t.
   const double near = std::min(scalar.at.t, 1.0 - scalar.at.t);
@@ -69,7 +73,7 @@ TEST_P(Batch, GivesTheTexelsOfTheScalarInterface) {
   for (const std::string_view map_name : {"sun-sky", "one-texel", "gradient", "checker"}) {
     for (const Extent extent : {Extent{64, 32}, Extent{37, 19}, Extent{1, 1}, Extent{100, 3}}) {
       const EnvironmentMap map = make_synthetic_map(map_name, extent);
-      for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+      for (const DensitySpace density_space : kDensitySpaces) {
         const AnySampler any = GetParam().make(map, density_space);
         std::visit(
             [&](const auto& sampler) {
@@ -80,7 +84,7 @@ TEST_P(Batch, GivesTheTexelsOfTheScalarInterface) {
                 std::vector<TexelSample> samples(points.size());
                 sample(sampler, points, samples);
                 for (std::size_t i = 0; i < points.size() && !HasFailure(); ++i) {
-                  expect_same(samples[i], sampler.sample(points[i]), density_space);
+                  expect_same(samples[i], sampler.sample(points[i]), density_space, extent.height);
                 }
               });
             },
@@ -224,7 +228,7 @@ TEST_P(Batch, OfDirectionsAtGivenPointsAndDirectionsOneByOneLieAtTheSamplesPosit
   if (GetParam().known_defects) return;  // may leave the map
   for (const Extent extent : {Extent{64, 32}, Extent{37, 19}, Extent{1, 1}, Extent{2, 1}}) {
     const EnvironmentMap map = make_synthetic_map("sun-sky", extent);
-    for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+    for (const DensitySpace density_space : kDensitySpaces) {
       std::visit(
           [&](const auto& sampler) {
             const std::vector<SquarePoint> points = test_points(1000);
@@ -249,7 +253,7 @@ TEST_P(Batch, OfDirectionsLieAtTheSamplesPositions) {
   const RandomStream stream("batch of directions", 4);
   for (const Extent extent : {Extent{64, 32}, Extent{37, 19}, Extent{1, 1}}) {
     const EnvironmentMap map = make_synthetic_map("sun-sky", extent);
-    for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+    for (const DensitySpace density_space : kDensitySpaces) {
       const AnySampler any = GetParam().make(map, density_space);
       std::visit(
           [&](const auto& sampler) {

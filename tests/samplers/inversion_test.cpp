@@ -65,7 +65,9 @@ TEST_P(InversionOnMaps, SamplesOfEveryCorrectSamplerStayInsideATexelWithLight) {
           ASSERT_LT(sample.at.t, 1.0);
           ASSERT_GT(look_up(luminance, info.lookup, sample.at), 0.0);
           ASSERT_TRUE(sample.pdf.value > 0.0 && std::isfinite(sample.pdf.value));
-          ASSERT_NEAR(sampler.pdf(sample.at).value / sample.pdf.value, 1.0, 1e-12);
+          // Of the sine of a t that is rounded to 2^-53, near a pole.
+          const double near = std::min(sample.at.t, 1.0 - sample.at.t);
+          ASSERT_NEAR(sampler.pdf(sample.at).value / sample.pdf.value, 1.0, 1e-12 + 0x1p-52 / near);
         }
       };
       std::visit(stay_inside, info.make(map, density_space));
@@ -93,11 +95,11 @@ TEST_P(InversionOnMaps, TexelsAreTheReferencesAwayFromItsEntries) {
   EXPECT_GT(compared, 19900);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, InversionOnMaps,
-    testing::Combine(testing::Values("constant", "one-texel", "gradient", "cosine-lobe", "step",
-                                     "sun-sky", "checker", "black-first-row"),
-                     testing::Values(DensitySpace::texture, DensitySpace::solid_angle)));
+INSTANTIATE_TEST_SUITE_P(All, InversionOnMaps,
+                         testing::Combine(testing::Values("constant", "one-texel", "gradient",
+                                                          "cosine-lobe", "step", "sun-sky",
+                                                          "checker", "black-first-row"),
+                                          testing::ValuesIn(kDensitySpaces)));
 
 // In u.t along the map, and in u.s across the row that was found. What is not monotone must be seen
 // not to be, or nothing was tested.
@@ -106,7 +108,7 @@ TEST(Registry, MonotoneSamplersKeepTheOrderOfRandomNumbers) {
   constexpr int kSteps = 20000;
   for (const SamplerInfo& info : samplers()) {
     if (info.known_defects) continue;
-    for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+    for (const DensitySpace density_space : kDensitySpaces) {
       const auto turns_back = [](const auto& sampler) {
         int turns = 0;
         SquarePoint last = {0.0, 0.0};
@@ -230,7 +232,7 @@ TEST(Registry, EverySamplerDrawsFromEveryMap) {
   for (const SyntheticMap& entry : synthetic_maps()) {
     const EnvironmentMap map = entry.make({16, 8});
     for (const SamplerInfo& info : samplers()) {
-      for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+      for (const DensitySpace density_space : kDensitySpaces) {
         const AnySampler any = info.make(map, density_space);
         const TexelSample sample = std::visit(
             [](const auto& sampler) {

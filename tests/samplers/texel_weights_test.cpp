@@ -15,7 +15,7 @@ namespace {
 
 TEST(CellWeights, OfAMapAreThoseOfItsGrid) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {38, 19});
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     const Grid<double> grid = texel_weights(map, {density_space, kRec709});
     const CellWeights weights(map, {density_space, kRec709});
     ASSERT_EQ(weights.count(), grid.values().size());

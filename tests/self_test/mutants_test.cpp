@@ -24,6 +24,7 @@
 namespace lightproof {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::Field;
 using testing::StartsWith;
@@ -108,6 +109,47 @@ TEST(Mutants, AreEachKilledByTheirOracleAndNamed) {
       if (kill.mutant != mutant.name) continue;
       EXPECT_THAT(rejecting, Contains(full_name(kill.test)));
     }
+  }
+}
+
+// And under C, with a quarter of these samples: one of them draws B there.
+TEST(Mutants, AreEachKilledByTheirOracleAndNamedUnderC) {
+  const EnvironmentMap map = mutant_map();
+  std::vector<SamplerUnderTest> samplers_under_test;
+  for (const Mutant& mutant : mutants())
+    samplers_under_test.push_back(sampler_under_test(mutant, DensitySpace::sine_weighted));
+  const GateResult result = run_gate({&map, 1}, samplers_under_test, {.samples = 1U << 20U});
+  for (const Mutant& mutant : mutants()) {
+    SCOPED_TRACE(mutant.name);
+    EXPECT_THAT(rejections(result, mutant.name), Contains(std::string(to_string(mutant.oracle))));
+    EXPECT_THAT(result.rejections,
+                Contains(AllOf(Field(&Rejection::sampler, mutant.name),
+                               Field(&Rejection::looks_like, std::string(mutant.diagnosis)))));
+  }
+}
+
+/// What is said of a mutant under one density.
+std::string diagnosis_of(std::string_view mutant_name, DensitySpace density_space) {
+  const EnvironmentMap map = mutant_map();
+  const auto all = mutants();
+  const auto mutant =
+      std::find_if(all.begin(), all.end(), [&](const Mutant& m) { return m.name == mutant_name; });
+  const std::vector<SamplerUnderTest> one = {sampler_under_test(*mutant, density_space)};
+  const GateResult result = run_gate({&map, 1}, one, {.samples = 1U << 18U});
+  return result.rejections.empty() ? "" : result.rejections[0].diagnosis;
+}
+
+TEST(Diagnosis, OfOneDensityDrawnForAnotherNamesBoth) {
+  for (const char* mutant : {"other-measure-in-texel", "other-measure-undeclared"}) {
+    SCOPED_TRACE(mutant);
+    EXPECT_EQ(diagnosis_of(mutant, DensitySpace::sine_weighted),
+              "right texels, but positions inside them are uniform in solid angle, not in (s,t): "
+              "the samples fit density B (solid-angle) better");
+    EXPECT_EQ(diagnosis_of(mutant, DensitySpace::solid_angle),
+              "right texels, but positions inside them are uniform in (s,t), not in solid angle: "
+              "the samples fit density C (sine-weighted) better");
+    EXPECT_EQ(diagnosis_of(mutant, DensitySpace::texture),
+              "right texels, but positions inside them are uniform in solid angle, not in (s,t)");
   }
 }
 
@@ -277,7 +319,7 @@ TEST(Diagnosis, OfDefectsOutsideTheListGivesNoNameFromIt) {
     maps.push_back(make_synthetic_map(name, {128, 64}));
   }
   std::vector<SamplerUnderTest> samplers_under_test;
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     samplers_under_test.push_back(
         sampler_of_masses("rows by maximum", density_space, weigh_rows_by_their_maximum));
     samplers_under_test.push_back(
@@ -319,7 +361,7 @@ void drop_texel_at(Grid<double>& masses, const EnvironmentMap& /*map*/) {
 TEST(Diagnosis, NamesAnyTexelThatIsNeverDrawn) {
   const EnvironmentMap map = make_synthetic_map("gradient", {64, 32});
   std::vector<SamplerUnderTest> samplers_under_test;
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensitySpace density_space : kDensitySpaces) {
     samplers_under_test.push_back(
         sampler_of_masses("without the brightest", density_space, drop_texel_at<0>));
     samplers_under_test.push_back(
@@ -375,14 +417,14 @@ TEST(Naming, CountsEveryRejectionByWhatItWasCalled) {
   std::uint64_t rejected = 0;
   std::uint64_t right = 0;
   for (const NamingRecord& record : records) {
-    EXPECT_EQ(record.runs, 4U);
+    EXPECT_EQ(record.runs, 6U);
     EXPECT_LE(record.rejected, record.runs);
     EXPECT_EQ(record.right + record.unknown + record.wrong, record.rejected) << record.mutant;
     EXPECT_EQ(record.wrong == 0, record.wrong_names.empty()) << record.mutant;
     rejected += record.rejected;
     right += record.right;
   }
-  EXPECT_GT(rejected, 2 * records.size());
+  EXPECT_GT(rejected, 3 * records.size());
   EXPECT_GE(10 * right, 8 * rejected);
 }
 
@@ -400,7 +442,8 @@ TEST(Mutants, TheirCorrectParentIsAcceptedByTestsThatEachHaveAKill) {
   const Mutant correct = {"correct", "none", "", Oracle::reference};
   const std::vector<SamplerUnderTest> samplers_under_test = {
       sampler_under_test(correct, DensitySpace::texture),
-      sampler_under_test(correct, DensitySpace::solid_angle)};
+      sampler_under_test(correct, DensitySpace::solid_angle),
+      sampler_under_test(correct, DensitySpace::sine_weighted)};
   const GateResult result = run_gate({&map, 1}, samplers_under_test, {});
   EXPECT_EQ(overall_outcome(result, true), Outcome::accept);
   EXPECT_TRUE(result.rejections.empty());

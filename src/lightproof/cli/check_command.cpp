@@ -85,12 +85,14 @@ SampleConvention convention_of(const DumpDescription& said) {
 }
 
 TargetDensity target_of(const DumpDescription& said) {
-  constexpr std::array<std::pair<const char*, DensitySpace>, 3> kSpaces = {
-      {{"A", DensitySpace::texture},
-       {"B", DensitySpace::solid_angle},
-       {"C", DensitySpace::sine_weighted}}};
-  return {said.density.empty() ? DensitySpace::sine_weighted
-                               : chosen("--density", said.density, kSpaces)};
+  if (said.density.empty()) return {DensitySpace::sine_weighted};
+  std::string known;
+  for (const DensityInfo& density : kDensities) {
+    if (density.label == said.density) return {density.density_space};
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", density.label);
+  }
+  throw InputError(
+      fmt::format("--density: \"{}\" is none of {}", terminal_text(said.density), known));
 }
 
 std::shared_ptr<const SampleDump> open_dump(const std::string& file, const DumpDescription& said) {

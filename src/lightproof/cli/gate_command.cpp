@@ -1,5 +1,6 @@
 // lightproof gate: verdicts only.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -122,9 +123,18 @@ void add_sampler_options(CLI::App& command, Options& options) {
                 "show samplers that are kept with known defects as well; they decide nothing")
       ->excludes(sampler);
   command.add_flag("--sound-only", options.sound_only)->group("");
-  command.add_option("--density", options.density_space, "test only this target density")
-      ->check(one_of("density", {"A", "B"}))
-      ->type_name("A|B");
+  std::vector<std::string> labels;
+  std::string words;
+  for (const DensityInfo& density : kDensities) {
+    labels.emplace_back(density.label);
+    words += fmt::format("{}{}, {}: {}", words.empty() ? "" : "; ", density.label, density.name,
+                         density.words);
+  }
+  command
+      .add_option("--density", options.density_space,
+                  fmt::format("test only this target density: {}", words))
+      ->check(one_of("density", labels))
+      ->type_name(fmt::format("{}", fmt::join(labels, "|")));
 }
 
 void add_output_options(CLI::App& command, Options& options) {

@@ -71,10 +71,10 @@ void add_named(ChosenSamplers& chosen, const std::string& name) {
   const auto mutant = find_named(all_mutants, name);
   const auto sampler = find_named(all_samplers, name);
   if (mutant == all_mutants.end() && sampler == all_samplers.end()) refuse_unknown(name);
-  for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
+  for (const DensityInfo& density : kDensities) {
     chosen.of_maps.push_back(mutant != all_mutants.end()
-                                 ? sampler_under_test(*mutant, density_space)
-                                 : sampler_under_test(*sampler, density_space));
+                                 ? sampler_under_test(*mutant, density.density_space)
+                                 : sampler_under_test(*sampler, density.density_space));
   }
 }
 

@@ -13,7 +13,7 @@ struct SamplerChoice {
   /// Names of samplers or mutants, or of the groups "directions" and "all_directions"; empty: all
   /// that are correct, microfacets at a selection of roughnesses.
   std::vector<std::string> names;
-  std::string density_space;    ///< "A", "B" or both (empty)
+  std::string density_space;    ///< "A", "B", "C" or all (empty)
   bool with_published = false;  ///< whether those with known defects are included
   bool has_maps = false;        ///< some were named
 };

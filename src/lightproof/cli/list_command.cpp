@@ -13,6 +13,7 @@
 #include "lightproof/estimators/registry.h"
 #include "lightproof/gate/direction_sampler.h"
 #include "lightproof/image/synthetic.h"
+#include "lightproof/image/target_density.h"
 #include "lightproof/materials/material.h"
 #include "lightproof/points/registry.h"
 #include "lightproof/render/receiver.h"
@@ -113,8 +114,18 @@ std::vector<Entry> system_entries() {
   return entries;
 }
 
+std::vector<Entry> density_entries() {
+  std::vector<Entry> entries;
+  for (const DensityInfo& density : kDensities) {
+    entries.push_back(
+        {std::string(density.label), fmt::format("{}: {}", density.name, density.words)});
+  }
+  return entries;
+}
+
 std::vector<Entry> entries_of(const std::string& registry) {
   if (registry == "samplers") return sampler_entries();
+  if (registry == "densities") return density_entries();
   if (registry == "mutants") return mutant_entries();
   if (registry == "maps") return described(synthetic_maps());
   if (registry == "presets") return described(presets());
@@ -125,9 +136,9 @@ std::vector<Entry> entries_of(const std::string& registry) {
   return estimator_entries();
 }
 
-const std::vector<std::string> kRegistries = {"samplers",   "mutants",   "maps",
-                                              "presets",    "materials", "receivers",
-                                              "estimators", "points",    "systems"};
+const std::vector<std::string> kRegistries = {"samplers", "densities", "mutants",   "maps",
+                                              "presets",  "materials", "receivers", "estimators",
+                                              "points",   "systems"};
 
 /// Version of the format of `list --json` (docs/schema/list.schema.json).
 constexpr int kListFormatVersion = 1;

@@ -59,6 +59,15 @@ constexpr std::array kEstimators = {
                       [](const EnvironmentMap& map) {
                         return prepare_one_sample(map, MapDensity{DensitySpace::solid_angle});
                       }},
+    EstimatorInfo{.name = "environment C",
+                  .description = "the map, texels in proportion to luminance times solid angle, "
+                                 "positions uniform in (s,t)",
+                  .source = "pbrt-v3's InfiniteAreaLight, Mitsuba's envmap, Cycles",
+                  .density = SampledDensity::sine_weighted,
+                  .prepare =
+                      [](const EnvironmentMap& map) {
+                        return prepare_one_sample(map, MapDensity{DensitySpace::sine_weighted});
+                      }},
     EstimatorInfo{.name = "environment B hammersley",
                   .description = "as environment B, at Hammersley's points, shifted at random",
                   .source = "Hammersley 1960; Cranley and Patterson 1976",

@@ -32,7 +32,7 @@ Grid<double> weighted(Extent extent, const Value& value, const RowWeight& row_we
 }
 
 double declared_row_weight(Extent extent, DensitySpace density_space, int y) {
-  return density_space == DensitySpace::texture ? 1.0 : texel_solid_angle(extent, y);
+  return texel_measure(density_space) == MapMeasure::square ? 1.0 : texel_solid_angle(extent, y);
 }
 
 /// The declared distribution with another luminance.
@@ -55,6 +55,14 @@ Grid<double> with_rows(const DeclaredDistribution& declared, const RowWeight& we
   if (declared.target.lookup == Lookup::bilinear) {
     TargetDensity target = declared.target;
     target.density_space = DensitySpace::texture;
+    if (weighs_texels(declared.target.density_space)) {
+      // The weights of rows are interpolated, too.
+      EnvironmentMap other = {declared.map->name, declared.map->radiance};
+      for (int y = 0; y < other.radiance.extent().height; ++y) {
+        for (Rgb& rgb : other.radiance.row(y)) rgb *= static_cast<float>(weight(y));
+      }
+      return reference::texel_masses(other, target);
+    }
     const Grid<double> masses = reference::texel_masses(*declared.map, target);
     return weighted(
         masses.extent(), [&](int x, int y) { return masses(x, y); }, weight);
@@ -81,8 +89,9 @@ Grid<double> moved(const DeclaredDistribution& declared, const From& from) {
 
 Grid<double> other_density(const DeclaredDistribution& declared) {
   TargetDensity target = declared.target;
-  target.density_space = target.density_space == DensitySpace::texture ? DensitySpace::solid_angle
-                                                                       : DensitySpace::texture;
+  target.density_space = texel_measure(target.density_space) == MapMeasure::square
+                             ? DensitySpace::solid_angle
+                             : DensitySpace::texture;
   return reference::texel_masses(*declared.map, target);
 }
 
@@ -106,7 +115,7 @@ Grid<double> sine_twice(const DeclaredDistribution& declared) {
   const Extent extent = declared.map->radiance.extent();
   return with_rows(declared, [&](int y) {
     const double sine = sin_theta((y + 0.5) / extent.height);
-    return declared.target.density_space == DensitySpace::texture
+    return texel_measure(declared.target.density_space) == MapMeasure::square
                ? sine * sine
                : texel_solid_angle(extent, y) * sine;
   });

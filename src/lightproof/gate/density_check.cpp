@@ -26,7 +26,7 @@ struct Row {
     ComparedCell cell;
     cell.x = x * expectation->masses.extent().width / cells.width;
     cell.y = texel_row();
-    cell.at = {(x + 0.5) / cells.width, (y + 0.5) / cells.height};
+    cell.at = {(x + 0.5) / cells.width, (y + 0.25) / cells.height};
     cell.pdf = sampler.pdf(cell.at).value;
     cell.declared = declared_density(*expectation, cell.at, cell.x, cell.y);
     return cell;
@@ -50,6 +50,17 @@ struct Row {
     return masses;
   }
 };
+
+MapMeasure other_measure(const Expectation& expectation) {
+  return position_measure(expectation.density_space) == MapMeasure::square ? MapMeasure::solid_angle
+                                                                           : MapMeasure::square;
+}
+
+/// The density over the square, at a point of a texel of row y, of this mass in the texel.
+double spread(double mass, MapMeasure measure, Extent extent, SquarePoint at, int y) {
+  if (measure == MapMeasure::square) return mass * static_cast<double>(extent.count());
+  return to_square(PerSteradian{mass / texel_solid_angle(extent, y)}, at).value;
+}
 
 /// What one row of cells says; rows are put together in their order.
 struct RowComparison {
@@ -103,6 +114,11 @@ RowComparison compare_row(const Row& row, const BoundSampler& sampler,
     const double bound = kRelative * mass +
                          rounding.bound({mass, run, row_mass, expectation.masses.extent().count()});
     result.add(cell, mass, bound);
+    if (!expectation.density && mass > 0.0) {
+      const double other =
+          spread(mass, other_measure(expectation), expectation.masses.extent(), cell.at, cell.y);
+      result.found.over_other_measure.add(cell.pdf / other);
+    }
   }
   return result;
 }
@@ -122,6 +138,7 @@ void merge(DensityComparison& all, double& excess, const RowComparison& row) {
   all.ratio.merge(found.ratio);
   all.times_jacobian.merge(found.times_jacobian);
   all.over_jacobian.merge(found.over_jacobian);
+  all.over_other_measure.merge(found.over_other_measure);
   all.cells_off += found.cells_off;
   if (found.worst && (!all.worst || row.excess > excess)) {
     excess = row.excess;
@@ -142,11 +159,8 @@ bool RatioRange::is_constant() const { return least > 0.0 && largest <= least * 
 
 double declared_density(const Expectation& expectation, SquarePoint at, int x, int y) {
   if (expectation.density) return expectation.density(at);
-  const Extent extent = expectation.masses.extent();
-  const double mass = expectation.masses(x, y);
-  if (expectation.density_space == DensitySpace::texture)
-    return mass * static_cast<double>(extent.count());
-  return to_square(PerSteradian{mass / texel_solid_angle(extent, y)}, at).value;
+  return spread(expectation.masses(x, y), position_measure(expectation.density_space),
+                expectation.masses.extent(), at, y);
 }
 
 DensityComparison compare_density(const BoundSampler& sampler, const Expectation& expectation,

@@ -14,11 +14,11 @@
 
 namespace lightproof {
 
-/// The pdf and the declared density at the centre of one cell, over the square.
+/// The pdf and the declared density in one cell, over the square.
 struct ComparedCell {
   int x = 0;              ///< column of the texel that the cell lies in
   int y = 0;              ///< row of that texel
-  SquarePoint at;         ///< the cell's centre
+  SquarePoint at;         ///< in the cell, at 1/4 of its height: see compare_density
   double pdf = 0.0;       ///< the sampler's density, per unit square
   double declared = 0.0;  ///< the declared density, per unit square
 };
@@ -34,8 +34,8 @@ struct RatioRange {
   bool is_constant() const;
 };
 
-/// What a comparison of the pdf with the declared density found at the centres of all cells in
-/// which the latter is smooth.
+/// What a comparison of the pdf with the declared density found in all cells in which the latter is
+/// smooth.
 struct DensityComparison {
   std::size_t unreachable_cells = 0;  ///< cells with a declared density above 0 and a pdf of 0
   double unreachable_mass = 0.0;      ///< share of all light that lies in unreachable cells
@@ -55,10 +55,14 @@ struct DensityComparison {
   RatioRange ratio;           ///< pdf over declared density, in lit cells
   RatioRange times_jacobian;  ///< that ratio times 2 pi^2 sin(theta)
   RatioRange over_jacobian;   ///< that ratio over 2 pi^2 sin(theta)
+  /// The pdf over that of the declared masses, spread inside the texels by the other measure than
+  /// the declared one. Stays empty if the declared density is no masses of texels.
+  RatioRange over_other_measure;
 };
 
 /// Compares a sampler's pdf with the declared density, given the rounding that the sampler
-/// declares.
+/// declares. At the centre of a texel a density that is uniform in t and one that is uniform in
+/// cos(theta) are all but one: what is compared is a quarter of the height away from it.
 DensityComparison compare_density(const BoundSampler& sampler, const Expectation& expectation,
                                   const MassRounding& rounding);
 

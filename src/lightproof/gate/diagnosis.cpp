@@ -9,6 +9,7 @@
 
 #include "lightproof/gate/deviation.h"
 #include "lightproof/gate/distribution_fit.h"
+#include "lightproof/gate/position_fit.h"
 #include "lightproof/gate/random_number_defects.h"
 #include "lightproof/gate/records.h"
 #include "lightproof/gate/residuals.h"
@@ -17,7 +18,7 @@
 namespace lightproof {
 namespace {
 
-constexpr std::array<Signature, 15> kSignatures = {{
+constexpr std::array<Signature, 16> kSignatures = {{
     {"off-the-map",
      "samples beside the map, or where the distribution has none, or without a density: a sum that "
      "ends below 1, a 0/0, directions that cannot be"},
@@ -30,6 +31,9 @@ constexpr std::array<Signature, 15> kSignatures = {{
     {"coarse-numbers", "random numbers or sums with too few bits: single texels are off, all over"},
     {"one-texel", "a single texel is wrong"},
     {"one-texel-missing", "one texel that has light is never drawn"},
+    {"other-measure-in-texel",
+     "right texels, but positions inside them are uniform in solid angle where (s,t) is declared, "
+     "or the reverse"},
     {"uneven-in-texel", "right texels, wrong positions inside them"},
     {"pdf-scaled", "the pdf is off by a constant factor"},
     {"pdf-of-another-measure", "the pdf is one over another measure: the Jacobian is missing"},
@@ -219,6 +223,36 @@ Name name_of_wrong_pdf(const ScoredAlternatives& distributions, const Expectatio
   return {"pdf-mismatch", "the two differ, and the samples fit the declared distribution"};
 }
 
+/// The name of a sampler whose texels are right, and whose positions inside them, or whose pdf's,
+/// are uniform in the other measure.
+Name name_of_other_measure(const Expectation& expectation, const Evidence& evidence,
+                           const Verdicts& verdicts) {
+  const RatioRange& over_other = evidence.inspection->density.over_other_measure;
+  // The whole pdf, not a multiple of it.
+  const bool pdf = verdicts.rejected(TestId::declared_density) && over_other.is_constant() &&
+                   std::abs(over_other.largest - 1.0) <= kIntegrated;
+  if (!pdf && !positions_are_wrong(verdicts)) return {};
+  const Draws& draws = *evidence.draws;
+  const std::uint64_t samples = draws.samples - draws.out_of_domain.count;
+  if (log10_fit_of_counts(draws.texels, expectation.masses, samples) < std::log10(kFitLevel)) {
+    return {};
+  }
+  const PositionFit fit = fit_of_other_measure(expectation, draws);
+  if (positions_are_wrong(verdicts) && fit.named()) {
+    return {"other-measure-in-texel",
+            fmt::format("positions inside texels are 10^{:.3g} times as likely under it, and fit "
+                        "it with p = {:.2g}",
+                        fit.log10_odds, std::pow(10.0, fit.log10_p))};
+  }
+  if (!pdf) return {};
+  if (fit.log10_odds <= -std::log10(kNamingOdds)) {
+    return {"pdf-of-another-measure",
+            "inside texels pdf() is uniform in the other measure, and the samples are not"};
+  }
+  return {"other-measure-in-texel",
+          "pdf() shows it all over the map, and the samples do not speak against it"};
+}
+
 Name name_of(const ScoredAlternatives& distributions, const Expectation& expectation,
              const Evidence& evidence) {
   const Verdicts verdicts(evidence.records);
@@ -248,6 +282,10 @@ Name name_of(const ScoredAlternatives& distributions, const Expectation& expecta
   // another distribution's.
   const DistributionFit likeliest =
       likeliest_distribution(distributions.all, distributions.scores, expectation, draws);
+  if (!likeliest.named()) {
+    Name measure = name_of_other_measure(expectation, evidence, verdicts);
+    if (!measure.defect.empty()) return measure;
+  }
   if (declared && !likeliest.named()) {
     Name pdf = name_of_wrong_pdf(distributions, expectation, evidence, verdicts);
     if (!pdf.defect.empty()) return pdf;
@@ -266,12 +304,36 @@ Name name_of(const ScoredAlternatives& distributions, const Expectation& expecta
   return {"unknown"};
 }
 
+/// The density that has the texels of another one, and the other measure inside them; none of the
+/// texture-space density.
+const DensityInfo* with_other_positions(DensitySpace density_space) {
+  const auto found =
+      std::find_if(kDensities.begin(), kDensities.end(), [&](const DensityInfo& density) {
+        return density.texel_measure == texel_measure(density_space) &&
+               density.position_measure != position_measure(density_space);
+      });
+  return found == kDensities.end() ? nullptr : &*found;
+}
+
+/// The words of a signature, and what they mean for this declared density.
+std::string in_words(const Signature& signature, const Expectation& expectation) {
+  if (signature.name != "other-measure-in-texel") return std::string(signature.diagnosis);
+  const bool is_square = position_measure(expectation.density_space) == MapMeasure::square;
+  const std::string words =
+      fmt::format("right texels, but positions inside them are uniform in {}, not in {}",
+                  is_square ? "solid angle" : "(s,t)", is_square ? "(s,t)" : "solid angle");
+  const DensityInfo* density = with_other_positions(expectation.density_space);
+  if (density == nullptr) return words;
+  return words +
+         fmt::format(": the samples fit density {} ({}) better", density->label, density->name);
+}
+
 std::string words_of(const ScoredAlternatives& distributions, const Name& name,
                      const Expectation& expectation, const Evidence& evidence) {
   for (const Signature& signature : kSignatures) {
     if (signature.name != name.defect) continue;
     const std::string what = describe_deviation(expectation, evidence);
-    if (name.defect != "unknown" || what.empty()) return std::string(signature.diagnosis);
+    if (name.defect != "unknown" || what.empty()) return in_words(signature, expectation);
     return fmt::format("{}: {}", signature.diagnosis, what);
   }
   const Alternative* distribution = distributions.find(name.defect);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "lightproof/core/grid.h"
@@ -33,14 +34,18 @@ class DiscreteSampler {
  public:
   /// Samples texels of these masses, which sum to 1; inside a texel the position follows the
   /// density space.
-  DiscreteSampler(Grid<double> masses, DensitySpace density_space);
+  DiscreteSampler(Grid<double> masses, DensitySpace density_space)
+      : DiscreteSampler(std::move(masses), lightproof::position_measure(density_space)) {}
+  /// As above, with positions that are uniform in this measure.
+  DiscreteSampler(Grid<double> masses, MapMeasure positions);
 
   TexelSample sample(SquarePoint u) const;
   PerSquare pdf(SquarePoint at) const;
   std::size_t table_bytes() const;
 
   Extent extent() const { return masses_.extent(); }
-  DensitySpace density_space() const { return positions_.density_space(); }
+  /// The measure in which positions are uniform inside a texel.
+  MapMeasure position_measure() const { return positions_.measure(); }
   const Grid<double>& masses() const { return masses_; }
   /// What u = (1/2, 1/2) gives: a texel with light.
   const TexelSample& median() const { return median_; }

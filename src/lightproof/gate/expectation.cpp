@@ -21,8 +21,8 @@ double squared_sine_area(Extent extent, int y) {
   return (primitive(high) - primitive(low)) / (kPi * extent.width);
 }
 
-/// First and second moment of 1/p(omega) over the bright texels. Under A the density over (s,t) is
-/// constant in a texel and 1/p(omega) = 2 pi^2 sin(theta) / p(s,t); under B p(omega) is constant.
+/// First and second moment of 1/p(omega) over the bright texels. Under A and C the density over
+/// (s,t) is constant in a texel and 1/p(omega) = 2 pi^2 sin(theta) / p(s,t); under B p(omega) is.
 reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) {
   if (expectation.lookup == Lookup::bilinear) {
     return reference::bilinear_inverse_pdf(
@@ -30,6 +30,7 @@ reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) 
         [&](double radiance) { return expectation.is_bright(radiance); });
   }
   const Extent extent = expectation.masses.extent();
+  const bool is_flat = position_measure(expectation.density_space) == MapMeasure::square;
   reference::EstimatorMoments moments;
   for (int y = 0; y < extent.height; ++y) {
     const double solid_angle = texel_solid_angle(extent, y);
@@ -41,12 +42,8 @@ reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) 
       moments.raw[0] += solid_angle;
       const double flat = 2.0 * kPi * kPi * sin_theta((y + 0.5) / extent.height) /
                           static_cast<double>(extent.count());
-      moments.largest = std::max(
-          moments.largest,
-          (expectation.density_space == DensitySpace::texture ? flat : solid_angle) / mass);
-      moments.raw[1] += expectation.density_space == DensitySpace::texture
-                            ? square / mass
-                            : solid_angle * solid_angle / mass;
+      moments.largest = std::max(moments.largest, (is_flat ? flat : solid_angle) / mass);
+      moments.raw[1] += is_flat ? square / mass : solid_angle * solid_angle / mass;
     }
   }
   return moments;
@@ -82,10 +79,12 @@ void set_transform(Expectation& expectation, const EnvironmentMap& map, TargetDe
     for (std::size_t i = 0; i < samples.size(); ++i) points[i] = (*transform)(samples[i].at);
   };
   set_smooth_rows(expectation, transform->rows());
-  const auto luminance = std::make_shared<const Grid<double>>(expectation.luminance);
-  expectation.density = [luminance, total = transform->total(), target](SquarePoint at) {
-    const double weight = target.density_space == DensitySpace::texture ? 1.0 : sin_theta(at.t);
-    return look_up_bilinear(*luminance, at) * weight / total;
+  const auto interpolated = std::make_shared<const Grid<double>>(
+      reference::interpolated_by(target.density_space, expectation.luminance));
+  const MapMeasure measure = position_measure(target.density_space);
+  expectation.density = [interpolated, total = transform->total(), measure](SquarePoint at) {
+    const double weight = measure == MapMeasure::square ? 1.0 : sin_theta(at.t);
+    return look_up_bilinear(*interpolated, at) * weight / total;
   };
 }
 
@@ -125,9 +124,7 @@ Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
       std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   for (std::size_t i = 0; i < kMeanCaseCount; ++i) {
     const auto moments = light_moments(expectation, kMeanCases[i].normal);
-    expectation.estimators[i] = target.density_space == DensitySpace::texture
-                                    ? moments[reference::SampledDensity::texture_space]
-                                    : moments[reference::SampledDensity::solid_angle];
+    expectation.estimators[i] = moments[reference::sampled_density(target.density_space)];
     expectation.uniform[i] = moments[reference::SampledDensity::uniform];
   }
   expectation.inverse_pdf = inverse_pdf_moments(expectation);

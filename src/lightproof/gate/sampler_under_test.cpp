@@ -69,7 +69,7 @@ std::vector<TargetDensity> targets_of(std::span<const SamplerUnderTest> samplers
 /// What all samplers under test of one target density on a map are held against.
 TestCase test_case_of(const EnvironmentMap& map, TargetDensity target) {
   return {map.name,
-          to_string(target.density_space),
+          std::string(to_string(target.density_space)),
           map.source,
           [&map, target] {
             return on(map, "the exact distribution of", [&] {
@@ -102,8 +102,8 @@ SamplerUnderTest sampler_under_test(const SamplerInfo& sampler, DensitySpace den
 std::vector<SamplerUnderTest> all_samplers_under_test() {
   std::vector<SamplerUnderTest> samplers_under_test;
   for (const SamplerInfo& sampler : samplers()) {
-    for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
-      samplers_under_test.push_back(sampler_under_test(sampler, density_space));
+    for (const DensityInfo& density : kDensities) {
+      samplers_under_test.push_back(sampler_under_test(sampler, density.density_space));
     }
   }
   return samplers_under_test;

@@ -28,10 +28,10 @@ struct SamplerUnderTest {
   MassRounding (*rounding)(Extent map) = nullptr;
 };
 
-/// A sampler of the registry as one under test, under one density (A or B).
+/// A sampler of the registry as one under test, under one density.
 SamplerUnderTest sampler_under_test(const SamplerInfo& sampler, DensitySpace density_space);
 
-/// Every sampler of the registry under both densities.
+/// Every sampler of the registry under all densities.
 std::vector<SamplerUnderTest> all_samplers_under_test();
 
 /// The test cases of every sampler under test on every map, one for each map and target density.

@@ -47,7 +47,7 @@ struct Alternative {
 /// run over many maps holds few of them at once, and shares what it holds.
 struct TestCase {
   std::string map;            ///< name of the map, or kDirections
-  std::string density_space;  ///< "A", "B"; empty for distributions over directions
+  std::string density_space;  ///< "A", "B", "C"; empty for distributions over directions
   std::string source;         ///< what the user called the map: a path or a built-in name
   std::function<std::shared_ptr<const Expectation>()> expectation;
   std::function<std::vector<Alternative>()> alternatives;

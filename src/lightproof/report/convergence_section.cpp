@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "lightproof/page/html.h"
 #include "lightproof/page/numbers.h"
@@ -13,6 +14,13 @@
 
 namespace lightproof {
 namespace {
+
+constexpr std::string_view kDensityNote =
+    "Variance of one sample relative to the square of the mean, by quadrature of the map, averaged "
+    "over the pixels; the least one in bold. B is without variance where all of the map is seen "
+    "with one weight; A draws the poles more often, and has the least where what is looked for "
+    "lies there. C differs from B inside texels alone, by cot(theta) pi/H of a row: at the poles, "
+    "and the less the more rows H the map has.";
 
 Table slope_table(const std::vector<ConvergenceRecord>& records) {
   Table table("Fitted slopes", {"Estimator", "Map", "Receiver", "Material", "Slope",
@@ -31,6 +39,33 @@ Table slope_table(const std::vector<ConvergenceRecord>& records) {
                number_cell(last.predicted)});
   }
   return table;
+}
+
+/// Of every place the least variance is framed.
+Table density_table(const std::vector<DensityVariances>& places) {
+  std::vector<std::string> columns = {"Map", "Receiver", "Material"};
+  for (const DensityInfo& density : kDensities) {
+    columns.push_back(fmt::format("{}, {}", density.label, density.name));
+  }
+  Table table("Exact variance / mean\u00b2 of single estimates by each density", columns);
+  for (const DensityVariances& p : places) {
+    std::vector<Cell> row = {text_cell(p.place->map), text_cell(p.place->receiver),
+                             text_cell(p.place->material)};
+    for (const double variance : p.variances) {
+      row.push_back(std::isfinite(variance) ? number_cell(variance, 4)
+                                            : Cell{"\u2013", "number", ""});
+    }
+    row[3 + p.least].css_class += " least";
+    table.add(std::move(row));
+  }
+  return table;
+}
+
+std::string density_comparison(const std::vector<ConvergenceRecord>& records) {
+  const std::vector<DensityVariances> places = density_variances(records);
+  if (places.empty()) return "";
+  return fmt::format("<h3>{}</h3>\n", escaped(density_finding(places))) +
+         paragraph(kDensityNote, "note") + density_table(places).html();
 }
 
 Table variance_table(const std::vector<ConvergenceRecord>& records) {
@@ -151,7 +186,7 @@ std::string variance_section(const std::vector<ConvergenceRecord>& records) {
   return html +
          chart_figure(chart, collapsible("Variances as a table", variance_table(records).html()) +
                                  download_link("variance.csv", variance_csv(records))) +
-         "</section>\n";
+         density_comparison(records) + "</section>\n";
 }
 
 }  // namespace lightproof

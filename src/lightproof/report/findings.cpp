@@ -182,6 +182,55 @@ std::string variance_finding(const std::vector<ConvergenceRecord>& records) {
       rest);
 }
 
+std::vector<DensityVariances> density_variances(const std::vector<ConvergenceRecord>& records) {
+  std::vector<DensityVariances> places;
+  const auto at_place_of = [&](const ConvergenceRecord& r) {
+    return std::find_if(places.begin(), places.end(), [&](const DensityVariances& p) {
+      return p.place->map == r.map && p.place->receiver == r.receiver &&
+             p.place->material == r.material;
+    });
+  };
+  for (const ConvergenceRecord& r : records) {
+    for (std::size_t i = 0; i < kDensities.size(); ++i) {
+      if (r.estimator != fmt::format("environment {}", kDensities[i].label)) continue;
+      auto place = at_place_of(r);
+      if (place == places.end()) {
+        places.push_back({&r, {}, 0});
+        place = places.end() - 1;
+        place->variances.fill(std::nan(""));
+      }
+      place->variances[i] = r.predicted_variance;
+    }
+  }
+  std::erase_if(places, [](const DensityVariances& p) {
+    return std::count_if(p.variances.begin(), p.variances.end(),
+                         [](double v) { return std::isfinite(v); }) < 2;
+  });
+  for (DensityVariances& p : places) {
+    const auto unknown_last = [](double a, double b) {
+      return (std::isnan(a) ? HUGE_VAL : a) < (std::isnan(b) ? HUGE_VAL : b);
+    };
+    p.least = static_cast<std::size_t>(
+        std::min_element(p.variances.begin(), p.variances.end(), unknown_last) -
+        p.variances.begin());
+  }
+  return places;
+}
+
+std::string density_finding(const std::vector<DensityVariances>& places) {
+  std::string text;
+  for (std::size_t i = 0; i < kDensities.size(); ++i) {
+    const auto best = std::count_if(places.begin(), places.end(),
+                                    [&](const DensityVariances& p) { return p.least == i; });
+    if (best == 0) continue;
+    text += fmt::format("{}{} ({}) in {}", text.empty() ? "" : ", ", kDensities[i].label,
+                        kDensities[i].name, best);
+  }
+  if (text.empty()) return "";
+  return fmt::format("Least exact variance of the densities of the map, over {}: {}",
+                     counted(places.size(), "place"), text);
+}
+
 std::string saving_finding(const std::vector<const ConvergenceRecord*>& records) {
   const auto by_variance = [](const ConvergenceRecord* a, const ConvergenceRecord* b) {
     return a->predicted_variance < b->predicted_variance;

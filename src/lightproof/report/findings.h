@@ -2,10 +2,12 @@
 // the worst case is named wherever not everything agrees. Plain text (UTF-8), not escaped.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "lightproof/image/target_density.h"
 #include "lightproof/report/pareto.h"
 #include "lightproof/results/study_result.h"
 
@@ -65,6 +67,21 @@ std::string build_finding(const StudyResult& study);
 /// not empty; `better` is the comparative: "more accurate".
 std::string tables_finding(const std::vector<TableRecord>& records, TableCost cost,
                            std::string_view better);
+
+/// The exact variances of the estimators that draw from the map by one of kDensities each, in one
+/// place: on one map, receiver and material.
+struct DensityVariances {
+  const ConvergenceRecord* place;  ///< one of the records, which names the place
+  /// Per sample, relative to mean^2, in the order of kDensities; not a number where unknown.
+  std::array<double, kDensities.size()> variances;
+  std::size_t least;  ///< index of the least one
+};
+
+/// The places where the variances of at least two densities are predicted, in the records' order.
+std::vector<DensityVariances> density_variances(const std::vector<ConvergenceRecord>& records);
+
+/// Which density has the least variance in how many places. Empty if there are no places.
+std::string density_finding(const std::vector<DensityVariances>& places);
 
 /// How many times fewer samples the best estimator needs than the worst for the same error, by the
 /// predicted variances. `records` is not empty.

@@ -218,8 +218,11 @@ std::string demonstration(const GateResult& known_defects) {
 }
 
 constexpr std::string_view kLegend =
-    "A and B are the target densities: A draws texels in proportion to their luminance, B to "
-    "luminance times solid angle. Oracles: self compares the samples with the sampler's own pdf, "
+    "A, B and C are the target densities. A, texture-space, draws texels in proportion to their "
+    "luminance; B, solid-angle, and C, sine-weighted, in proportion to luminance times solid "
+    "angle. "
+    "Inside a texel B is uniform in solid angle, A and C are in (s,t). C is what pbrt-v3, Mitsuba "
+    "and Cycles draw. Oracles: self compares the samples with the sampler's own pdf, "
     "reference with the map itself, mean and variance with integrals of the map; check needs no "
     "statistics. A fraction behind a verdict counts the tests that led to it. Effects are relative "
     "deviations, or Cohen's w of counts; of the worst texel, row or column they are its count over "

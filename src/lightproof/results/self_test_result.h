@@ -90,7 +90,7 @@ struct KillRecord {
   }
 };
 
-/// What the gate calls one mutant on the maps of a study, under both densities.
+/// What the gate calls one mutant on the maps of a study, under all densities.
 struct NamingRecord {
   std::string mutant;
   std::string expected;        ///< the name that the gate should give it

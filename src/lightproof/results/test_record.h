@@ -25,7 +25,8 @@ inline constexpr double kMustDetect = 0.1;
 /// One test of one run.
 struct TestRecord {
   std::string sampler;
-  /// "A" (texture space), "B" (solid angle); empty for distributions over directions.
+  /// "A" (texture-space), "B" (solid-angle), "C" (sine-weighted); empty for distributions over
+  /// directions.
   std::string density_space;
   std::string map;  ///< the map's name, or kDirections
   TestId test = TestId::bins;

@@ -24,12 +24,14 @@ double inside(double share) { return std::clamp(share, kCellMargin, 1.0 - kCellM
 }  // namespace
 
 BilinearPatches::BilinearPatches(const EnvironmentMap& map, TargetDensity target)
-    : density_space_(target.density_space), luminance_(map.radiance.extent()) {
+    : measure_(position_measure(target.density_space)), luminance_(map.radiance.extent()) {
   const Extent extent = texels();
   parallel_for(static_cast<std::size_t>(extent.height), [&](std::size_t row) {
     const int y = static_cast<int>(row);
+    const double factor =
+        weighs_texels(target.density_space) ? sin_theta((y + 0.5) / extent.height) : 1.0;
     std::ranges::transform(map.radiance.row(y), luminance_.row(y).begin(), [&](Rgb rgb) {
-      return static_cast<float>(luminance_of(rgb, target.weights));
+      return static_cast<float>(factor * luminance_of(rgb, target.weights));
     });
   });
   if (std::ranges::none_of(luminance_.values(), [](float luminance) { return luminance > 0.0F; })) {
@@ -48,7 +50,7 @@ LinearTimesSine BilinearPatches::from_pole(int row) const {
 
 BilinearPatches::Row BilinearPatches::weigh(int row) const {
   const double height = part(row, texels().height).length / texels().height;
-  if (density_space_ == DensitySpace::texture) return {0.5 * height, 0.5 * height};
+  if (measure_ == MapMeasure::square) return {0.5 * height, 0.5 * height};
   const LinearTimesSine sine = from_pole(row);
   const double steradian = solid_angle_per_square(0.5) * height;
   const double away = steradian * sine.integral(1.0, 0.0, 1.0);
@@ -86,7 +88,7 @@ Grid<double> BilinearPatches::weights() const {
 double BilinearPatches::position_along(const Corners& corners, int row, double share) const {
   const double low = corners.low();
   const double high = corners.high();
-  if (density_space_ == DensitySpace::texture) return invert_linear(low, high, share);
+  if (measure_ == MapMeasure::square) return invert_linear(low, high, share);
   const LinearTimesSine sine = from_pole(row);
   return is_upper(row) ? 1.0 - sine.invert(high, low, 1.0 - share) : sine.invert(low, high, share);
 }
@@ -118,8 +120,7 @@ PerSquare BilinearPatches::density(const Corners& corners, int column, int row, 
   const double luminance = between(between(corners.luminance[0][0], corners.luminance[0][1], p),
                                    between(corners.luminance[1][0], corners.luminance[1][1], p), q);
   const double density = mass / integral(corners, column, row) * luminance;
-  return density_space_ == DensitySpace::texture ? PerSquare{density}
-                                                 : to_square(PerSteradian{density}, at);
+  return measure_ == MapMeasure::square ? PerSquare{density} : to_square(PerSteradian{density}, at);
 }
 
 }  // namespace lightproof

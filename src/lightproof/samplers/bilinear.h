@@ -3,8 +3,8 @@
 //
 // Between the centres of four texels the look-up is one bilinear patch. The table holds the exact
 // integral of every patch; a point chooses the row of patches, then the patch, by guide tables. In
-// the patch the marginal over t is inverted (linear under A; linear times sin(pi t) under B, by
-// Newton's method), then the conditional over s, which is linear. Patches end at the seam and at
+// the patch the marginal over t is inverted (linear under A and C; linear times sin(pi t) under B,
+// by Newton's method), then the conditional over s, which is linear. Patches end at the seam and at
 // the poles, so that the map is monotone: it keeps stratification. A piecewise-constant
 // table dilated until it covers the look-up needs none of this, but draws another density, which
 // adds variance wherever texels differ.
@@ -24,15 +24,15 @@ namespace lightproof {
 /// H + 1 along, with half rows at the poles that are constant in t.
 class BilinearPatches {
  public:
-  /// Keeps the map's luminances as floats; those that a float cannot tell from 0 are 0. Throws
-  /// InputError if all are.
+  /// Keeps the map's luminances, under C times sin(theta) of their row, as floats; those that a
+  /// float cannot tell from 0 are 0. Throws InputError if all are.
   BilinearPatches(const EnvironmentMap& map, TargetDensity target);
 
   /// How many patches there are across and along.
   Extent extent() const { return {texels().width + 1, texels().height + 1}; }
   /// Extent of the map in texels.
   Extent texels() const { return luminance_.extent(); }
-  /// ∫ of the interpolated luminance over each patch: over the square under A, in steradian under
+  /// ∫ of what is interpolated over each patch: over the square under A and C, in steradian under
   /// B.
   Grid<double> weights() const;
   /// The sample in patch (column, row), which is drawn with probability `mass`, at the point below
@@ -71,7 +71,7 @@ class BilinearPatches {
     double falling;
     double rising;
   };
-  /// The luminance at the corners of a patch: low and high in s, in t.
+  /// What is interpolated, at the corners of a patch: low and high in s, in t.
   struct Corners {
     double luminance[2][2];  ///< [t][s]
     double low() const { return 0.5 * (luminance[0][0] + luminance[0][1]); }
@@ -93,8 +93,8 @@ class BilinearPatches {
   PerSquare density(const Corners& corners, int column, int row, double mass, SquarePoint at) const;
   double position_along(const Corners& corners, int row, double share) const;
 
-  DensitySpace density_space_;
-  Grid<float> luminance_;
+  MapMeasure measure_;     ///< in which the density is that of the interpolation
+  Grid<float> luminance_;  ///< under C times sin(theta) at the row's centre
   std::vector<Row> rows_;
 };
 

@@ -34,14 +34,14 @@ float to_shader_random(double u) { return static_cast<float>(std::floor(u * 0x1p
 
 LinearScanPublished::LinearScanPublished(const EnvironmentMap& map, TargetDensity target)
     : map_(&map),
-      density_space_(target.density_space),
+      position_measure_(position_measure(target.density_space)),
       solid_angle_rows_(map.radiance.extent()),
       weights_(target.weights.red, target.weights.green, target.weights.blue) {
   const Extent extent = map.radiance.extent();
   const auto columns = static_cast<float>(extent.width);
   float total = 0.0F;
   for (int y = 0; y < extent.height; ++y) {
-    row_factor_.push_back(density_space_ == DensitySpace::texture
+    row_factor_.push_back(texel_measure(target.density_space) == MapMeasure::square
                               ? 1.0F
                               : static_cast<float>(texel_solid_angle(extent, y)));
     float sum = 0.0F;
@@ -80,8 +80,8 @@ TexelSample LinearScanPublished::sample(SquarePoint u) const {
   const bool on_map = column.index < extent.width && row.index < extent.height && at.s >= 0.0 &&
                       at.s < 1.0 && at.t >= 0.0 && at.t < 1.0;
   if (!on_map) return {at, column.index, row.index, PerSquare{0.0}};
-  if (density_space_ == DensitySpace::solid_angle) {
-    at.t = solid_angle_rows_.position(row.index, static_cast<double>(row.fraction));
+  if (position_measure_ == MapMeasure::solid_angle) {
+    at.t = solid_angle_rows_.place(row.index, static_cast<double>(row.fraction)).t;
   }
   return {at, column.index, row.index, pdf_in(column.index, row.index, at)};
 }
@@ -92,7 +92,7 @@ PerSquare LinearScanPublished::pdf(SquarePoint at) const {
 }
 
 PerSquare LinearScanPublished::pdf_in(int x, int y, SquarePoint at) const {
-  if (density_space_ == DensitySpace::texture) {
+  if (position_measure_ == MapMeasure::square) {
     return {static_cast<double>(weight(x, y) / total_average_)};
   }
   const double mass = static_cast<double>(weight(x, y) / total_average_) /

@@ -28,10 +28,10 @@ class LinearScanPublished {
   PerSquare pdf_in(int x, int y, SquarePoint at) const;
 
   const EnvironmentMap* map_;
-  DensitySpace density_space_;
+  MapMeasure position_measure_;
   SolidAngleRows solid_angle_rows_;
   glm::vec3 weights_;
-  std::vector<float> row_factor_;   ///< 1 under A; the texel's solid angle under B
+  std::vector<float> row_factor_;   ///< 1 under A; the texel's solid angle under B and C
   std::vector<float> row_average_;  ///< mean of the weights of each row
   float total_average_ = 0.0F;
 };

@@ -161,22 +161,25 @@ class PositionKernel {
     return cell_at(texel, number(view_.extent.width), number(view_.texel_width));
   }
 
-  /// Writes a vector of samples: the texels, the shares of their width and height (under B: of
-  /// their solid angle), and their probabilities.
+  /// Writes a vector of samples: the texels, the shares of their width and of their
+  /// height or solid angle, and their probabilities.
   HWY_INLINE void store_samples(Cell cell, Number across, Number along, Number mass,
                                 TexelSample* to) const {
     const Number s = hn::Mul(hn::Add(cell.x, inside(across)), number(view_.texel_width));
     Number t;
     Number pdf;
-    if (view_.density_space == DensitySpace::texture) {
+    if (view_.measure == MapMeasure::square) {
       t = hn::Mul(hn::Add(cell.y, inside(along)), number(view_.texel_height));
       pdf = hn::Mul(mass, number(view_.texels));
     } else {
-      const HalfAngle half = half_angle(cell.y, along);
-      t = position_by_solid_angle(cell.y, half);
-      const Number near = hn::Min(t, hn::Sub(number(1.0), t));
-      const Number sine = hn::Sin(Numbers(), hn::Mul(number(kPi), near));
-      pdf = hn::Mul(density_by_solid_angle(half, mass), hn::Mul(number(2.0 * kPi * kPi), sine));
+      const Place place = place_by_solid_angle(cell.y, along);
+      t = position_by_solid_angle(cell.y, place);
+      Number sine = place.sine;
+      if (!SolidAngleRows::has_many_rows(view_.extent.height)) {
+        const Number near = hn::Min(t, hn::Sub(number(1.0), t));
+        sine = hn::Sin(Numbers(), hn::Mul(number(kPi), near));
+      }
+      pdf = hn::Mul(density_by_solid_angle(place, mass), hn::Mul(number(2.0 * kPi * kPi), sine));
     }
     static_assert(sizeof(TexelSample) == 32 && offsetof(TexelSample, x) == 16 &&
                   offsetof(TexelSample, y) == 20 && offsetof(TexelSample, pdf) == 24);
@@ -192,7 +195,7 @@ class PositionKernel {
                                 const DirectionPointers& to) const {
     const Number s = hn::Mul(hn::Add(cell.x, inside(across)), number(view_.texel_width));
     const auto azimuth = sin_cos_of_turns(Numbers(), s);
-    const Height height = view_.density_space == DensitySpace::texture
+    const Height height = view_.measure == MapMeasure::square
                               ? height_by_position(cell.y, along, mass)
                               : height_by_solid_angle(cell.y, along, mass);
     store_anywhere(hn::Neg(hn::Mul(height.sine, azimuth.cos)), to.x);
@@ -219,7 +222,7 @@ class PositionKernel {
     Number pdf;  ///< per steradian
   };
 
-  /// Under A.
+  /// Uniform in t.
   HWY_INLINE Height height_by_position(Number y, Number along, Number mass) const {
     const Number t = hn::Mul(hn::Add(y, inside(along)), number(view_.texel_height));
     const auto from_nadir = sin_cos_of_turns(Numbers(), hn::Mul(t, number(0.5)));
@@ -227,46 +230,75 @@ class PositionKernel {
     return {from_nadir.sin, hn::Neg(from_nadir.cos), hn::Div(density, from_nadir.sin)};
   }
 
-  /// Under B: of half the angle from the nearer pole the sine is known.
+  /// Uniform in solid angle.
   HWY_INLINE Height height_by_solid_angle(Number y, Number along, Number mass) const {
-    const HalfAngle half = half_angle(y, along);
-    const Number rest = hn::Sub(number(1.0), half.squared_sine);
-    const Number sine = hn::Mul(number(2.0), hn::Sqrt(hn::Mul(half.squared_sine, rest)));
-    const Number from_pole = hn::Sub(rest, half.squared_sine);
-    return {sine, hn::IfThenElse(half.upper, from_pole, hn::Neg(from_pole)),
-            density_by_solid_angle(half, mass)};
+    const Place place = place_by_solid_angle(y, along);
+    return {place.sine, hn::IfThenElse(place.upper, place.cosine, hn::Neg(place.cosine)),
+            density_by_solid_angle(place, mass)};
   }
 
-  /// SolidAngleRows, at a share of a row.
-  struct HalfAngle {
+  /// SolidAngleRows, at a share of a row. Angles are those from the nearer pole.
+  struct Place {
     Mask upper;           ///< whether the nearer pole is the zenith
     Number row;           ///< counted from it
-    Number span;          ///< the row's span (SolidAngleRows)
-    Number squared_sine;  ///< squared sine of half the angle from the pole
+    Int line;             ///< index of the row's line, in doubles
+    Number squared_sine;  ///< squared sine of half the angle
+    Number sine;
+    Number cosine;
   };
-  HWY_INLINE HalfAngle half_angle(Number y, Number fraction) const {
+  /// One number of the lines of rows.
+  HWY_INLINE Number of_line(Int line, double SolidAngleRows::Line::*number_of) const {
+    return gather_numbers(&(view_.lines->*number_of), line);
+  }
+  HWY_INLINE Place place_by_solid_angle(Number y, Number fraction) const {
     const Number height = number(view_.extent.height);
     const Mask upper = hn::Ge(hn::Add(y, y), height);
     const Number row = hn::IfThenElse(upper, hn::Sub(hn::Sub(height, number(1.0)), y), y);
-    const Number f = inside(hn::IfThenElse(upper, hn::Sub(number(1.0), fraction), fraction));
-    const Int index = to_whole(row);
-    const Number low = gather_numbers(view_.squared_sines, index);
-    const Number span = gather_numbers(view_.spans, index);
-    return {upper, row, span, hn::Add(low, hn::Mul(f, span))};
+    const Number from_edge = hn::IfThenElse(upper, hn::Sub(number(1.0), fraction), fraction);
+    const Number f = hn::Clamp(from_edge, number(SolidAngleRows::kMargin),
+                               number(1.0 - SolidAngleRows::kMargin));
+    static_assert(sizeof(SolidAngleRows::Line) == 4 * sizeof(double));
+    const Int line = hn::ShiftLeft<2>(to_whole(row));
+    const Number squared = hn::Add(of_line(line, &SolidAngleRows::Line::squared_sine),
+                                   hn::Mul(f, of_line(line, &SolidAngleRows::Line::span)));
+    const Number rest = hn::Sub(number(1.0), squared);
+    const Number sine = hn::Mul(number(2.0), hn::Sqrt(hn::Mul(squared, rest)));
+    return {upper, row, line, squared, sine, hn::Sub(rest, squared)};
   }
 
   /// Per steradian.
-  HWY_INLINE Number density_by_solid_angle(const HalfAngle& half, Number mass) const {
-    return hn::Div(mass, hn::Mul(number(view_.solid_angle), half.span));
+  HWY_INLINE Number density_by_solid_angle(const Place& place, Number mass) const {
+    return hn::Div(
+        mass, hn::Mul(number(view_.solid_angle), of_line(place.line, &SolidAngleRows::Line::span)));
   }
 
-  HWY_INLINE Number position_by_solid_angle(Number y, const HalfAngle& half) const {
-    const Number sine = hn::Sqrt(half.squared_sine);
-    const Number angle = hn::Asin(Numbers(), hn::Min(sine, number(1.0)));
-    const Number height = number(view_.extent.height);
-    const Number within = hn::Sub(hn::Mul(hn::Mul(number(2.0 / kPi), angle), height), half.row);
-    const Number share = inside(hn::IfThenElse(half.upper, hn::Sub(number(1.0), within), within));
+  HWY_INLINE Number position_by_solid_angle(Number y, const Place& place) const {
+    const int height = view_.extent.height;
+    Number within;
+    if (SolidAngleRows::needs_few_terms(height)) {
+      within = since_edge<SolidAngleRows::kFewTerms>(place);
+    } else if (SolidAngleRows::has_many_rows(height)) {
+      within = since_edge<SolidAngleRows::kArcSine.size()>(place);
+    } else {
+      const Number sine = hn::Min(hn::Sqrt(place.squared_sine), number(1.0));
+      const Number angle = hn::Asin(Numbers(), sine);
+      within = hn::Sub(hn::Mul(hn::Mul(number(2.0 / kPi), angle), number(height)), place.row);
+    }
+    const Number share = inside(hn::IfThenElse(place.upper, hn::Sub(number(1.0), within), within));
     return hn::Mul(hn::Add(y, share), number(view_.texel_height));
+  }
+
+  template <std::size_t kTerms>
+  HWY_INLINE Number since_edge(const Place& place) const {
+    const Number x =
+        hn::Sub(hn::Mul(place.sine, of_line(place.line, &SolidAngleRows::Line::cosine)),
+                hn::Mul(place.cosine, of_line(place.line, &SolidAngleRows::Line::sine)));
+    const Number square = hn::Mul(x, x);
+    Number sum = number(SolidAngleRows::kArcSine[kTerms - 1]);
+    for (std::size_t k = kTerms - 1; k-- > 0;) {
+      sum = hn::Add(hn::Mul(sum, square), number(SolidAngleRows::kArcSine[k]));
+    }
+    return hn::Mul(hn::Mul(x, sum), number(view_.rows_per_radian));
   }
 
   TexelPositionsView view_;

@@ -5,22 +5,24 @@ namespace lightproof {
 SolidAngleRows::SolidAngleRows(Extent extent)
     : height_(extent.height),
       row_height_(1.0 / extent.height),
+      rows_per_radian_(extent.height / kPi),
       solid_angle_(4.0 * kPi / extent.width) {
   // sin^2 b - sin^2 a = sin(b + a) sin(b - a): written so, nothing cancels.
   const double half_row = 0.5 * kPi * row_height_;
   for (int row = 0; 2 * row < extent.height; ++row) {
     const double sine = std::sin(half_row * row);
-    squared_sines_.push_back(sine * sine);
-    spans_.push_back(std::sin(half_row * (2 * row + 1)) * std::sin(half_row));
+    const double span = std::sin(half_row * (2 * row + 1)) * std::sin(half_row);
+    const double begin = 2.0 * half_row * row;
+    lines_.push_back({sine * sine, span, std::sin(begin), std::cos(begin)});
   }
 }
 
-TexelPositions::TexelPositions(Extent extent, DensitySpace density_space)
+TexelPositions::TexelPositions(Extent extent, MapMeasure measure)
     : extent_(extent),
-      density_space_(density_space),
+      measure_(measure),
       texel_width_(1.0 / extent.width),
       texel_height_(1.0 / extent.height),
       texels_(static_cast<double>(extent.count())),
-      solid_angle_rows_(density_space == DensitySpace::solid_angle ? extent : Extent{1, 0}) {}
+      solid_angle_rows_(measure == MapMeasure::solid_angle ? extent : Extent{1, 0}) {}
 
 }  // namespace lightproof

@@ -23,7 +23,7 @@ struct Texel {
 /// Weights of texels of one row, from the first on.
 void weigh_part(const EnvironmentMap& map, TargetDensity target, Texel first,
                 std::span<double> weights) {
-  const double area = target.density_space == DensitySpace::solid_angle
+  const double area = texel_measure(target.density_space) == MapMeasure::solid_angle
                           ? texel_solid_angle(map.radiance.extent(), first.y)
                           : 1.0;
   const auto offset =

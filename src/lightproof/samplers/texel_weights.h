@@ -10,12 +10,12 @@
 
 namespace lightproof {
 
-/// The weights of all texels, a grid of the map's extent: their luminance, under B times their
-/// solid angle. Throws InputError if the map is black.
+/// The weights of all texels, a grid of the map's extent: their luminance, under B and C times
+/// their solid angle. Throws InputError if the map is black.
 Grid<double> texel_weights(const EnvironmentMap& map, TargetDensity target);
 
 /// Writes the weights of the texels of row y, as many as the map has columns: their luminance,
-/// under B times their solid angle.
+/// under B and C times their solid angle.
 void weigh_row(const EnvironmentMap& map, TargetDensity target, int y, std::span<double> weights);
 
 /// Weights of cells, >= 0, to be had a block at a time and as often as wanted: stored ones, or

@@ -128,10 +128,26 @@ void change_measure_in_pole_rows(TexelSample& sample, const DiscreteSampler& dis
   // A row of the poles counted from the pole: its solid angle grows with the square of the angle
   // there.
   const double from_pole = lower ? within : 1.0 - within;
-  const double moved = distribution.density_space() == DensitySpace::texture
+  const double moved = distribution.position_measure() == MapMeasure::square
                            ? std::sqrt(from_pole)
                            : from_pole * from_pole;
   sample.at.t = position_in_cell(sample.y, lower ? moved : 1.0 - moved, height);
+  sample.pdf = distribution.pdf(sample.at);
+}
+
+void change_measure(TexelSample& sample, const DiscreteSampler& distribution) {
+  const int height = distribution.extent().height;
+  const double low = cos_theta(static_cast<double>(sample.y) / height);
+  const double high = cos_theta((sample.y + 1.0) / height);
+  double within = sample.at.t * height - sample.y;
+  // The share of the row by its own measure is taken for that by the other one.
+  if (distribution.position_measure() == MapMeasure::square) {
+    const double cosine = low + within * (high - low);
+    within = std::acos(std::clamp(-cosine, -1.0, 1.0)) / kPi * height - sample.y;
+  } else {
+    within = (cos_theta(sample.at.t) - low) / (high - low);
+  }
+  sample.at.t = position_in_cell(sample.y, within, height);
   sample.pdf = distribution.pdf(sample.at);
 }
 

@@ -49,6 +49,8 @@ void lose_pdf_in_pole_rows(TexelSample& sample, const DiscreteSampler& distribut
 void square_position_in_texel(TexelSample& sample, const DiscreteSampler& distribution);
 /// Makes the position in the rows of the poles uniform in cos(theta) where t is declared, or in t.
 void change_measure_in_pole_rows(TexelSample& sample, const DiscreteSampler& distribution);
+/// As above, exactly and in all rows.
+void change_measure(TexelSample& sample, const DiscreteSampler& distribution);
 /// Moves the sample to the centre of its texel.
 void move_to_centre(TexelSample& sample, const DiscreteSampler& distribution);
 /// Gives the sample the density of the next column, if that has any.

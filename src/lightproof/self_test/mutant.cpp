@@ -15,8 +15,10 @@ BoundSampler bind(const Mutant& mutant, TargetDensity target, const EnvironmentM
   Grid<double> masses = reference::texel_masses(map, target);
   if (!mutant.distribution.empty())
     masses = alternative_distribution(mutant.distribution).masses({&masses, &map, target});
-  const auto correct =
-      std::make_shared<const DiscreteSampler>(std::move(masses), target.density_space);
+  const bool is_square =
+      (position_measure(target.density_space) == MapMeasure::square) != mutant.other_measure;
+  const auto correct = std::make_shared<const DiscreteSampler>(
+      std::move(masses), is_square ? MapMeasure::square : MapMeasure::solid_angle);
   const double factor = mutant.pdf_factor ? mutant.pdf_factor(*correct) : 1.0;
   return {[correct, &mutant, factor](std::span<const SquarePoint> points,
                                      std::span<TexelSample> samples) {

@@ -21,6 +21,9 @@ struct Mutant {
   std::string_view needs = {};
   /// An alternative distribution that is drawn, its density returned; empty: the declared one.
   std::string_view distribution = {};
+  /// Whether positions inside texels are drawn uniformly in the other measure than the declared
+  /// one, solid angle or (s,t).
+  bool other_measure = false;
   /// The random numbers that are used in place of the i-th of a batch.
   SquarePoint (*numbers)(std::span<const SquarePoint> batch, std::size_t i) = nullptr;
   /// What is called in place of DiscreteSampler::sample.
@@ -37,7 +40,7 @@ struct Mutant {
 /// All mutants of samplers of maps, in the order in which they are shown.
 std::span<const Mutant> mutants();
 
-/// A mutant as a sampler under test, under a density (A or B); it declares Rec. 709 luminance.
+/// A mutant as a sampler under test, under a density; it declares Rec. 709 luminance.
 SamplerUnderTest sampler_under_test(const Mutant& mutant, DensitySpace density_space);
 
 }  // namespace lightproof

@@ -200,6 +200,17 @@ constexpr std::array kMutants = {
            .diagnosis = "uneven-in-texel",
            .oracle = Oracle::reference,
            .sample = defects::change_measure_in_pole_rows},
+    Mutant{.name = "other-measure-in-texel",
+           .defect = "B drawn where C is declared, C where B is: uniform inside the texel in solid "
+                     "angle for (s,t), or the reverse",
+           .diagnosis = "other-measure-in-texel",
+           .oracle = Oracle::reference,
+           .other_measure = true},
+    Mutant{.name = "other-measure-undeclared",
+           .defect = "uniform inside the texel in the other measure, the declared density returned",
+           .diagnosis = "other-measure-in-texel",
+           .oracle = Oracle::reference,
+           .sample = defects::change_measure},
     // Of our own.
     Mutant{.name = "columns-of-next-row",
            .defect = "columns drawn from the next row's sums",

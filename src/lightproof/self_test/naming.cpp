@@ -11,8 +11,8 @@ namespace {
 std::vector<SamplerUnderTest> all_mutants() {
   std::vector<SamplerUnderTest> samplers_under_test;
   for (const Mutant& mutant : mutants()) {
-    for (const DensitySpace density_space : {DensitySpace::texture, DensitySpace::solid_angle}) {
-      samplers_under_test.push_back(sampler_under_test(mutant, density_space));
+    for (const DensityInfo& density : kDensities) {
+      samplers_under_test.push_back(sampler_under_test(mutant, density.density_space));
     }
   }
   return samplers_under_test;
@@ -59,7 +59,7 @@ std::vector<NamingRecord> measure_naming_on(const EnvironmentMap& map, const Nam
                                             const Progress& progress,
                                             const Communicator& communicator) {
   std::vector<NamingRecord> records = no_runs();
-  for (NamingRecord& record : records) record.runs = 2 * options.seeds;
+  for (NamingRecord& record : records) record.runs = kDensities.size() * options.seeds;
   const std::vector<SamplerUnderTest> samplers_under_test = all_mutants();
   const std::vector<TestCase> test_cases = test_cases_for_all_seeds(map, samplers_under_test);
   const auto seeds = static_cast<double>(options.seeds);

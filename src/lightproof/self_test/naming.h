@@ -24,7 +24,7 @@ struct NamingOptions {
   }
 };
 
-/// What every mutant of maps is called under both densities on every map, with every seed. Those
+/// What every mutant of maps is called under all densities on every map, with every seed. Those
 /// that the gate accepts are in no count: the samples were too few, or the map lacks what the
 /// defect needs.
 /// The number of processes, which share the runs and all get the whole result, changes no bit.

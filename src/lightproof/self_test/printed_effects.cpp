@@ -167,7 +167,7 @@ Trial trial_of_positions(double effect, const std::function<bool(int y, int heig
           if (!is_chosen(points[i], share)) continue;
           const double across = digits_of(points[i]) / share;
           const double down = 0.5 * fraction_of(points[i].s * 0x1p24);
-          sample.at = positions->sample(sample.x, sample.y, across, down, 1.0).at;
+          sample.at = positions->sample({sample.x, sample.y, across, down, 1.0}).at;
         }
       }});
 }

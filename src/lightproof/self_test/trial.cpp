@@ -14,7 +14,7 @@ Trial::Trial(const EnvironmentMap& map, Grid<double> masses)
   inspection.own = integrate_pdf(*sampler, drawn.extent());
   inspection.density = compare_density(*sampler, *expectation, {});
   test_case = {map.name,
-               to_string(kTrialTarget.density_space),
+               std::string(to_string(kTrialTarget.density_space)),
                "",
                [shared = expectation] { return shared; },
                [] { return std::vector<Alternative>(); },
