@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,15 +27,17 @@ std::string bytes_of(const std::vector<Number>& numbers) {
 /// The header that numpy.save writes: the dictionary is filled up to a multiple of 64 bytes.
 inline std::string npy_header(std::string_view type, std::string_view shape,
                               std::string_view fortran_order = "False") {
-  std::string dictionary = "{'descr': '" + std::string(type) +
-                           "', 'fortran_order': " + std::string(fortran_order) +
-                           ", 'shape': " + std::string(shape) + ", }";
-  while ((10 + dictionary.size() + 1) % 64 != 0) dictionary += ' ';
-  dictionary += '\n';
-  std::string header("\x93NUMPY\x01\x00", 8);
-  header += static_cast<char>(dictionary.size() & 0xffU);
-  header += static_cast<char>(dictionary.size() >> 8U);
-  return header + dictionary;
+  std::ostringstream dictionary;
+  dictionary << "{'descr': '" << type << "', 'fortran_order': " << fortran_order
+             << ", 'shape': " << shape << ", }";
+  constexpr std::size_t kBefore = 10;
+  const std::size_t length = dictionary.str().size() + 1;
+  const std::size_t filled = (kBefore + length + 63) / 64 * 64 - kBefore;
+  dictionary << std::string(filled - length, ' ') << '\n';
+  std::ostringstream header;
+  header << "\x93NUMPY\x01" << '\0' << static_cast<char>(filled & 0xffU)
+         << static_cast<char>(filled >> 8U) << dictionary.str();
+  return header.str();
 }
 
 }  // namespace lightproof::test

@@ -139,6 +139,7 @@ DensityComparison compare_dumped_density(const SampleDump& dump, const Expectati
                                          double tolerance) {
   const Placement place(expectation, dump.rounding());
   DensityComparison found;
+  found.compared = "samples";
   double worst = 0.0;
   std::vector<DumpedSample> block(kBlock);
   const std::uint64_t blocks = (dump.count() + kBlock - 1) / kBlock;

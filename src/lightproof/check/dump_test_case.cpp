@@ -22,11 +22,8 @@ TestCase dump_test_case(std::shared_ptr<const SampleDump> dump, const Environmen
   instance.bind = [dump, expectation] { return bound_dump(dump, expectation); };
   instance.inspect = [dump, tolerance = claim.pdf_tolerance](const BoundSampler& sampler,
                                                              const Expectation& exact,
-                                                             const MassRounding& /*rounding*/) {
-    Inspection inspection;
-    inspection.has_pdf = false;
-    inspection.takes_points = false;
-    inspection.has_weights = sampler.has_weights;
+                                                             const MassRounding& rounding) {
+    Inspection inspection = inspect(sampler, exact, rounding);
     inspection.compares_samples = sampler.has_weights;
     if (inspection.compares_samples) {
       inspection.density = compare_dumped_density(*dump, exact, tolerance);

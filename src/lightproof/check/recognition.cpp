@@ -96,6 +96,7 @@ std::string words_of(const AxisMap& axes) {
 
 struct Candidate {
   Recognition recognition;
+  std::size_t changes;  ///< how many things are said otherwise
   double log_likelihood;
 };
 
@@ -107,6 +108,7 @@ void add_axes(std::vector<Candidate>& found, const Target& declared,
   for (std::size_t i = 1; i < all.size(); ++i) {
     const std::string text = all[i].text();
     found.push_back({{"axes " + text, words_of(all[i]), "--axes=" + text, fits[i].log10_p},
+                     1,
                      fits[i].log_likelihood});
   }
 }
@@ -141,6 +143,7 @@ void add_densities(std::vector<Candidate>& found, const EnvironmentMap& map, Tar
       found.push_back({{fmt::format("{}", fmt::join(options, " ")),
                         fmt::format("if they are drawn by {}", fmt::join(parts, " and ")),
                         fmt::format("{}", fmt::join(options, " ")), fit.log10_p},
+                       options.size(),
                        fit.log_likelihood});
     }
   }
@@ -161,7 +164,7 @@ std::vector<Recognition> recognise(const SampleDump& dump, const EnvironmentMap&
     return candidate.recognition.log10_p < kFittingLog10P;
   });
   std::ranges::stable_sort(found, [](const Candidate& a, const Candidate& b) {
-    return a.log_likelihood > b.log_likelihood;
+    return a.changes != b.changes ? a.changes < b.changes : a.log_likelihood > b.log_likelihood;
   });
   std::vector<Recognition> named;
   for (Candidate& candidate : found) {
