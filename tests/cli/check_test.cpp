@@ -85,8 +85,8 @@ TEST_F(CheckCommand, RejectsAWrongDensityAndSaysHowToCheckAgain) {
   const Finished finished =
       check(dump, {"--columns", "x,y,z,pdf", "--density", "B", "--junit", path("a.xml")});
   EXPECT_EQ(finished.exit_code, 1);
-  EXPECT_THAT(finished.out, AllOf(HasSubstr("pdf is the declared density"),
-                                  HasSubstr("check " + dump)));
+  EXPECT_THAT(finished.out,
+              AllOf(HasSubstr("pdf is the declared density"), HasSubstr("check " + dump)));
 }
 
 TEST_F(CheckCommand, IsInconclusiveWithFewSamples) {
@@ -104,8 +104,9 @@ TEST_F(CheckCommand, ReadsTheStandardInputAndText) {
   }
   text.close();
   EXPECT_EQ(check(path("a.csv"), {"--density", "B"}).exit_code, 0);
-  const Command command = {"sh", {"-c", "\"$0\" check - --format csv --density B --map constant "
-                                        "--size 16x8 < " + path("a.csv"), program()}};
+  const std::string script =
+      "\"$0\" check - --format csv --density B --map constant --size 16x8 < " + path("a.csv");
+  const Command command = {{"/bin/sh", "-c", script, program()}};
   EXPECT_EQ(run(command).exit_code, 0);
 }
 
