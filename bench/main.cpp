@@ -1,5 +1,4 @@
 #include <benchmark/benchmark.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -11,14 +10,20 @@
 #include "bench/reporter.h"
 #include "lightproof/core/failure.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace {
 
 /// Tables get their memory from the system, as in a program that builds a table once. Left to
 /// itself the heap keeps blocks of up to 32 MB as soon as one of that size has been freed, and what
 /// ran before decides what a build takes (Vose's of 2048x1024 texels: 13 or 27 ms).
 void keep_no_freed_memory() {
+#ifdef __GLIBC__
   constexpr int kFromTheSystem = 128 << 10;  // bytes: glibc's own threshold, but fixed
   mallopt(M_MMAP_THRESHOLD, kFromTheSystem);
+#endif
 }
 
 /// Google Benchmark takes a reporter for a file only where the command line names one.

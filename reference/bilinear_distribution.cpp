@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kWidestPiece = 1.0 / 64.0;
 
-/// Over 1/64 of the square exact to 1e-14 for the product of a linear function and sin(pi t).
+/// Over 1/64 of the square the rule is exact to 1e-14 for the product of a linear function and
+/// sin(pi t).
 const GaussRule<3> kRule;
 
 /// ∫ of a function without edges.

@@ -32,7 +32,8 @@ void add_closed_form(Grid<double>& masses, const CosineLobe& lobe) {
   }
 }
 
-/// Scaled to the lobe's share, so that the rule's own error does not show in the total.
+/// The masses are scaled to the lobe's share, so that the rule's own error does not show in the
+/// total.
 void add_quadrature(Grid<double>& masses, const CosineLobe& lobe) {
   const SphereQuadrature quadrature(masses.extent());
   Grid<double> own(masses.extent());

@@ -64,8 +64,8 @@ double clamped_cosine_of_texel(Extent map, int x, int y, Direction normal) {
   thread_local boost::math::quadrature::tanh_sinh<double> rule;  // it keeps tables
   double sum = 0.0;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    // From 0 on: further out Boost 1.74 may ask for the lower end itself, and then stops in debug
-    // builds.
+    // The rule runs from 0 on: further out Boost 1.74 may ask for the lower end itself, and then
+    // stops in debug builds.
     const auto from_edge = [&](double azimuth) { return meridian(edges[i] + azimuth); };
     sum += rule.integrate(from_edge, 0.0, edges[i + 1] - edges[i], 1e-12);
   }

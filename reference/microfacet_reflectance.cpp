@@ -95,7 +95,7 @@ double integral_between_roots(const Integrand& at, double low, double high) {
 template <class Factor>
 double integral(const RoughMirror& mirror, double mu, const Factor& factor) {
   const double angle = std::atan2(std::sqrt((1.0 - mu) * (1.0 + mu)), mu);
-  // Up to the first all azimuths reflect above the surface, from the second on none.
+  // Up to the first angle all azimuths reflect above the surface, from the second on none does.
   const double all = beta_of(mirror.normals, 0.5 * (0.5 * kPi - angle));
   const double none = beta_of(mirror.normals, 0.5 * (0.5 * kPi + angle));
   const auto at = [&](double beta) {

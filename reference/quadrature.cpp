@@ -27,10 +27,15 @@ SphereQuadrature::SphereQuadrature(Extent extent)
     : extent_(extent),
       radius_(0.5 * std::hypot(2.0 * kPi / extent.width, kPi / extent.height)),
       coarse_(make_level(cells_per_texel(extent, kLeastCells))),
-      fine_(make_level(cells_per_texel(extent, kLeastEdgeCells))) {}
-
-Direction SphereQuadrature::centre(int x, int y) const {
-  return direction_from_square({(x + 0.5) / extent_.width, (y + 0.5) / extent_.height});
+      fine_(make_level(cells_per_texel(extent, kLeastEdgeCells))) {
+  for (int x = 0; x < extent.width; ++x) {
+    const Direction at_equator = direction_from_square({(x + 0.5) / extent.width, 0.5});
+    centre_columns_.push_back({at_equator.x, at_equator.y});
+  }
+  for (int y = 0; y < extent.height; ++y) {
+    const double t = (y + 0.5) / extent.height;
+    centre_rows_.push_back({sin_theta(t), direction_from_square({0.5, t}).z});
+  }
 }
 
 SphereQuadrature::Level SphereQuadrature::make_level(Extent cells) const {

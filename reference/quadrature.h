@@ -35,7 +35,11 @@ class SphereQuadrature {
 
   Extent extent() const { return extent_; }
   /// Direction of the centre of texel (x, y).
-  Direction centre(int x, int y) const;
+  Direction centre(int x, int y) const {
+    const auto [cos_phi, sin_phi] = centre_columns_[static_cast<std::size_t>(x)];
+    const auto [sine, cosine] = centre_rows_[static_cast<std::size_t>(y)];
+    return {sine * cos_phi, sine * sin_phi, cosine};
+  }
   /// Largest angle between the centre of a texel and a point of it, in radians.
   double radius() const { return radius_; }
 
@@ -81,6 +85,8 @@ class SphereQuadrature {
   double radius_;
   Level coarse_;
   Level fine_;
+  std::vector<std::array<double, 2>> centre_columns_;  ///< cosine and sine of phi
+  std::vector<std::array<double, 2>> centre_rows_;     ///< sine and cosine of theta
 };
 
 }  // namespace lightproof::reference

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "lightproof/core/measure.h"
@@ -23,50 +23,171 @@ constexpr std::array<GaussNode, 2> kTwoNodes = {
 constexpr std::array<GaussNode, 3> kThreeNodes = {
     {{0.11270166537925831, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.88729833462074169, 5.0 / 18.0}}};
 
-struct Cell {
-  double s;  ///< of its centre
-  double t;
-  double width;
-  double height;
-};
-
 double angle_between(Direction a, Direction b) {
   return 2.0 * std::asin(std::min(1.0, 0.5 * glm::length(a - b)));
 }
 
-double by_nodes(const PeakedDensity& density, const Cell& cell, std::span<const GaussNode> nodes) {
-  double sum = 0.0;
-  for (const GaussNode& along : nodes) {
-    const double t = cell.t + (along.place - 0.5) * cell.height;
-    double line = 0.0;
-    for (const GaussNode& across : nodes) {
-      const double s = cell.s + (across.place - 0.5) * cell.width;
-      line += across.weight * density.value(direction_from_square({s, t}));
-    }
-    sum += along.weight * solid_angle_per_square(t) * line;
-  }
-  return sum * cell.width * cell.height;
+/// What the sum over nodes needs to know of one side of a cell. All cells of a row, or of a column,
+/// share it.
+template <std::size_t kNodes>
+struct NodesAlong {
+  struct Node {
+    double sine;         ///< of the polar angle
+    double height;       ///< the cosine of the polar angle
+    double solid_angle;  ///< per area of the square, times the node's weight
+  };
+  std::array<Node, kNodes> nodes;
+};
+
+template <std::size_t kNodes>
+struct NodesAcross {
+  struct Node {
+    double cosine;  ///< of the longitude
+    double sine;
+    double weight;
+  };
+  std::array<Node, kNodes> nodes;
+};
+
+struct Latitude {
+  double sine;
+  double height;
+};
+
+/// The parts of direction_from_square() that hold for all points of one height, or of one place
+/// along it.
+Latitude latitude(double t) {
+  const Direction at = direction_from_square({0.5, t});
+  return {at.x, at.z};
 }
 
-double integral(const PeakedDensity& density, const Cell& cell) {
+Direction direction_at(Latitude latitude, double cosine, double sine) {
+  return {latitude.sine * cosine, latitude.sine * sine, latitude.height};
+}
+
+template <std::size_t kNodes>
+NodesAlong<kNodes> nodes_along(const std::array<GaussNode, kNodes>& rule, double t, double height) {
+  NodesAlong<kNodes> along;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const double at = t + (rule[i].place - 0.5) * height;
+    const auto [sine, cosine] = latitude(at);
+    along.nodes[i] = {sine, cosine, rule[i].weight * solid_angle_per_square(at)};
+  }
+  return along;
+}
+
+template <std::size_t kNodes>
+NodesAcross<kNodes> nodes_across(const std::array<GaussNode, kNodes>& rule, double s,
+                                 double width) {
+  NodesAcross<kNodes> across;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const double longitude = kPi - 2.0 * kPi * (s + (rule[i].place - 0.5) * width);
+    across.nodes[i] = {std::cos(longitude), std::sin(longitude), rule[i].weight};
+  }
+  return across;
+}
+
+/// A cell's extent in t.
+struct Band {
+  double t;  ///< of its middle
+  double height;
+  Latitude middle;
+  double widest;  ///< the largest sine of the polar angle at its edges and its middle
+
+  Band(double at, double extent)
+      : t(at),
+        height(extent),
+        middle(latitude(at)),
+        widest(
+            std::max({sin_theta(at - 0.5 * extent), sin_theta(at), sin_theta(at + 0.5 * extent)})) {
+  }
+};
+
+/// A cell's extent in s.
+struct Wedge {
+  double s;  ///< of its middle
+  double width;
+  double cosine;  ///< of the longitude in its middle
+  double sine;
+
+  Wedge(double at, double extent)
+      : s(at),
+        width(extent),
+        cosine(std::cos(kPi - 2.0 * kPi * at)),
+        sine(std::sin(kPi - 2.0 * kPi * at)) {}
+};
+
+template <std::size_t kNodes>
+NodesAlong<kNodes> nodes_of(const std::array<GaussNode, kNodes>& rule, const Band& band) {
+  return nodes_along(rule, band.t, band.height);
+}
+
+template <std::size_t kNodes>
+NodesAcross<kNodes> nodes_of(const std::array<GaussNode, kNodes>& rule, const Wedge& wedge) {
+  return nodes_across(rule, wedge.s, wedge.width);
+}
+
+/// A band or a wedge of whole texels, whose nodes are there for all of them.
+template <class Extended>
+struct WithNodes : Extended {
+  decltype(nodes_of(kTwoNodes, std::declval<Extended>())) two;
+  decltype(nodes_of(kThreeNodes, std::declval<Extended>())) three;
+
+  WithNodes(double at, double extent)
+      : Extended(at, extent),
+        two(nodes_of(kTwoNodes, static_cast<const Extended&>(*this))),
+        three(nodes_of(kThreeNodes, static_cast<const Extended&>(*this))) {}
+};
+
+template <class Extended>
+const auto& nodes_of(const std::array<GaussNode, 2>& /*rule*/, const WithNodes<Extended>& all) {
+  return all.two;
+}
+
+template <class Extended>
+const auto& nodes_of(const std::array<GaussNode, 3>& /*rule*/, const WithNodes<Extended>& all) {
+  return all.three;
+}
+
+template <std::size_t kNodes>
+double by_nodes(const PeakedDensity& density, const NodesAlong<kNodes>& along,
+                const NodesAcross<kNodes>& across) {
+  double sum = 0.0;
+  for (const auto& row : along.nodes) {
+    double line = 0.0;
+    for (const auto& column : across.nodes) {
+      line += column.weight *
+              density.value(direction_at({row.sine, row.height}, column.cosine, column.sine));
+    }
+    sum += row.solid_angle * line;
+  }
+  return sum;
+}
+
+template <class AnyBand, class AnyWedge>
+double integral(const PeakedDensity& density, const AnyBand& band, const AnyWedge& wedge) {
   const double least_on_horizon = density.jumps ? 1e-3 : 2e-2;
-  const Direction centre = direction_from_square({cell.s, cell.t});
-  const double widest = std::max({sin_theta(cell.t - 0.5 * cell.height), sin_theta(cell.t),
-                                  sin_theta(cell.t + 0.5 * cell.height)});
-  const double size = std::hypot(kPi * cell.height, 2.0 * kPi * cell.width * widest);
-  const double distance = std::max(0.0, angle_between(centre, density.peak) - 0.5 * size);
+  const Direction centre = direction_at(band.middle, wedge.cosine, wedge.sine);
+  const double size = std::hypot(kPi * band.height, 2.0 * kPi * wedge.width * band.widest);
   const double above = glm::dot(centre, density.normal);
   if (above < -0.5 * size) return 0.0;
+  const double distance = std::max(0.0, angle_between(centre, density.peak) - 0.5 * size);
   const bool on_horizon = above < 0.5 * size && size > least_on_horizon;
   const double smooth = std::hypot(distance, density.width);
-  if (!on_horizon && size < 0.05 * smooth) return by_nodes(density, cell, kTwoNodes);
-  if (!on_horizon && size < 0.33 * smooth) return by_nodes(density, cell, kThreeNodes);
+  const auto by = [&](const auto& rule) {
+    return wedge.width * band.height *
+           by_nodes(density, nodes_of(rule, band), nodes_of(rule, wedge));
+  };
+  if (!on_horizon && size < 0.05 * smooth) return by(kTwoNodes);
+  if (!on_horizon && size < 0.33 * smooth) return by(kThreeNodes);
+  const double width = 0.5 * wedge.width;
+  const double height = 0.5 * band.height;
+  const std::array<Wedge, 2> across = {Wedge(wedge.s - 0.5 * width, width),
+                                       Wedge(wedge.s + 0.5 * width, width)};
   double sum = 0.0;
-  for (const double along : {-0.25, 0.25}) {
-    for (const double across : {-0.25, 0.25}) {
-      sum += integral(density, {cell.s + across * cell.width, cell.t + along * cell.height,
-                                0.5 * cell.width, 0.5 * cell.height});
-    }
+  for (const double along : {-0.5, 0.5}) {
+    const Band half(band.t + along * height, height);
+    for (const Wedge& part : across) sum += integral(density, half, part);
   }
   return sum;
 }
@@ -75,6 +196,9 @@ PeakedDensity around(const Lobe& lobe, Direction axis) {
   return {[&lobe, axis](Direction light) { return lobe.value(light, axis); }, axis, lobe.width,
           axis, lobe.jumps};
 }
+
+/// The cosine between two directions' half-vector and either of them, from the cosine between them.
+double half_cosine(double cosine) { return std::sqrt(0.5 * (1.0 + cosine)); }
 
 /// D of Trowbridge and Reitz.
 double ggx_distribution(double alpha, double cosine) {
@@ -130,6 +254,16 @@ class TurnedMap {
   std::array<Grid<double>, 3> planes_;
 };
 
+glm::dvec3 weighted_sum(const Grid<Rgb>& map, const Grid<double>& weights) {
+  glm::dvec3 sum(0.0);
+  for (int y = 0; y < map.extent().height; ++y) {
+    glm::dvec3 row(0.0);
+    for (int x = 0; x < map.extent().width; ++x) row += weights(x, y) * glm::dvec3(map(x, y));
+    sum += row;
+  }
+  return sum;
+}
+
 double total(const Grid<double>& weights) {
   double sum = 0.0;
   for (const double weight : weights.values()) sum += weight;
@@ -139,12 +273,15 @@ double total(const Grid<double>& weights) {
 }  // namespace
 
 Grid<double> texel_integrals(const PeakedDensity& density, Extent extent) {
+  std::vector<WithNodes<Wedge>> columns;
+  for (int x = 0; x < extent.width; ++x) {
+    columns.emplace_back((x + 0.5) / extent.width, 1.0 / extent.width);
+  }
   Grid<double> integrals(extent);
   for (int y = 0; y < extent.height; ++y) {
-    for (int x = 0; x < extent.width; ++x) {
-      integrals(x, y) = integral(density, {(x + 0.5) / extent.width, (y + 0.5) / extent.height,
-                                           1.0 / extent.width, 1.0 / extent.height});
-    }
+    const WithNodes<Band> row((y + 0.5) / extent.height, 1.0 / extent.height);
+    std::ranges::transform(columns, integrals.row(y).begin(),
+                           [&](const auto& column) { return integral(density, row, column); });
   }
   return integrals;
 }
@@ -161,7 +298,7 @@ Lobe ggx_lobe(double alpha) {
   return {[alpha](Direction light, Direction axis) {
             const double cosine = glm::dot(light, axis);
             if (!(cosine > 0.0)) return 0.0;
-            return ggx_distribution(alpha, glm::dot(glm::normalize(light + axis), axis)) * cosine;
+            return ggx_distribution(alpha, half_cosine(cosine)) * cosine;
           },
           2.0 * alpha};
 }
@@ -170,7 +307,7 @@ Lobe ggx_masked_lobe(double alpha, double f0) {
   return {[alpha, f0](Direction light, Direction axis) {
             const double cosine = glm::dot(light, axis);
             if (!(cosine > 0.0)) return 0.0;
-            const double half = glm::dot(glm::normalize(light + axis), axis);
+            const double half = half_cosine(cosine);
             const double tangent = std::sqrt(1.0 - cosine * cosine) / cosine;
             const double masking = 2.0 / (1.0 + std::sqrt(1.0 + alpha * alpha * tangent * tangent));
             const double fresnel = f0 + (1.0 - f0) * std::pow(1.0 - half, 5.0);
@@ -181,15 +318,16 @@ Lobe ggx_masked_lobe(double alpha, double f0) {
 
 Lobe half_vector_lobe(double shininess) {
   return {[shininess](Direction light, Direction axis) {
-            if (!(glm::dot(light, axis) > 0.0)) return 0.0;
-            return std::pow(glm::dot(glm::normalize(light + axis), axis), shininess);
+            const double cosine = glm::dot(light, axis);
+            if (!(cosine > 0.0)) return 0.0;
+            return std::pow(half_cosine(cosine), shininess);
           },
           2.0 / std::sqrt(shininess + 1.0), true};
 }
 
 glm::dvec3 prefiltered(const Grid<Rgb>& map, const Lobe& lobe, Direction axis) {
   const Grid<double> weights = texel_integrals(around(lobe, axis), map.extent());
-  return TurnedMap(map).sum(weights, 0) / total(weights);
+  return weighted_sum(map, weights) / total(weights);
 }
 
 Grid<glm::dvec3> prefiltered(const Grid<Rgb>& map, const Lobe& lobe, Extent extent) {
@@ -213,7 +351,7 @@ Grid<glm::dvec3> prefiltered(const Grid<Rgb>& map, const Lobe& lobe, Extent exte
 }
 
 glm::dvec3 reflected(const Grid<Rgb>& map, const PeakedDensity& reflected_cosine) {
-  return TurnedMap(map).sum(texel_integrals(reflected_cosine, map.extent()), 0);
+  return weighted_sum(map, texel_integrals(reflected_cosine, map.extent()));
 }
 
 }  // namespace lightproof::reference

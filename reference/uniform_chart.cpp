@@ -20,7 +20,7 @@ std::optional<SquarePoint> inside(SquarePoint at) {
   return clamped(at);
 }
 
-/// In [0,1].
+/// The azimuth of (x, y) as a share of the circle, in [0,1].
 double turns(double x, double y) {
   const double share = std::atan2(y, x) / (2.0 * kPi);
   return share < 0.0 ? share + 1.0 : share;
@@ -50,7 +50,7 @@ double light_per_normal(Direction view, Direction light) {
   return 2.0 * std::max(0x1p-53, glm::length(view + light));
 }
 
-/// Any two vectors across `axis`, by Gram and Schmidt.
+/// Two unit vectors across `axis` and each other, by Gram and Schmidt.
 struct Axes {
   Direction x;
   Direction y;
@@ -128,7 +128,7 @@ struct Hemisphere {
 /// The part of a unit disc to the left of the abscissa sin(psi): the chord's length integrated.
 double disc_to_the_left(double psi) { return 0.5 + (psi + 0.5 * std::sin(2.0 * psi)) / kPi; }
 
-/// Its inverse, by bisection.
+/// The angle psi of which disc_to_the_left(psi) is this share, by bisection.
 double angle_of_share(double share) {
   double low = -0.5 * kPi;
   double high = 0.5 * kPi;
@@ -153,7 +153,7 @@ struct Projection {
     y = glm::cross(hemisphere.view, x);
   }
 
-  /// None for a normal below the surface.
+  /// The point of the square for the normal m; none if it is below the surface.
   std::optional<SquarePoint> square(Direction m) const {
     const double abscissa = std::clamp(glm::dot(m, x), -1.0, 1.0);
     const double half_chord = std::sqrt((1.0 - abscissa) * (1.0 + abscissa));
@@ -171,7 +171,8 @@ struct Projection {
         std::sqrt(std::max(0.0, std::cos(psi) * std::cos(psi) - ordinate * ordinate));
     return std::sin(psi) * x + ordinate * y + depth * hemisphere.view;
   }
-  /// Uniform over the projection, whose area is pi (1 + cosine) / 2: a multiple of m.view.
+  /// The density over the projection is uniform: one over its area pi (1 + cosine) / 2, as a
+  /// multiple of m.view.
   double per_cosine() const { return 2.0 / (kPi * (1.0 + hemisphere.view.z)); }
 };
 
@@ -258,7 +259,8 @@ UniformChart mirrored_at_bounded_normals(double alpha, Direction view) {
           },
           [=](Direction light) {
             if (!square(light)) return PerSteradian{0.0};
-            // Uniform on the cap, which has four times m.view of the solid angle of its normals.
+            // The density is uniform on the cap, which has four times m.view of the solid angle of
+            // its normals.
             const double per_cosine = 4.0 / (2.0 * kPi * (1.0 - lowest));
             return hemisphere.pdf_of_light(per_cosine, normal_between(view, light));
           }};

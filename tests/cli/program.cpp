@@ -14,8 +14,18 @@ std::string program() {
   return other != nullptr ? other : LIGHTPROOF_PROGRAM;
 }
 
+namespace {
+
+/// What a study keeps stays in the build's folder.
+std::vector<std::string> own_cache() {
+  const fs::path kept = fs::path(LIGHTPROOF_PROGRAM).parent_path() / "kept-by-tests";
+  return {"LIGHTPROOF_CACHE=" + kept.string()};
+}
+
+}  // namespace
+
 Command lightproof_command(const Words& arguments, const fs::path& folder) {
-  Command command{.words = {program()}, .folder = folder};
+  Command command{.words = {program()}, .folder = folder, .environment = own_cache()};
   command.words.insert(command.words.end(), arguments.begin(), arguments.end());
   return command;
 }
@@ -76,7 +86,8 @@ Command in_mount_namespace(const std::string& script, const Words& arguments,
                            const fs::path& folder) {
   Command command{
       .words = {"unshare", geteuid() == 0 ? "-m" : "-rm", "sh", "-c", script, "sh", program()},
-      .folder = folder};
+      .folder = folder,
+      .environment = own_cache()};
   command.words.insert(command.words.end(), arguments.begin(), arguments.end());
   return command;
 }

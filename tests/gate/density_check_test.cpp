@@ -52,7 +52,7 @@ TEST(DensityCheck, APdfThatIsUniformInTheOtherMeasureIsKnown) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
   const TargetDensity b = {DensitySpace::solid_angle};
   const TargetDensity c = {DensitySpace::sine_weighted};
-  for (const auto [declared, claimed] : {std::pair(b, c), std::pair(c, b)}) {
+  for (const auto& [declared, claimed] : {std::pair(b, c), std::pair(c, b)}) {
     const auto sampler =
         bound(DiscreteSampler(reference::texel_masses(map, claimed), claimed.density_space));
     const DensityComparison density = compare_density(sampler, expectation_of(map, declared), {});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 
 #include "lightproof/core/random_batch.h"
 #include "lightproof/gate/direction_sampler.h"
@@ -101,6 +102,35 @@ TEST(SharedRuns, AreWatchedAndDiagnosedAsByOneProcess) {
       });
   EXPECT_THAT(result.rejections,
               testing::Contains(testing::Field(&Rejection::sampler, "other density")));
+}
+
+// The tests of earlier runs stand for new ones: nothing is drawn but for a second stage or a
+// diagnosis, and the result is the same to the last bit.
+TEST(ScreenedRuns, AreNotScreenedAgain) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {16, 8});
+  const std::vector<SamplerUnderTest> all = samplers_under_test();
+  std::vector<TestCase> test_cases = test_cases_of({&map, 1}, all);
+  const GateOptions options = {.samples = kSamples};
+  const std::string whole = bytes_of_result(run_gate(test_cases, options));
+  const ScreenedRuns screened = screen_runs(test_cases, options);
+  EXPECT_EQ(screened.size(), all.size());
+  std::atomic<int> bound = 0;
+  for (TestCase& test_case : test_cases) {
+    for (SamplerInstance& instance : test_case.instances) {
+      instance.bind = [&bound, bind = instance.bind] {
+        ++bound;
+        return bind();
+      };
+    }
+  }
+  EXPECT_EQ(bytes_of_result(run_gate(test_cases, options, {}, {}, screened)), whole);
+  const int again = bound;
+  EXPECT_LT(again, static_cast<int>(all.size()) / 2);
+  // Those of some runs alone, after a way through bytes.
+  ScreenedRuns some = results_of<std::vector<Measured>>(bytes_of(screened));
+  some.erase(some.begin());
+  EXPECT_EQ(bytes_of_result(run_gate(test_cases, options, {}, {}, some)), whole);
+  EXPECT_GT(bound, 2 * again);
 }
 
 TEST(SharedRuns, OfOneNameAreRefused) {

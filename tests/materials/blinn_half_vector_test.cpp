@@ -22,11 +22,11 @@ TEST(BlinnShininess, IsThatOfTheRoughness) {
 
 // Seven levels stand at (i + 1/2)/7, so that a roughness R is found at level 7R - 1/2.
 TEST(BlinnShininess, HasLevelsInTheMiddlesOfSevenths) {
-  EXPECT_NEAR(roughness_of_level(0, 7), 0.5 / 7.0, 1e-16);
-  EXPECT_NEAR(roughness_of_level(6, 7), 6.5 / 7.0, 1e-16);
+  EXPECT_NEAR(blinn_roughness_of_level(0, 7), 0.5 / 7.0, 1e-16);
+  EXPECT_NEAR(blinn_roughness_of_level(6, 7), 6.5 / 7.0, 1e-16);
   for (int level = 0; level < 7; ++level) {
-    EXPECT_NEAR(level_of_roughness(roughness_of_level(level, 7), 7), level, 1e-14);
-    EXPECT_GT(blinn_shininess(roughness_of_level(level, 7)), 0.0);
+    EXPECT_NEAR(blinn_level_of_roughness(blinn_roughness_of_level(level, 7), 7), level, 1e-14);
+    EXPECT_GT(blinn_shininess(blinn_roughness_of_level(level, 7)), 0.0);
   }
 }
 

@@ -122,6 +122,52 @@ TEST(FastPrefilter, SeesOneBrightTexelAcrossTheSeamAndAtThePoles) {
   }
 }
 
+/// The mean over a lobe of a map whose only lit texel has the value 1: midpoints of small parts of
+/// the texel, over the lobe's own integral.
+double mean_of_lit_texel(const reference::Lobe& lobe, Direction axis, Extent extent, int x, int y) {
+  constexpr int kParts = 200;
+  double sum = 0.0;
+  for (int j = 0; j < kParts; ++j) {
+    for (int i = 0; i < kParts; ++i) {
+      const SquarePoint at = {(x + (i + 0.5) / kParts) / extent.width,
+                              (y + (j + 0.5) / kParts) / extent.height};
+      sum += lobe.value(direction_from_square(at), axis) * solid_angle_per_square(at.t);
+    }
+  }
+  const double area = 1.0 / static_cast<double>(extent.count());
+  const reference::PeakedDensity density = {
+      [&](Direction light) { return lobe.value(light, axis); }, axis, lobe.width, axis, lobe.jumps};
+  double whole = 0.0;
+  const Grid<double> parts = reference::texel_integrals(density, {64, 32});
+  for (const double part : parts.values()) whole += part;
+  return sum / (kParts * kParts) * area / whole;
+}
+
+// A lobe's slope at the horizon would leave some 1e-3 of the light of a sun that stands there. What
+// is left of its curvature q, over the solid angle O of the lobe, is 2 q/O L^(-2) at the most, of
+// degrees beyond L = 256, relative to the map's mean radiance: below 1e-5 for these lobes.
+TEST(FastPrefilter, SeesASunOnTheHorizonOfBroadLobes) {
+  Grid<Rgb> map({200, 100});
+  map(150, 50) = Rgb(1e5F);
+  const double mean = 1e5 * texel_solid_angle({200, 100}, 50) / kSphere;
+  const Direction sun = direction_from_square({150.5 / 200.0, 50.5 / 100.0});
+  const Direction above = glm::normalize(glm::cross(sun, Direction(0.3, 0.2, 1.0)));
+  const Direction beside = glm::cross(sun, above);
+  std::vector<Direction> axes;
+  for (const double tilt : {-0.02, -0.005, 0.0, 0.005, 0.02}) {
+    axes.push_back(std::cos(tilt) * above + std::sin(tilt) * sun);
+    axes.push_back(std::cos(tilt) * beside + std::sin(tilt) * sun);
+  }
+  for (const double roughness : {0.6, 0.8, 0.9, 1.0}) {
+    const LobeCase each = ggx(roughness);
+    const std::vector<Rgb> values = prefilter(map, each.lobe, axes);
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      const double exact = 1e5 * mean_of_lit_texel(each.exact, axes[i], map.extent(), 150, 50);
+      EXPECT_NEAR(values[i].x, exact, kOracle * (mean + exact)) << each.name << ", axis " << i;
+    }
+  }
+}
+
 TEST(FastPrefilter, IsSymmetricAboutTheSeam) {
   const Extent extent = {32, 16};
   Grid<Rgb> map(extent);

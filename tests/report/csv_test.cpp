@@ -22,6 +22,7 @@ TEST(Csv, HasOneRowPerRecordBelowItsHeading) {
   EXPECT_EQ(lines(build_csv(study.throughput)), 1 + 15);
   EXPECT_EQ(lines(growth_csv(study.growth)), 1 + 3);
   EXPECT_EQ(lines(renders_csv(study.renders)), 1 + 4);
+  EXPECT_EQ(lines(split_sum_csv(study.split_sum)), 1 + 96);
   EXPECT_EQ(lines(maps_csv(study.maps)), 1 + 8);
 }
 

@@ -116,11 +116,30 @@ TEST(GateJson, SurvivesNamesThatAreNotUtf8) {
 
 TEST(StudyJson, HoldsEverythingButThePixels) {
   const json document = json::parse(study_json(testing::synthetic_study(), {}));
-  EXPECT_EQ(keys_of(document),
-            (std::set<std::string>{"format_version", "version", "commit", "command", "machine",
-                                   "seed", "maps", "gate", "convergence", "throughput",
-                                   "throughput_origin", "caches", "growth", "tables", "renders",
-                                   "self_test", "published_forms"}));
+  EXPECT_EQ(keys_of(document), (std::set<std::string>{"format_version",
+                                                      "version",
+                                                      "commit",
+                                                      "command",
+                                                      "machine",
+                                                      "seed",
+                                                      "maps",
+                                                      "gate",
+                                                      "convergence",
+                                                      "throughput",
+                                                      "throughput_origin",
+                                                      "directions_origin",
+                                                      "caches",
+                                                      "growth",
+                                                      "tables",
+                                                      "directions",
+                                                      "renders",
+                                                      "self_test",
+                                                      "published_forms",
+                                                      "published_pictures",
+                                                      "split_sum",
+                                                      "frames",
+                                                      "points",
+                                                      "level_costs"}));
   EXPECT_EQ(document["maps"].size(), 8U);
   EXPECT_EQ(document["maps"][0]["size"], (json{64, 32}));
   EXPECT_EQ(document["maps"][0]["drawn"].size(), 300U);
@@ -128,6 +147,21 @@ TEST(StudyJson, HoldsEverythingButThePixels) {
   EXPECT_EQ(document["convergence"][0]["points"].size(), 6U);
   EXPECT_EQ(document["renders"][1]["picture"], "city-sphere-GGX__roughness_0.3-brdf.exr");
   EXPECT_EQ(document["renders"][1]["reference"], "city-sphere-GGX__roughness_0.3-reference.exr");
+}
+
+TEST(StudyJson, HoldsTheSplitSumAndTheErrorsOfPictures) {
+  const json document = json::parse(study_json(testing::synthetic_study(), {}));
+  EXPECT_EQ(document["published_pictures"][0], (json{{"system", "004-2"},
+                                                     {"what", "a sphere <for a test>"},
+                                                     {"size", {32, 24}},
+                                                     {"published_rmse", 8.8},
+                                                     {"corrected_rmse", 0.02},
+                                                     {"noise", 0.011}}));
+  ASSERT_EQ(document["split_sum"].size(), 96U);
+  EXPECT_EQ(document["split_sum"][1]["map"], "city");
+  EXPECT_NEAR(document["split_sum"][1]["view_degrees"].get<double>(), 80.0, 1e-12);
+  EXPECT_NEAR(document["split_sum"][1]["rmse"].get<double>(), 0.1, 1e-12);
+  EXPECT_NEAR(document["split_sum"][1]["left_out"].get<double>(), 0.08, 1e-12);
 }
 
 TEST(StudyJson, HasCachesAndBreakpointsOrNull) {

@@ -45,7 +45,11 @@ TEST(Page, SaysWhatWasNotMeasured) {
   study.convergence.clear();
   study.gate.tests.clear();
   study.maps.clear();
+  study.split_sum.clear();
   study.self_test.reset();
+  study.frames.clear();
+  study.points = {};
+  study.level_costs = {};
   const std::string page = report_page(study);
   EXPECT_NE(page.find("Throughput was not measured in this study. Build"), std::string::npos);
   EXPECT_EQ(page.find("<figure class=\"chart"), std::string::npos) << "an empty chart";
@@ -77,8 +81,8 @@ TEST(Report, WritesAllItsFiles) {
   write_report(testing::synthetic_study(), folder);
   for (const char* name :
        {"report.html", "results.json", "gate.csv", "convergence.csv", "variance.csv",
-        "throughput.csv", "growth.csv", "build.csv", "tables.csv", "renders.csv", "maps.csv",
-        "manifest.json", "city-sphere-GGX__roughness_0.3-uniform.exr",
+        "throughput.csv", "growth.csv", "build.csv", "tables.csv", "directions.csv", "renders.csv",
+        "maps.csv", "split_sum.csv", "manifest.json", "city-sphere-GGX__roughness_0.3-uniform.exr",
         "city-sphere-GGX__roughness_0.3-uniform-error.exr",
         "city-sphere-GGX__roughness_0.3-reference.exr"}) {
     EXPECT_TRUE(fs::exists(folder / name) && fs::file_size(folder / name) > 0) << name;

@@ -16,6 +16,10 @@ void strip(lightproof::StudyResult& study) {
   study.renders.clear();
   study.maps.resize(1);
   study.self_test.reset();
+  study.frames.clear();
+  study.points.decay.clear();
+  study.level_costs.levels.resize(1);
+  study.level_costs.gains.clear();
   study.convergence.resize(5);  // leaves a scene with one estimator
   study.gate.tests.resize(3);
   study.gate.tests[1].outcome = lightproof::Outcome::inconclusive;

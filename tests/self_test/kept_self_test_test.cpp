@@ -68,7 +68,7 @@ class KeptSelfTest : public testing::Test {
   TemporaryFolder folder_;
   std::vector<MapRecord> maps_ = {map_called("one")};
   SelfTestOptions options_ = small_options();
-  SelfTestCache cache_ = {folder_ / "cache", folder_ / "program", "0123456789abcdef"};
+  MeasurementCache cache_ = {folder_ / "cache", folder_ / "program", "0123456789abcdef"};
 };
 
 TEST_F(KeptSelfTest, GivesTheNumbersThatWereMeasured) {

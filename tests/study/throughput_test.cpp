@@ -63,6 +63,35 @@ TEST_F(ThroughputFile, TablesAreTheFusedRowsThatKnowTheirError) {
   EXPECT_EQ(tables[0].share_of_limit, 0.5);
 }
 
+TEST_F(ThroughputFile, DirectionsHaveTheirDensityAndTheirRatios) {
+  std::string fused = run("directions/alias/sun-sky/2048x1024/C/fused", 5);
+  fused.replace(fused.size() - 1, 1, ",\"times_baseline\":40,\"share_of_limit\":0.7}");
+  write("{\"benchmarks\":[" + run("sample/a/b/4x2/random", 9) + "," + fused + "," +
+        run("directions/upper_bound_baseline/sun-sky/2048x1024/C/fused", 200) + "]}");
+  const auto directions = read_throughput(file_).directions;
+  ASSERT_EQ(directions.size(), 2U);
+  EXPECT_EQ(directions[0].sampler, "alias");
+  EXPECT_EQ(directions[0].extent, (Extent{2048, 1024}));
+  EXPECT_EQ(directions[0].density, "C");
+  EXPECT_EQ(directions[0].order, "fused");
+  EXPECT_EQ(directions[0].ns_per_sample, 5.0);
+  EXPECT_EQ(directions[0].times_baseline, 40.0);
+  EXPECT_EQ(directions[0].share_of_limit, 0.7);
+  EXPECT_EQ(directions[1].times_baseline, 0.0);
+}
+
+TEST_F(ThroughputFile, SaysThatTheMachineWasBusyFromATenthMoreWallTimeOn) {
+  const auto origin_at = [&](const char* real_time) {
+    std::string row = run("sample/a/b/4x2/random", 9);
+    row.replace(row.size() - 1, 1,
+                std::string(",\"cpu_time\":100,\"real_time\":") + real_time + "}");
+    write("{\"context\":{\"date\":\"today\"},\"benchmarks\":[" + row + "]}");
+    return read_throughput(file_).origin;
+  };
+  EXPECT_EQ(origin_at("109"), "today");
+  EXPECT_EQ(origin_at("210"), "today; the machine was busy: wall time 2.1 times processor time");
+}
+
 TEST_F(ThroughputFile, OtherBenchmarksAndAggregatesAreLeftOut) {
   write("{\"benchmarks\":[" + run("render/uniform/lambert/64x32/plane", 9) + "," +
         run("sample/a/b/4x2/random", 9) +
@@ -112,13 +141,17 @@ TEST(ThroughputFilter, ChoosesSingleSamplesUpToAWidthAndTheTablesOfOneSize) {
   for (const char* name :
        {"sample/alias/sun-sky/256x128/random", "sample/alias/sun-sky/384x192/random",
         "sample/alias/sun-sky/768x384/random", "sample/alias/sun-sky/1024x512/random",
-        "sample/alias/sun-sky/2048x1024/fused", "sample/bare_gather_2B/sun-sky/2048x1024/fused"}) {
+        "sample/alias/sun-sky/2048x1024/fused", "sample/bare_gather_2B/sun-sky/2048x1024/fused",
+        "directions/alias/sun-sky/2048x1024/C/scalar",
+        "directions/bare_gather_2B/sun-sky/2048x1024/A/fused"}) {
     EXPECT_THAT(name, testing::MatchesRegex(filter));
   }
   for (const char* name :
        {"sample/alias/sun-sky/1536x768/random", "sample/alias/sun-sky/2048x1024/random",
         "sample/alias/sun-sky/1024x512/fused", "sample/alias/sun-sky/1024x512/batch",
-        "build/alias/sun-sky/256x128/random", "sample/alias/sun-sky/2560x128/random"}) {
+        "directions/linear_scan/sun-sky/2048x1024/C/scalar",
+        "directions/alias/sun-sky/8192x4096/C/scalar", "build/alias/sun-sky/256x128/random",
+        "sample/alias/sun-sky/2560x128/random"}) {
     EXPECT_THAT(name, testing::Not(testing::MatchesRegex(filter)));
   }
   EXPECT_THAT("sample/alias/sun-sky/16384x8192/random",

@@ -59,7 +59,7 @@ struct Row {
   Paint paint;
 };
 
-constexpr std::array<Row, 6> kRows = {{
+constexpr auto kRows = std::to_array<Row>({
     {{"lamps", "one to three lit texels in the dark"},
      [](Picture& picture, Random& random) { paint_lamps(picture, random, false); }},
     {{"mirrored-lamps", "the same, with an equal one mirrored at the horizon"},
@@ -71,7 +71,7 @@ constexpr std::array<Row, 6> kRows = {{
      [](Picture& picture, Random& /*random*/) {
        std::ranges::fill(picture.values(), Rgb(1.0F, 0.0F, 0.0F));
      }},
-}};
+});
 
 constexpr auto kKinds = [] {
   std::array<AdversarialMap, kRows.size()> kinds;

@@ -90,7 +90,8 @@ int run(int argc, char** argv) {
   return exit_code;
 }
 
-/// Unless whoever started the program wants the signal ignored, as nohup and background jobs do.
+/// Calls the handler for this signal, unless whoever started the program wants the signal ignored,
+/// as nohup and background jobs do.
 void catch_signal(int signal) {
   if (std::signal(signal, on_interrupt) == SIG_IGN) std::signal(signal, SIG_IGN);
 }

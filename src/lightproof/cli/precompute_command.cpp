@@ -74,7 +74,7 @@ PrecomputeRequest request_of(const Options& options) {
   return request;
 }
 
-/// Without --size and --levels, the smallest ones that reach --max-error.
+/// Without --size and --levels, chooses the smallest sizes that reach --max-error.
 void choose_sizes(const EnvironmentMap& map, const Options& options, PrecomputeRequest& request) {
   if (!options.max_error || !options.product_size.empty() || options.levels > 0) return;
   for (ProductRequest& product : request.products) {

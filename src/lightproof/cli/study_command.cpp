@@ -15,6 +15,9 @@
 #include "lightproof/core/text_escapes.h"
 #include "lightproof/report/report.h"
 #include "lightproof/self_test/kept_self_test.h"
+#include "lightproof/study/frame_study.h"
+#include "lightproof/study/level_costs.h"
+#include "lightproof/study/point_study.h"
 #include "lightproof/study/study.h"
 #include "lightproof/systems/comparisons.h"
 #include "outputs.h"
@@ -67,16 +70,22 @@ fs::path cache_folder() {
 }
 
 /// All that goes into the report. Progress is shown until it returns.
-StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options,
-                   const std::string& commit) {
+StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
   const Progress progress = progress_of(options);
   StudyResult result = run_study(std::move(maps), options.study, progress);
   result.gate.input_options = input_options(options);
   result.published_forms = system_comparisons();
+  const MeasurementCache& cache = options.study.cache;
+  result.frames = study_frames();
+  result.points = kept_points(options.seed, cache, progress);
+  if (!options.no_throughput) {
+    result.level_costs =
+        kept_level_costs(result.maps, {.threads = thread_count(options.threads)}, cache, progress);
+  }
+  result.published_pictures = system_pictures(progress);
   if (!options.no_self_test) {
     result.self_test =
-        kept_self_test(result.maps, self_test_options(options.seed),
-                       {cache_folder(), kThisProgram, commit, options.measure_again}, progress);
+        kept_self_test(result.maps, self_test_options(options.seed), cache, progress);
   }
   return result;
 }
@@ -94,7 +103,8 @@ int run(Options options) {
   std::vector<EnvironmentMap> maps = load_maps(options);
   check_folder(options.output, options.force, report_file_names(), options.command_line);
   const RunDescription description = describe_run(options, maps);
-  StudyResult result = run_on(std::move(maps), options, description.commit);
+  options.study.cache = {cache_folder(), kThisProgram, description.commit, options.measure_again};
+  StudyResult result = run_on(std::move(maps), options);
   if (!throughput.samplers.empty()) set_throughput(result, std::move(throughput));
   write_report(result, options.output, description, overwriting(options.force));
   if (!options.quiet) fmt::print("{}\n", path_text(fs::path(options.output) / "report.html"));
@@ -123,9 +133,9 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
              "width of the largest map that throughput is measured on; 16384 takes 8 GB")
       ->excludes(file);
   command
-      ->add_flag(
-          "--measure-again", options->measure_again,
-          "measure throughput and self-test, even if they are kept of this program and machine")
+      ->add_flag("--measure-again", options->measure_again,
+                 "measure what is kept of this program and machine: throughput, self-test, first "
+                 "tests of warps and materials, costs of levels, point sets")
       ->excludes(file);
   command->add_flag("--no-self-test", options->no_self_test,
                     "leave out the test of the gate itself (mutants, calibration, power)");

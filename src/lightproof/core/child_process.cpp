@@ -30,7 +30,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kPollInterval{20};
-/// What a child that is asked to end may take to do so.
+/// The time that a child has to end after it was asked to.
 constexpr milliseconds kGrace{2000};
 
 [[noreturn]] void fail(const fs::path& program, const char* what, int error) {
@@ -110,7 +110,7 @@ pid_t start(const fs::path& program, std::vector<std::string> arguments, const f
   return child;
 }
 
-/// Of a child that has ended.
+/// The exit status of a child that has ended; none while it runs.
 std::optional<int> status_of(const fs::path& program, pid_t child) {
   int status = 0;
   const pid_t ended = uninterrupted([&] { return ::waitpid(child, &status, WNOHANG); });

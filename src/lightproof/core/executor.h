@@ -139,25 +139,16 @@ void join(CellResults<Result>& results, CellResults<Result> more) {
 template <class Result>
 std::string bytes_of(const CellResults<Result>& results) {
   ValueWriter writer;
-  writer.add(results.size());
-  for (const auto& [key, result] : results) {
-    writer.add(key);
-    writer.add(result);
-  }
+  writer.add(results);
   return writer.take();
 }
 
-/// What bytes_of() wrote. Throws std::out_of_range if bytes are missing, std::logic_error if some
-/// are left or a key is there twice.
+/// What bytes_of() wrote. Throws std::out_of_range if bytes are missing or a key is there twice,
+/// std::logic_error if some are left.
 template <class Result>
 CellResults<Result> results_of(std::string_view bytes) {
   ValueReader reader(bytes);
-  CellResults<Result> results;
-  for (std::uint64_t left = reader.number(); left > 0; --left) {
-    std::string key = reader.text();
-    const auto [at, is_new] = results.emplace(std::move(key), reader.value<Result>());
-    if (!is_new) throw std::logic_error("the cell of work " + at->first + " is there twice");
-  }
+  auto results = reader.value<CellResults<Result>>();
   if (!reader.is_at_end()) throw std::logic_error("bytes are left behind the last cell of work");
   return results;
 }

@@ -26,8 +26,10 @@ std::size_t rounded(std::size_t bytes) {
 void* allocate_table(std::size_t bytes) {
   void* memory = ::operator new(rounded(bytes), alignment_of(bytes), std::nothrow);
   if (memory == nullptr) throw NoMemoryForTable(bytes);
-  // A wish: where it is not granted, nothing but speed is lost.
+#ifdef MADV_HUGEPAGE  // of Linux
+  // Where the wish is not granted, nothing but speed is lost.
   if (bytes >= kHugePage) static_cast<void>(madvise(memory, rounded(bytes), MADV_HUGEPAGE));
+#endif
   return memory;
 }
 

@@ -66,8 +66,8 @@ struct Points {
   std::span<double> t;
 };
 
-/// As many points as fill this number of vectors, from the at-th on. A round of Philox waits for
-/// the one before: several vectors at once keep the multipliers busy.
+/// Computes as many points as fill this number of vectors, from the at-th on. A round of Philox
+/// waits for the one before: several vectors at once keep the multipliers busy.
 template <std::size_t kVectors>
 HWY_INLINE void fill_vectors(const Points& points, std::size_t at) {
   const Wide wide;
@@ -95,7 +95,7 @@ HWY_INLINE void fill_vectors(const Points& points, std::size_t at) {
   }
 }
 
-/// Whole vectors from the front; returns how many points that were.
+/// Computes whole vectors from the front; returns how many points that were.
 std::size_t fill(std::uint64_t key, std::uint64_t substream, std::uint64_t first,
                  std::span<double> s, std::span<double> t) {
   constexpr std::size_t kTogether = 4;

@@ -6,6 +6,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -44,6 +45,14 @@ class ValueWriter {
   void add(const std::vector<Value>& values) {
     add(values.size());
     for (const Value& value : values) add(value);
+  }
+  template <class Key, class Value>
+  void add(const std::map<Key, Value>& values) {
+    add(values.size());
+    for (const auto& [key, value] : values) {
+      add(key);
+      add(value);
+    }
   }
   template <class Value>
   void add(const std::optional<Value>& value) {
@@ -126,6 +135,15 @@ class ValueReader {
   std::vector<Value> read(std::type_identity<std::vector<Value>> /*type*/) {
     std::vector<Value> values;
     for (std::uint64_t left = number(); left > 0; --left) values.push_back(value<Value>());
+    return values;
+  }
+  template <class Key, class Value>
+  std::map<Key, Value> read(std::type_identity<std::map<Key, Value>> /*type*/) {
+    std::map<Key, Value> values;
+    for (std::uint64_t left = number(); left > 0; --left) {
+      Key key = value<Key>();
+      require(values.emplace(std::move(key), value<Value>()).second);
+    }
     return values;
   }
   template <class Value>

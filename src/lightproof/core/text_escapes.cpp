@@ -89,7 +89,7 @@ std::string markdown_character(const Character& character) {
   if (c == ">") return "&gt;";
   if (c == "|") return "&#124;";
   if (c == "@" || c == "#") return std::string(c) + "<!-- -->";
-  if (c.find_first_of("\\`*[]~$") != std::string_view::npos) return "\\" + std::string(c);
+  if (c.find_first_of("\\`*[]~$") != std::string_view::npos) return fmt::format("\\{}", c);
   return terminal_character(character);
 }
 
@@ -115,11 +115,11 @@ std::string with_escaped_underscores(const std::string& text) {
   return result;
 }
 
-/// Inside $'…'.
+/// The character as it stands inside $'…'.
 std::string quoted_character(const Character& character) {
   if (!is_printable(character)) return hexadecimal(character.bytes);
   const bool special = character.bytes == "'" || character.bytes == "\\";
-  return (special ? "\\" : "") + std::string(character.bytes);
+  return fmt::format("{}{}", special ? "\\" : "", character.bytes);
 }
 
 }  // namespace

@@ -154,7 +154,7 @@ Grid<double> half_turn(const DeclaredDistribution& declared) {
   });
 }
 
-/// Only the first half of the columns, twice as likely.
+/// The distribution without the second half of the columns, and the first half twice as likely.
 Grid<double> half_circle(const DeclaredDistribution& declared) {
   return moved(declared, [](const Grid<double>& m, int x, int y) {
     return 2 * x < m.extent().width ? m(x, y) : 0.0;
@@ -288,7 +288,8 @@ Grid<double> without_dim_rows(const DeclaredDistribution& declared) {
   });
 }
 
-/// Without the texel that is nearest to six times as likely as the median of the lit ones.
+/// The distribution without the texel that is nearest to six times as likely as the median of the
+/// lit ones.
 Grid<double> without_one_texel(const DeclaredDistribution& declared) {
   const Grid<double>& masses = *declared.masses;
   std::vector<double> lit;
@@ -311,14 +312,14 @@ Grid<double> without_one_texel(const DeclaredDistribution& declared) {
   return rest;
 }
 
-/// Half of every texel's mass goes to the next column.
+/// The distribution after half of every texel's mass went to the next column.
 Grid<double> half_column(const DeclaredDistribution& declared) {
   return moved(declared, [](const Grid<double>& m, int x, int y) {
     return 0.5 * (m(x, y) + m(x == 0 ? m.extent().width - 1 : x - 1, y));
   });
 }
 
-constexpr std::array<AlternativeDistribution, 30> kAlternatives = {{
+constexpr auto kAlternatives = std::to_array<AlternativeDistribution>({
     {"other-density", "a missing sin(theta) (or one too many): the other target density",
      other_density},
     {"other-lookup", "the other look-up: whole texels for interpolated ones, or the reverse",
@@ -359,7 +360,7 @@ constexpr std::array<AlternativeDistribution, 30> kAlternatives = {{
     {"dim-rows-skipped", "rows darker than an absolute threshold are never drawn",
      without_dim_rows},
     {"uniform", "the map is not looked at: uniform samples", uniform},
-}};
+});
 
 }  // namespace
 

@@ -10,7 +10,8 @@
 namespace lightproof {
 namespace {
 
-/// Of a pdf that claims the declared density exactly: the rounding of floats, as of returned pdfs.
+/// How far a pdf may be off that claims the declared density exactly: the rounding of floats, as of
+/// returned pdfs.
 constexpr double kRelative = 1e-5;
 /// Below this a density is 0 for one formula and a denormal number for another.
 constexpr double kNoDensity = 1e-290;

@@ -209,7 +209,8 @@ Name name_of_wrong_pdf(const ScoredAlternatives& distributions, const Expectatio
     }
     const std::string_view distribution =
         distribution_of_pdf(distributions, expectation, inspection.own);
-    // Of a distribution's shape, but no probability: a density over something else.
+    // The records show a distribution's shape, but no probability: this is a density over something
+    // else.
     if (!distribution.empty()) {
       const bool is_density = check_pdf_integral(inspection.own).passed;
       return {is_density ? distribution : "pdf-of-another-measure", whole};

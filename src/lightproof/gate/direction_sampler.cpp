@@ -16,7 +16,7 @@ namespace lightproof {
 namespace {
 
 constexpr Direction kUp = {0.0, 0.0, 1.0};
-/// Below the horizon, where frames take their other branch.
+/// A normal below the horizon, where frames take their other branch.
 constexpr Direction kOblique = {0.48, -0.6, -0.64};
 
 DirectionSampler uniform_hemisphere() {
@@ -155,7 +155,7 @@ void add_microfacets(std::vector<DirectionSampler>& samplers, bool all_roughness
   }
 }
 
-/// What has no roughness, seen from every angle.
+/// Adds the materials that have no roughness, seen from every angle.
 void add_smooth_lobes(std::vector<DirectionSampler>& samplers) {
   for (const std::string_view name : {"lambert", "phong"}) {
     const MaterialInfo& info = material_by_name(name);

@@ -53,7 +53,7 @@ double of_several(std::span<const double> log10_ps) {
   return std::min(0.0, least + std::log10(static_cast<double>(log10_ps.size())));
 }
 
-/// Over the bins as well, if their masses are given.
+/// The fit over the texels, and over the bins as well if their masses are given.
 double fit_with_bins(const Draws& draws, const Grid<double>& masses, const Grid<double>* bins) {
   const std::uint64_t samples = draws.samples - draws.out_of_domain.count;
   std::vector<double> all = log10_ps(draws.texels, masses, samples);

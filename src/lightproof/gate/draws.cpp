@@ -257,7 +257,7 @@ struct UniformBatch {
   Numbers estimates = Numbers(kBatch);
 };
 
-/// At these points of the stream, at most kBatch.
+/// Adds the light from these points of the stream, at most kBatch of them.
 void add_uniform(UniformEstimates& estimates, UniformBatch& batch, const Expectation& expectation,
                  const RandomStream& stream, PointRange range) {
   const auto part = [&](Numbers& numbers) { return std::span(numbers).first(range.count); };

@@ -13,9 +13,9 @@
 namespace lightproof {
 namespace {
 
-/// Over s inside a cell, where a density is constant or linear.
+/// The rule over s inside a cell, where a density is constant or linear.
 const reference::GaussRule<2> kRuleOverS;
-/// Over t inside a cell, where it may be a linear function times sin(pi t).
+/// The rule over t inside a cell, where a density may be a linear function times sin(pi t).
 const reference::GaussRule<3> kRuleOverT;
 /// Pieces are at most 1/64 high in t. Three nodes leave h^7/2016000 |f^(6)| of a piece of height h
 /// in theta (Abramowitz and Stegun 25.4.29 and 30). Of f = (a + b theta) sin(theta) the worst case

@@ -49,7 +49,7 @@ reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) 
   return moments;
 }
 
-/// Of the estimators with a cosine kernel.
+/// The moments of the estimators with a cosine kernel.
 reference::LightMoments light_moments(const Expectation& expectation, Direction normal) {
   const reference::Kernel kernel = reference::cosine_kernel(normal);
   return expectation.lookup == Lookup::bilinear

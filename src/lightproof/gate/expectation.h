@@ -22,7 +22,7 @@ namespace lightproof {
 inline constexpr Extent kGateBins = {32, 16};
 
 /// The integrals that the estimator is tested on: irradiance for two normals. One looks at a pole,
-/// one at the horizon, because the two densities trade places between them.
+/// one at the horizon, because densities trade places between them.
 struct MeanCase {
   std::string_view name;
   Direction normal;

@@ -146,13 +146,17 @@ class TwoStages {
         expectations_(test_cases),
         states_(test_cases) {}
 
-  GateResult operator()(const Progress& progress) {
-    if (progress) progress("gate", 0.0);
-    run_stage(
-        {"screening", options_.samples}, progress, [](const RunState&) { return true; },
-        [&](const TestRun& run, const SharedDraws& shared, RunState& state) {
-          return screen(run, shared, options_.screening_level, state);
-        });
+  ScreenedRuns screen_only(const Progress& progress) {
+    screen_all({}, progress);
+    ScreenedRuns screened;
+    states_.for_each([&](RunIndex at, RunState& state) {
+      screened.emplace(key_of(at, kScreening), std::move(state.tests));
+    });
+    return screened;
+  }
+
+  GateResult judge_all(const ScreenedRuns& screened, const Progress& progress) {
+    screen_all(screened, progress);
     const std::size_t family = std::max<std::size_t>(count_p_values(), options_.family);
     const Judge judge(options_, family);
     states_.for_each([&](RunIndex /*at*/, RunState& state) {
@@ -184,6 +188,26 @@ class TwoStages {
   };
 
   using Tests = std::vector<Measured>;
+  static constexpr std::string_view kScreening = "screening";
+
+  std::string key_of(RunIndex at, std::string_view stage) const {
+    return at.in(test_cases_, options_.seed).key(stage);
+  }
+
+  /// The first stage of all runs that `screened` does not hold.
+  void screen_all(const ScreenedRuns& screened, const Progress& progress) {
+    if (progress) progress("gate", 0.0);
+    states_.for_each([&](RunIndex at, RunState& state) {
+      const auto known = screened.find(key_of(at, kScreening));
+      if (known != screened.end()) state.tests = known->second;
+    });
+    run_stage(
+        {kScreening, options_.samples}, progress,
+        [](const RunState& state) { return state.tests.empty(); },
+        [&](const TestRun& run, const SharedDraws& shared, RunState& state) {
+          return screen(run, shared, options_.screening_level, state);
+        });
+  }
 
   /// The runs of one test case for which is_concerned(state), as cells of work that share its
   /// draws.
@@ -227,7 +251,7 @@ class TwoStages {
                communicator_);
     states_.for_each([&](RunIndex at, RunState& state) {
       if (!is_concerned(state)) return;
-      state.tests = std::move(results.at(at.in(test_cases_, options_.seed).key(stage.name)));
+      state.tests = std::move(results.at(key_of(at, stage.name)));
     });
   }
 
@@ -273,8 +297,14 @@ class TwoStages {
 }  // namespace
 
 GateResult run_gate(std::span<const TestCase> test_cases, const GateOptions& options,
-                    const Progress& progress, const Communicator& communicator) {
-  return TwoStages(test_cases, options, communicator)(progress);
+                    const Progress& progress, const Communicator& communicator,
+                    const ScreenedRuns& screened) {
+  return TwoStages(test_cases, options, communicator).judge_all(screened, progress);
+}
+
+ScreenedRuns screen_runs(std::span<const TestCase> test_cases, const GateOptions& options,
+                         const Progress& progress, const Communicator& communicator) {
+  return TwoStages(test_cases, options, communicator).screen_only(progress);
 }
 
 GateResult run_gate(std::span<const EnvironmentMap> maps,

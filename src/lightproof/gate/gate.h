@@ -9,6 +9,7 @@
 #include "lightproof/core/executor.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/gate/sampler_under_test.h"
+#include "lightproof/gate/test_run.h"
 #include "lightproof/results/verdict.h"
 
 namespace lightproof {
@@ -32,6 +33,14 @@ struct GateOptions {
   double must_detect = kMustDetect;
 };
 
+/// What the first stage found, by the keys of its runs: the same for the same samplers, samples and
+/// seed, whatever else runs beside them.
+using ScreenedRuns = CellResults<std::vector<Measured>>;
+
+/// Runs the first stage of run_gate() alone.
+ScreenedRuns screen_runs(std::span<const TestCase> test_cases, const GateOptions& options,
+                         const Progress& progress = {}, const Communicator& communicator = {});
+
 /// Runs the gate in two stages. After the first, a test whose p-value is below `immediate_level`
 /// (or half of family_alpha shared out among all tests, if that is less) is rejected immediately.
 /// One below `screening_level` runs again with four times the samples and other random numbers, and
@@ -40,9 +49,11 @@ struct GateOptions {
 /// family_alpha; a small defect must fall below the screening level first and show with four times
 /// the samples then. The same bits for any number of threads or of processes, which share the runs
 /// and all get the whole result. Throws std::logic_error if two runs have one sampler, map and
-/// density by name: they would draw the same random numbers.
+/// density by name: they would draw the same random numbers. Runs that `screened` holds, from
+/// screen_runs() with the same options, are not screened again.
 GateResult run_gate(std::span<const TestCase> test_cases, const GateOptions& options,
-                    const Progress& progress = {}, const Communicator& communicator = {});
+                    const Progress& progress = {}, const Communicator& communicator = {},
+                    const ScreenedRuns& screened = {});
 
 /// Runs the gate on every sampler under test on every map.
 GateResult run_gate(std::span<const EnvironmentMap> maps,

@@ -33,7 +33,7 @@ MistakenDensity not_mirrored(const UniformChart& claimed) {
           }};
 }
 
-/// What no factor 1/(4 v.h) was applied to, v.h being half the length of the sum.
+/// The density that no factor 1/(4 v.h) was applied to, v.h being half the length of the sum.
 MistakenDensity without_jacobian(const UniformChart& claimed, Direction view) {
   return {"density-of-normals",
           "the density of the microfacet normal instead of the direction's: 1/(4 v.h) is missing",

@@ -39,8 +39,8 @@ bool is_one_position(const Draws& draws) {
   return 1000 * (all - most) < all;
 }
 
-/// Of the transformed coordinates one has few values: half of the samples lie on a lattice where
-/// one in 128 should.
+/// Whether one of the transformed coordinates has few values: half of the samples lie on a lattice
+/// where one in 128 should.
 bool is_coarse(const Draws& draws) {
   return 2 * std::max(draws.marginal_on_lattice, draws.conditional_on_lattice) > draws.samples &&
          !is_one_position(draws);

@@ -12,7 +12,7 @@
 namespace lightproof {
 namespace {
 
-/// With lack of memory laid to this part of a gate over the map.
+/// Does the work, with lack of memory laid to this part of a gate over the map.
 template <class Work>
 auto on(const EnvironmentMap& map, std::string_view part, const Work& work) {
   const auto purpose = [&] {

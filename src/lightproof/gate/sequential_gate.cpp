@@ -39,7 +39,7 @@ class EProcesses {
     if (texels.size() <= kMostCells) texels_.emplace(texels);
   }
 
-  /// Of all samples so far; infinite once one lies where none can.
+  /// The evidence of all samples so far; infinite once one lies where none can.
   double log10_e(const Draws& draws) const {
     if (draws.out_of_domain.count > 0 || draws.zero_density.count > 0) return INFINITY;
     std::vector<double> all = {bins_.log10_e(draws.bins.values()),

@@ -64,7 +64,7 @@ struct Session {
   }
 };
 
-/// Those that hold both commits, the latest last.
+/// The sessions that hold both commits, the latest last.
 std::vector<Session> sessions_of(std::span<const BenchmarkRun> runs, const std::string& base,
                                  const std::string& head) {
   std::map<std::string, Session> by_name;

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 /// Enough to tell commits apart where the whole name is elsewhere.
 constexpr std::size_t kShortCommit = 12;
-/// Of each level: GitHub shows ten a step.
+/// The most annotations of each level: GitHub shows ten a step.
 constexpr std::size_t kAnnotations = 9;
 
 std::string short_commit(const std::string& commit) {

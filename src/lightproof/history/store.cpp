@@ -128,7 +128,8 @@ void create_history(const fs::path& file) {
   }
 }
 
-/// Of all that is stored of a run. SQLite notices broken pages, but not a broken number in one.
+/// The checksum of all that is stored of a run. SQLite notices broken pages, but not a broken
+/// number in one.
 std::int64_t checksum_of(const BenchmarkRun& run) {
   std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n", run.session, run.started,
                                  run.machine, run.compiler, run.flags, run.commit, run.digest);
@@ -158,7 +159,8 @@ struct HistoryStore::Connection {
 HistoryStore::HistoryStore(fs::path file, bool writable) : file_(std::move(file)) {
   require_history(file_);
   try {
-    connection_ = std::make_unique<Connection>(sqlite::Database(file_, sqlite::Mode::existing));
+    connection_ =
+        std::make_unique<Connection>(Connection{sqlite::Database(file_, sqlite::Mode::existing)});
     // A run that was reported as added survives a power cut too. Readers are kept from writing here
     // and not by how the file is opened: the last one to close it tidies the write-ahead log away.
     connection_->database.execute(writable ? "PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON"

@@ -53,7 +53,7 @@ Json level_rows(const TrendLine& line) {
   return rows;
 }
 
-/// Between the last commit before a change and the first one after.
+/// Rows that mark the change between the last commit before it and the first one after.
 Json change_rows(const TrendLine& line) {
   Json rows = Json::array();
   for (const ChangePoint& change : line.changes) {

@@ -44,7 +44,8 @@ OIIO::ImageSpec mipmap_spec(const MapLevels& map, int level) {
   return spec;
 }
 
-/// Of half the size, rounded down: the means of 2 x 2 texels, or of what there is of them.
+/// The picture at half the size, rounded down: the means of 2 x 2 texels, or of what there is of
+/// them.
 Grid<Rgb> halved(const Grid<Rgb>& picture) {
   const Extent from = picture.extent();
   Grid<Rgb> small(level_extent(from, 1));

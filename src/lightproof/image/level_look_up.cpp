@@ -49,7 +49,7 @@ Rgb value_of(const MapLevel& level, CubeTexel texel) {
   return level.faces[static_cast<std::size_t>(texel.face)](texel.column, texel.row);
 }
 
-/// Of a texel of the face, or one step outside of it.
+/// The value of a texel of the face, or of one a step outside of it.
 Rgb seamless(const MapLevel& level, CubeTexel texel, int size) {
   const CubeTexel inside = {texel.face, std::clamp(texel.column, 0, size - 1),
                             std::clamp(texel.row, 0, size - 1)};

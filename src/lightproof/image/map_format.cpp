@@ -20,7 +20,7 @@ constexpr double kLargestFloat = std::numeric_limits<float>::max();
 /// Relative error beyond which a value counts as coarse.
 constexpr double kCoarse = 0.01;
 
-/// In the order of the enumeration.
+/// The formats in the order of the enumeration.
 constexpr std::array kFormats = {
     MapFormatInfo{MapFormat::exr, "exr", "OpenEXR", "32-bit floats", kLargestFloat, true},
     MapFormatInfo{MapFormat::ktx2, "ktx2", "KTX 2.0", "16-bit floats", kLargestHalf, true},

@@ -16,7 +16,7 @@
 namespace lightproof {
 namespace {
 
-/// In the order of the enumeration.
+/// The projections in the order of the enumeration.
 constexpr std::array kProjections = {
     ProjectionInfo{
         Projection::lat_long, "latlong",

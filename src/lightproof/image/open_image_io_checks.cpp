@@ -12,7 +12,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t kLargestTile = std::int64_t{4096} * 4096;
-/// Of an OpenEXR file: its place in the table of chunks, the row and the size ahead of its pixels.
+/// What a chunk of an OpenEXR file takes beside its pixels: its place in the table of chunks, the
+/// row and the size.
 constexpr std::uint64_t kBytesOfChunk = 8 + 4 + 4;
 /// DEFLATE (zlib) writes at least 2 bits for 258 bytes.
 constexpr std::uint64_t kLargestDeflation = 1032;

@@ -19,7 +19,7 @@ constexpr std::size_t kShownCharacters = 60;
 /// Exposures and aspects are products of rounded decimal numbers.
 constexpr double kRounding = 1e-6;
 
-/// For a message of one line.
+/// The line as it is shown in a message, which has one line itself.
 std::string shown(std::string_view line) {
   std::string text(line.substr(0, kShownCharacters));
   std::ranges::replace_if(
@@ -53,7 +53,7 @@ std::optional<Number> number_in(std::string_view word) {
   return number;
 }
 
-/// Exactly so many finite numbers between blanks.
+/// Exactly so many finite numbers between blanks; none if there are more, fewer or others.
 template <std::size_t kCount>
 std::optional<std::array<double, kCount>> numbers_in(std::string_view text) {
   const std::vector<std::string_view> words = words_of(text);
@@ -67,7 +67,7 @@ std::optional<std::array<double, kCount>> numbers_in(std::string_view text) {
   return numbers;
 }
 
-/// Without its end, LF or CR LF; none if the file ends first.
+/// The next line without its end, LF or CR LF; none if the file ends first.
 std::optional<std::string> next_line(ByteReader& bytes) {
   std::string line;
   while (const std::optional<std::uint8_t> byte = bytes.next()) {

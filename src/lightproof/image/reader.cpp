@@ -47,7 +47,7 @@ void refuse_what_has_no_texel(const fs::path& file, Extent extent, const PresetI
                            size_text(extent), preset.name));
 }
 
-/// Empty if the convention of the preset allows the shape.
+/// What is wrong with the shape; empty if the convention of the preset allows it.
 std::string aspect_fault(Extent extent, const PresetInfo& preset, bool any_aspect) {
   const bool square = extent.width == extent.height;
   if (preset.aspect == 1.0) {

@@ -84,7 +84,7 @@ Grid<Rgb> nearest(Preset preset, const Grid<Rgb>& picture, Extent extent) {
   return map;
 }
 
-/// Between the nodes `index` and `index` + 1, `weight` of the way.
+/// A place between the nodes `index` and `index` + 1, `weight` of the way.
 struct Between {
   int index;
   float weight;

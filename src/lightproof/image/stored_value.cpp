@@ -14,7 +14,7 @@ constexpr int kExponentBias = 128;
 constexpr int kMantissaBits = 8;
 constexpr float kMantissas = 256.0F;
 
-/// Of `value` in steps of 2^(exponent - 8).
+/// The nearest multiple of 2^(exponent - 8) to `value`.
 float in_steps(float value, int exponent) {
   return std::nearbyint(std::ldexp(value, kMantissaBits - exponent));
 }

@@ -15,8 +15,7 @@ struct SyntheticMap {
   EnvironmentMap (*make)(Extent extent);
 };
 
-/// All built-in maps: constant, one-texel, gradient, cosine-lobe, step, sun-sky, checker,
-/// black-first-row.
+/// All built-in maps, in the order in which they are shown.
 std::span<const SyntheticMap> synthetic_maps();
 
 /// The built-in map of this name at this extent. Throws InputError listing the names if there is

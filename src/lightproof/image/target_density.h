@@ -73,8 +73,8 @@ constexpr MapMeasure position_measure(DensitySpace density_space) {
   return describe(density_space).position_measure;
 }
 
-/// Whether the density is that of the luminance itself in the measure of positions: it is then a
-/// density of what lies between texels as well, and not of texels alone.
+/// Whether texels have weights that positions inside them do not share. The density is then that of
+/// the luminance times these weights; else it is, in the measure of positions, that of luminance.
 constexpr bool weighs_texels(DensitySpace density_space) {
   return texel_measure(density_space) != position_measure(density_space);
 }

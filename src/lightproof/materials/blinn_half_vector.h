@@ -98,9 +98,11 @@ inline double blinn_weight(double shininess, double cosine) {
 }  // namespace published
 
 /// The roughness of level `level` of `levels`: (level + 1/2) / levels, in (0, 1).
-inline double roughness_of_level(int level, int levels) { return (level + 0.5) / levels; }
+inline double blinn_roughness_of_level(int level, int levels) { return (level + 0.5) / levels; }
 
 /// The level at which a roughness stands, which may lie between two: levels R - 1/2.
-inline double level_of_roughness(double roughness, int levels) { return levels * roughness - 0.5; }
+inline double blinn_level_of_roughness(double roughness, int levels) {
+  return levels * roughness - 0.5;
+}
 
 }  // namespace lightproof

@@ -27,7 +27,7 @@ std::size_t sample_front(const Material& /*material*/, const ShadingPoint& /*at*
 
 #else
 
-/// Whole vectors from the front; returns how many directions that were.
+/// Computes whole vectors from the front; returns how many directions that were.
 template <class Kernel>
 HWY_INLINE std::size_t evaluate_vectors(const Kernel& kernel, const DirectionArrays& light,
                                         std::span<double> out) {

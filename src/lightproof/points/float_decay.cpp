@@ -12,7 +12,7 @@
 namespace lightproof {
 namespace {
 
-/// Of two numbers of [0,1], on the circle.
+/// The distance of two numbers of [0,1] on the circle.
 double distance_on_circle(double a, double b) {
   const double apart = std::abs(a - b);
   return std::min(apart, 1.0 - apart);

@@ -10,7 +10,7 @@
 namespace lightproof {
 namespace {
 
-/// Of sets that do not depend on their count.
+/// Makes a set that does not depend on its count.
 template <PointSet Set>
 AnyPointSet endless(std::uint64_t /*count*/, PointSeed seed) {
   return Set(seed);

@@ -32,7 +32,8 @@ std::vector<Direction> random_directions(std::uint64_t seed) {
   return directions;
 }
 
-/// Relative to the mean of the map's radiance in each channel; the largest of them.
+/// The root mean square of differences, relative to the mean of the map's radiance in each channel;
+/// the largest of the three counts.
 class Distance {
  public:
   explicit Distance(const Grid<Rgb>& map) : mean_(0.0) {
@@ -105,7 +106,7 @@ class Chooser {
 
   double between_levels(int levels) const {
     if (levels < 2) return 0.0;
-    // Any size that has so many levels.
+    // Any size will do that has so many levels.
     const std::vector<LevelPlan> all = plans({1 << levels, 1 << levels}, levels);
     double worst = 0.0;
     for (std::size_t i = 0; i + 1 < all.size(); ++i) {

@@ -13,7 +13,7 @@
 namespace lightproof {
 namespace {
 
-/// Two-sided, of 95 %.
+/// The quantile of a two-sided interval of 95 %.
 constexpr double kNormalQuantile = 1.959963984540054;
 
 reference::Lobe reference_lobe(const Lobe& lobe) {
@@ -96,7 +96,7 @@ glm::dvec3 mean_radiance(const Grid<Rgb>& map) {
   return sum / (4.0 * kPi);
 }
 
-/// Of the mean of squares.
+/// The error of a level, the root of the mean of squares.
 LevelError error_of(const Moments& squares) {
   const double mean = squares.mean();
   const double margin = squares.count() > 1 ? kNormalQuantile * squares.standard_error() : mean;

@@ -17,7 +17,7 @@ namespace lightproof {
 namespace fs = std::filesystem;
 namespace {
 
-/// Of the files; they are not read by programs of another one.
+/// The format of the files, which programs of another one do not read.
 constexpr std::string_view kFormat = "lightproof partial levels 1";
 
 /// Fowler, Noll and Vo's hash of 64 bits (FNV-1a) over the bits of all values.

@@ -22,7 +22,7 @@ constexpr std::array<ProductInfo, 4> kProducts = {{
      "scale and bias of the split sum over view angle and roughness"},
 }};
 
-/// In the order of the enumeration.
+/// The names of the maskings in the order of the enumeration.
 constexpr std::array<std::string_view, 3> kMaskings = {"karis", "separable", "height-correlated"};
 
 /// As many as 512 x 256 texels or faces of 256 x 256 have without a side of 0.

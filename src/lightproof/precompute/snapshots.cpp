@@ -86,7 +86,7 @@ glm::dvec3 mean_radiance(const Grid<Rgb>& map) {
   return sum;
 }
 
-/// Over all texels, by solid angle, relative to the mean of the map in the worst channel.
+/// The error over all texels, by solid angle, relative to the mean of the map in the worst channel.
 LevelError error_of(const Grid<Rgb>& made, const Grid<Rgb>& exact, const glm::dvec3& mean) {
   const Extent extent = made.extent();
   glm::dvec3 sum(0.0);

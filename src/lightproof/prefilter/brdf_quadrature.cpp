@@ -134,8 +134,8 @@ GaussRule gauss_rule(int nodes) {
   return rule;
 }
 
-/// Of each view the w = cos(chi) at which the light on this meridian sets:
-/// tan(theta_h) = (s cos(phi) + sqrt(s^2 cos^2(phi) + mu^2))/mu, s the sine to the view.
+/// Sets for each view the w = cos(chi) at which the light on this meridian sets: tan(theta_h) = (s
+/// cos(phi) + sqrt(s^2 cos^2(phi) + mu^2))/mu, s the sine to the view.
 void set_least(BrdfViews& views, double azimuth_cosine, double alpha) {
   for (std::size_t i = 0; i < kViews; ++i) {
     const double mu = views.cosine[i];

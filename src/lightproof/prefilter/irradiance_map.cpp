@@ -24,7 +24,7 @@ class UpperNormals {
         teeth_(std::gcd(lattice.columns, normals.width)),
         combs_of_row_(normals.width / teeth_) {}
 
-  /// Turned by so many radians of longitude.
+  /// The combs turned by so many radians of longitude.
   std::vector<NormalComb> combs(double turned) const {
     std::vector<NormalComb> combs;
     for (int row = 0; row < (normals_.height + 1) / 2; ++row) {

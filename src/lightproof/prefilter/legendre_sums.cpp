@@ -66,7 +66,7 @@ namespace {
 HWY_EXPORT(nodes_together);
 HWY_EXPORT(add_all);
 
-/// Filled up with zeros to a multiple of `block`.
+/// The values, filled up with zeros to a multiple of `block`.
 std::vector<double> padded(std::span<const double> values, std::size_t block) {
   std::vector<double> copy(values.begin(), values.end());
   copy.resize((values.size() + block - 1) / block * block);

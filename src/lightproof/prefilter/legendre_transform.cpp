@@ -32,7 +32,7 @@ void next_sectoral(int order, std::span<const double> sines, const double* befor
   }
 }
 
-/// For all orders up to the degree, one after the other.
+/// The sectoral values for all orders up to the degree, one after the other.
 TableVector<double> sectoral_values(std::span<const double> sines, int degree) {
   TableVector<double> values(sines.size() * (static_cast<std::size_t>(degree) + 1));
   for (int m = 0; m <= degree; ++m) {
@@ -81,7 +81,7 @@ void BandTransform::set_edges() {
     for (std::size_t vector = 0; vector <= vectors_; ++vector) {
       for (std::size_t lane = 0; lane < lanes_; ++lane) {
         const auto edge = static_cast<double>((block * lanes_ + lane) * vectors_ + vector);
-        // Of empty slots both edges are the equator.
+        // Both edges of empty slots are the equator.
         const double t = std::min(edge / height_, 0.5);
         cosines_.push_back(std::sin(kPi * (0.5 - t)));
         squares_.push_back(sin_theta(t) * sin_theta(t));
@@ -102,7 +102,8 @@ void BandTransform::set_seeds() {
     for (std::size_t slot = 0; slot < slots(); ++slot) {
       const std::size_t upper = slot + slot / (vectors_ * lanes_) * lanes_;
       const std::size_t lower = upper + lanes_;
-      // By parts: the integral of sin^(m+1) over the angle, from the one of sin^(m-1).
+      // Integration by parts gives the integral of sin^(m+1) over the angle from the one of
+      // sin^(m-1).
       now[slot] = (cosines_[upper] * p[upper] - cosines_[lower] * p[lower]) / (m + 1.0);
       if (m == 1) {
         const double angle =

@@ -11,7 +11,7 @@
 namespace lightproof {
 namespace {
 
-/// Of the factors that fade by a power law there are at least so many.
+/// There are at least so many of the factors that fade by a power law.
 constexpr int kLeastDegree = 256;
 
 /// The degree at which the factors have fallen below the tolerance, by their asymptotic form:
@@ -42,7 +42,7 @@ bool fades_slowly(std::span<const double> factors) {
   return 9.0 * power(factors, factors.size() / 10 * 9) > kMost * kMost * power(factors, 0);
 }
 
-/// Without the last factors that are below the tolerance together.
+/// Drops the last factors that are below the tolerance together.
 void trim(std::vector<double>& factors, double whole) {
   double rest = 0.0;
   const double most = kHarmonicsTolerance * kHarmonicsTolerance * whole;
@@ -67,7 +67,7 @@ LobePlan sum_whole(const Lobe& lobe) {
   return plan;
 }
 
-/// Falls from 1 on the axis to 0 at `reach`, both to 1e-8.
+/// A window that falls from 1 on the axis to 0 at `reach`, both to 1e-8.
 double window(double angle, double reach) {
   return 0.5 * std::erfc(4.0 * (2.0 * angle / reach - 1.0));
 }
@@ -118,6 +118,28 @@ LobePlan split(const Lobe& lobe) {
   }
 }
 
+/// The share of a lobe that a clamped cosine has, if both reach the horizon with the same slope; 0
+/// of a lobe that ends with a jump, or with no slope at all.
+double cosine_share(const Lobe& lobe) {
+  constexpr double kNear = 1e-6;
+  const double slope = relative_density(lobe, kNear) / kNear;
+  const double beyond = relative_density(lobe, 2.0 * kNear) / (2.0 * kNear);
+  if (!(std::abs(beyond - slope) <= 1e-3 * slope)) return 0.0;
+  return slope * kPi / solid_angle(lobe);
+}
+
+/// Takes the slope at the horizon out of the factors, if more than a millionth of a sun's light
+/// were left out: the root mean square of a clamped cosine's factors beyond N is nearly N^(-3/2).
+void leave_slope_to_cosine(const Lobe& lobe, LobePlan& plan) {
+  constexpr double kMost = 1e-6;
+  const double share = cosine_share(lobe);
+  if (share * std::pow(static_cast<double>(plan.factors.size()), -1.5) < kMost) return;
+  const std::vector<double> cosine =
+      zonal_factors(PhongLobe{1.0}, static_cast<int>(plan.factors.size()) - 1);
+  for (std::size_t l = 0; l < cosine.size(); ++l) plan.factors[l] -= share * cosine[l];
+  plan.cosine_share = share;
+}
+
 }  // namespace
 
 LobePlan plan_lobe(const Lobe& lobe) {
@@ -128,7 +150,9 @@ LobePlan plan_lobe(const Lobe& lobe) {
   LobePlan plan;
   plan.factors = zonal_factors(lobe, std::max(static_cast<int>(std::ceil(fading)), kLeastDegree));
   if (fades_slowly(plan.factors)) return sum_whole(lobe);
-  trim(plan.factors, power(plan.factors, 0));
+  const double whole = power(plan.factors, 0);
+  leave_slope_to_cosine(lobe, plan);
+  trim(plan.factors, whole);
   return plan;
 }
 

@@ -8,6 +8,7 @@
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/prefilter/irradiance_map.h"
 #include "lightproof/prefilter/lobe_plan.h"
 #include "lightproof/prefilter/radiance_look_up.h"
 #include "lightproof/prefilter/resample.h"
@@ -40,7 +41,7 @@ Rgb radiance_of(glm::dvec3 value) { return Rgb(glm::max(value, 0.0)); }
 
 LobePlan plan_of(const Lobe& lobe, const PrefilterSettings& settings) {
   if (settings.method == PrefilterMethod::fast) return plan_lobe(lobe);
-  return {zonal_factors(lobe, settings.degree), {}, 0.0};
+  return {zonal_factors(lobe, settings.degree), {}};
 }
 
 /// Calls value(direction) for all of them.
@@ -112,7 +113,23 @@ std::vector<Grid<Rgb>> by_sampling(const Grid<Rgb>& map, std::span<const Prefilt
   return grids;
 }
 
-void add_local_sums(Grid<Rgb>& grid, const Grid<Rgb>& map, const LobePlan& plan) {
+/// For the closed form of irradiance.
+EnvironmentMap environment_of(const Grid<Rgb>& map) {
+  EnvironmentMap environment;
+  environment.radiance = map;
+  return environment;
+}
+
+void add_cosine(Grid<Rgb>& grid, const Grid<Rgb>& map, double share) {
+  const IrradianceMap irradiance = irradiance_map(environment_of(map), grid.extent());
+  for (std::size_t i = 0; i < grid.values().size(); ++i) {
+    grid.values()[i] =
+        Rgb(glm::dvec3(grid.values()[i]) + share / kPi * irradiance.irradiance.values()[i]);
+  }
+}
+
+void add_rest(Grid<Rgb>& grid, const Grid<Rgb>& map, const LobePlan& plan) {
+  if (plan.cosine_share > 0.0) add_cosine(grid, map, plan.cosine_share);
   if (plan.local) {
     const Grid<glm::dvec3> sums = local_sums(map, *plan.local, plan.local_share, grid.extent());
     for (std::size_t i = 0; i < sums.values().size(); ++i) {
@@ -135,7 +152,7 @@ std::vector<Grid<Rgb>> by_harmonics(const Grid<Rgb>& map, std::span<const Prefil
     filters.push_back({std::move(factors), levels[i].extent});
   }
   std::vector<Grid<Rgb>> grids = convolve(map, filters);
-  for (std::size_t i = 0; i < levels.size(); ++i) add_local_sums(grids[i], map, plans[i]);
+  for (std::size_t i = 0; i < levels.size(); ++i) add_rest(grids[i], map, plans[i]);
   return grids;
 }
 
@@ -159,10 +176,16 @@ std::vector<Rgb> by_harmonics(const Grid<Rgb>& map, const Lobe& lobe,
   }
   const ZonalFilter filter = {plan.factors, interpolation_grid(plan.factors.size())};
   const Grid<Rgb> grid = std::move(convolve(map, {&filter, 1}).front());
-  return at_all(directions, [&](Direction axis) {
-    const glm::dvec3 smooth = interpolate_smooth(grid, axis);
-    return plan.local ? smooth + local_sum(map, *plan.local, plan.local_share, axis) : smooth;
+  std::vector<Irradiance> cosine(directions.size(), Irradiance{glm::dvec3(0.0)});
+  if (plan.cosine_share > 0.0) cosine = irradiances(environment_of(map), directions);
+  std::vector<Rgb> values(directions.size());
+  parallel_for(directions.size(), [&](std::size_t i) {
+    glm::dvec3 value =
+        interpolate_smooth(grid, directions[i]) + plan.cosine_share / kPi * cosine[i].rgb;
+    if (plan.local) value += local_sum(map, *plan.local, plan.local_share, directions[i]);
+    values[i] = radiance_of(value);
   });
+  return values;
 }
 
 void check(const PrefilterSettings& settings) {

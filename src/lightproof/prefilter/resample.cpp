@@ -23,7 +23,7 @@ template <class Height>
 std::vector<Overlap> overlaps(int from, int to, const Height& height) {
   std::vector<Overlap> all;
   for (int i = 0; i < to; ++i) {
-    // Rounded outwards.
+    // The parts are rounded outwards.
     const auto first = static_cast<int>(std::int64_t{i} * from / to);
     const auto end = static_cast<int>((std::int64_t{i + 1} * from + to - 1) / to);
     Overlap overlap = {first, {}};
@@ -39,7 +39,7 @@ std::vector<Overlap> overlaps(int from, int to, const Height& height) {
   return all;
 }
 
-/// Proportional to the solid angle between two t; nothing cancels.
+/// A number proportional to the solid angle between two t, in which nothing cancels.
 double band(double low, double high) {
   return sin_theta(0.5 * (low + high)) * std::sin(0.5 * kPi * (high - low));
 }

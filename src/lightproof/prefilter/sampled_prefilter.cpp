@@ -22,7 +22,7 @@ glm::dvec3 sum_filtered(const MipPyramid& pyramid, std::span<const LobeSample> s
                         Direction axis) {
   const Frame frame = frame_around(axis);
   const Extent extent = pyramid.base().extent();
-  // Of a texel at the pole: below it, the texels of all levels shrink alike.
+  // This is the sine of a texel at the pole: below it, the texels of all levels shrink alike.
   const double least_sine = std::sin(0.5 * kPi / extent.height);
   const double texel_per_sine = 2.0 * kPi * kPi / static_cast<double>(extent.count());
   glm::dvec3 sum(0.0);

@@ -36,7 +36,8 @@ glm::dvec3 interpolate_smooth(const Grid<Rgb>& samples, Direction direction) {
   const auto along = lagrange_weights(at.t * height - 0.5 - row);
   glm::dvec3 sum(0.0);
   for (int j = 0; j < kPoints; ++j) {
-    // Round the meridian, which has twice as many rows: the second half of them lies opposite.
+    // The rows go round the meridian, which has twice as many: the second half of them lies
+    // opposite.
     const int place = (static_cast<int>(row) - 3 + j + 4 * height) % (2 * height);
     const bool beyond = place >= height;
     const int y = beyond ? 2 * height - 1 - place : place;

@@ -23,7 +23,7 @@ void check_degree(int degree) {
       fmt::format("harmonics up to degree {}: 0 to {} needed", degree, kLargestHarmonicDegree));
 }
 
-/// Of a function of the longitude, cos(m phi) and sin(m phi) for m from 0.
+/// The parts of a function of the longitude along cos(m phi) and sin(m phi), for m from 0.
 struct FourierTerm {
   glm::dvec3 cosine = glm::dvec3(0.0);
   glm::dvec3 sine = glm::dvec3(0.0);

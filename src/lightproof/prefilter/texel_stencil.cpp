@@ -35,7 +35,7 @@ double squared_sine_of_half(double angle) {
 
 /// The share of the square [-1,1]^2 of (u, v) where along u + across v < inside.
 double share_below(double inside, double along, double across) {
-  // Of a line along a side only the other number counts.
+  // For a line along a side only the other number counts.
   constexpr double kLeast = 1e-9;
   const double p = std::max(along, kLeast);
   const double q = std::max(across, kLeast);

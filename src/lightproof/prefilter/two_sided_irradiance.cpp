@@ -143,7 +143,7 @@ ChunkSums sums_of_rows(const EnvironmentMap& source, const FoldedLattice& lattic
   return sums;
 }
 
-/// Of all chunks, in their order.
+/// The sums of all chunks, added in their order.
 ChunkSums sums_of_all(const EnvironmentMap& source, const FoldedLattice& lattice,
                       std::span<const CombIntegrator> integrators) {
   const auto rows = static_cast<std::size_t>(lattice.rows());

@@ -17,7 +17,7 @@ void LightBatch::fill_from_material(std::size_t count, const Material& material,
        std::span(pdf_).first(count), std::span(reflected_cosine_).first(count)});
 }
 
-/// With density 1/4pi.
+/// The density is 1/4pi.
 void LightBatch::fill_from_sphere(std::size_t count) {
   uniform_directions(std::span(s_).first(count), std::span(u_).first(count),
                      {std::span(x_).first(count), std::span(y_).first(count),

@@ -83,7 +83,8 @@ struct Scene::Device {
 };
 
 Scene::Scene(SceneContent content) : content_(content), device_(std::make_unique<Device>()) {
-  // Without `threads=`: Embree would hold the whole process, not only itself, to that number.
+  // There is no `threads=` in here: Embree would hold the whole process, not only itself, to that
+  // number.
   device_->device = rtcNewDevice("set_affinity=0");
   if (device_->device == nullptr) throw std::runtime_error("Embree cannot create a device");
   device_->scene = rtcNewScene(device_->device);

@@ -25,6 +25,13 @@ std::string convergence_chart(const std::vector<ConvergenceRecord>& records);
 std::string small_convergence_chart(const std::vector<ConvergenceRecord>& records,
                                     const std::string& map, const std::string& scene);
 
+/// A heat map of the split sum's error over roughness and view angle, with its numbers, and lists
+/// to choose map and reflectance from. `records` is not empty.
+std::string split_sum_chart(const std::vector<SplitSumRecord>& records);
+
+/// A small one of one map and reflectance, with the same colours.
+std::string small_split_sum_chart(const std::vector<SplitSumRecord>& records);
+
 /// A chart of measured / predicted variance against predicted variance. Records without a ratio are
 /// left out.
 std::string variance_chart(const std::vector<ConvergenceRecord>& records);

@@ -91,7 +91,7 @@ Grid<Rgb> picture_of(const MapLevel& level, Projection projection) {
                        Rgb(std::numeric_limits<float>::infinity()));  // white at any exposure
 }
 
-/// By the level that is nearest to the environment map itself.
+/// The exposure of the level that is nearest to the environment map itself.
 double exposure_of(const MapLevels& map) {
   return grey_exposure(picture_of(map.levels.front(), map.projection));
 }

@@ -1,53 +1,16 @@
 #include "lightproof/report/csv.h"
 
-#include <fmt/format.h>
-
 #include <optional>
-#include <string_view>
 
+#include "lightproof/report/csv_row.h"
+#include "lightproof/report/findings.h"
 #include "lightproof/report/names.h"
 
 namespace lightproof {
 namespace {
 
-std::string field(const std::string& text);
-
-/// Whether a spreadsheet would take a text for a formula.
-bool looks_like_formula(std::string_view text) {
-  return !text.empty() && std::string_view("=+-@\t").find(text.front()) != std::string_view::npos;
-}
-
-/// A name that begins like a formula gets an apostrophe before it, which spreadsheets do not show.
-std::string field(std::string_view text) {
-  if (looks_like_formula(text)) return field("'" + std::string(text));
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
-std::string field(const std::string& text) { return field(std::string_view(text)); }
-std::string field(const char* text) { return field(std::string_view(text)); }
-std::string field(double value) { return fmt::format("{}", value); }
-std::string field(std::uint64_t value) { return std::to_string(value); }
-std::string field(int value) { return std::to_string(value); }
-std::string field(Extent extent) { return fmt::format("{}x{}", extent.width, extent.height); }
-
-template <class Value>
-std::string field(const std::optional<Value>& value) {
-  return value ? field(*value) : "";
-}
-
-template <class... Values>
-std::string row(const Values&... values) {
-  std::string line;
-  ((line += field(values), line += ','), ...);
-  line.back() = '\n';
-  return line;
-}
+using csv_parts::field;
+using csv_parts::row;
 
 template <class Record, class Value>
 std::optional<Value> member(const std::optional<Record>& record, Value Record::*value) {
@@ -167,6 +130,16 @@ std::string tables_csv(const std::vector<TableRecord>& records) {
   return csv;
 }
 
+std::string directions_csv(const std::vector<DirectionRecord>& records) {
+  std::string csv =
+      "sampler,map,width,height,density,order,ns_per_sample,times_baseline,share_of_limit\n";
+  for (const DirectionRecord& r : records) {
+    csv += row(r.sampler, r.map, r.extent.width, r.extent.height, r.density, r.order,
+               r.ns_per_sample, r.times_baseline, r.share_of_limit);
+  }
+  return csv;
+}
+
 std::string renders_csv(const std::vector<RenderRecord>& records) {
   std::string csv = "map,receiver,material,estimator,samples,width,height,rmse,seconds,picture\n";
   const std::vector<std::string> stems = render_stems(records);
@@ -184,6 +157,14 @@ std::string maps_csv(const std::vector<MapRecord>& records) {
     const Extent extent = r.map.radiance.extent();
     csv += row(r.map.name, r.source, extent.width, extent.height, r.mean_luminance, r.peak_ratio,
                r.effective_fraction, joined(r.map.notes));
+  }
+  return csv;
+}
+
+std::string split_sum_csv(const std::vector<SplitSumRecord>& records) {
+  std::string csv = "map,normal_reflectance,roughness,view_degrees,rmse,left_out\n";
+  for (const SplitSumRecord& r : records) {
+    csv += row(r.map, r.normal_reflectance, r.roughness, view_degrees(r), r.rmse, r.left_out);
   }
   return csv;
 }

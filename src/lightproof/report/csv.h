@@ -13,6 +13,7 @@
 #include "lightproof/results/published_comparison.h"
 #include "lightproof/results/render_record.h"
 #include "lightproof/results/self_test_result.h"
+#include "lightproof/results/split_sum_record.h"
 #include "lightproof/results/throughput_record.h"
 
 namespace lightproof {
@@ -32,12 +33,15 @@ std::string growth_csv(const std::vector<GrowthFit>& growth);
 std::string build_csv(const std::vector<ThroughputRecord>& records);
 /// Tables: one row per sampler and map size, with time, bytes and error of the worst texel.
 std::string tables_csv(const std::vector<TableRecord>& records);
+std::string directions_csv(const std::vector<DirectionRecord>& records);
 /// Renders: one row per picture.
 std::string renders_csv(const std::vector<RenderRecord>& records);
 /// Mutants: one row per mutant and test that rejects it.
 std::string mutants_csv(const std::vector<KillRecord>& mutants);
 /// Maps: one row per map.
 std::string maps_csv(const std::vector<MapRecord>& records);
+/// The split sum's error: one row per map, reflectance, roughness and view angle.
+std::string split_sum_csv(const std::vector<SplitSumRecord>& records);
 /// A line for each published form that is wrong or incomplete.
 std::string published_csv(const std::vector<PublishedComparison>& comparisons);
 

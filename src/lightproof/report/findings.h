@@ -93,6 +93,22 @@ std::string render_finding(const std::vector<const RenderRecord*>& scene);
 /// Which estimator wins how often over all scenes. `renders` is not empty.
 std::string renders_finding(const std::vector<RenderRecord>& renders);
 
+/// How far the split sum is off at most, and how often it is visibly so. `records` is not empty.
+std::string split_sum_finding(const std::vector<SplitSumRecord>& records);
+
+/// A record's angle between view and normal in degrees.
+double view_degrees(const SplitSumRecord& record);
+
+/// An error in percent, "12.3 %"; below 0.01 % only that.
+std::string percent_text(double fraction);
+
+/// The error of a record in percent, with a "at least" sign where detail that is left out may add
+/// to it.
+std::string split_sum_text(const SplitSumRecord& record);
+
+/// A number without zeros at its end: "0.04".
+std::string plain_number(double value);
+
 /// What the effective fraction means for this map, with the variance of uniform sampling.
 std::string map_finding(const MapRecord& map);
 

@@ -36,7 +36,7 @@ std::vector<std::string> samplers_of(const GateResult& gate, const Judged& judge
   return unique_names(names);
 }
 
-/// Those of which a test ended so.
+/// The samplers of which a test ended so.
 std::vector<std::string> samplers_with(const GateResult& gate, const Judged& judged,
                                        Outcome outcome) {
   return samplers_of(

@@ -230,7 +230,7 @@ constexpr std::string_view kLegend =
 
 }  // namespace
 
-std::string gate_section(const GateResult& gate) {
+std::string gate_section(const GateResult& gate, const std::string& directions_origin) {
   std::string html = "<section id=\"gate\">\n<h2>Gate</h2>\n";
   if (gate.tests.empty()) {
     return html + paragraph("No test was run: run `lightproof gate` on these maps.", "empty") +
@@ -240,6 +240,11 @@ std::string gate_section(const GateResult& gate) {
   const SplitGate split = split_gate(gate, false);
   html +=
       paragraph(kLegend, "note") + verdicts(split.deciding) + demonstration(split.known_defects);
+  if (!directions_origin.empty()) {
+    html += paragraph(
+        fmt::format("Warps and materials, which need no map: tested by this program on {}.",
+                    directions_origin));
+  }
   html += collapsible("What each kind of test could have seen", sight_table(gate));
   html += collapsible(fmt::format("All {}", counted(gate.tests.size(), "test")),
                       test_table(gate, "All tests", [](const TestRecord&) { return true; }));

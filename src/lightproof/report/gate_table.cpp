@@ -108,7 +108,7 @@ std::string all_lines(const GateResult& gate, Colour colour) {
          diagnosis_lines(gate);
 }
 
-/// Without colours, which mean a verdict.
+/// The results on samplers with known defects, without colours, which mean a verdict.
 std::string demonstration_lines(const GateResult& known_defects) {
   if (known_defects.tests.empty()) return "";
   return fmt::format("\n{}\n", kDemonstration) + all_lines(known_defects, Colour::off);

@@ -1,10 +1,12 @@
 #include "lightproof/report/json.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "lightproof/report/ci_outputs.h"
+#include "lightproof/report/findings.h"
 #include "lightproof/report/gate_summary.h"
+#include "lightproof/report/json_number.h"
+#include "lightproof/report/measured_json.h"
 #include "lightproof/report/names.h"
 
 namespace lightproof {
@@ -12,13 +14,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// NaN is left to the library, which writes null. JSON has no infinity: readers who compare with a
-/// threshold get a number beyond any.
-Json number(double value) { return std::clamp(value, -1e308, 1e308); }
+using json_parts::number;
 
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
-
-Json json_of(Extent extent) { return Json::array({extent.width, extent.height}); }
+Json json_of(Extent extent) { return json_parts::size(extent); }
 
 Json json_of(const FittedExponent& fit) {
   return {{"value", number(fit.value)}, {"error", number(fit.error)}};
@@ -49,6 +47,24 @@ Json json_of(const PublishedComparison& c) {
           {"corrected", number(c.corrected)}};
 }
 
+Json json_of(const PublishedPicture& p) {
+  return {{"system", p.system},
+          {"what", p.what},
+          {"size", json_of(p.exact.extent())},
+          {"published_rmse", number(p.published_rmse)},
+          {"corrected_rmse", number(p.corrected_rmse)},
+          {"noise", number(p.noise)}};
+}
+
+Json json_of(const SplitSumRecord& r) {
+  return {{"map", r.map},
+          {"normal_reflectance", number(r.normal_reflectance)},
+          {"roughness", number(r.roughness)},
+          {"view_degrees", number(view_degrees(r))},
+          {"rmse", number(r.rmse)},
+          {"left_out", number(r.left_out)}};
+}
+
 Json json_of(const TestRecord& t) {
   return {{"sampler", t.sampler},
           {"density", t.density_space},
@@ -76,6 +92,7 @@ Json json_of(const ConvergencePoint& p);
 Json json_of(const ConvergenceRecord& r);
 Json json_of(const ThroughputRecord& r);
 Json json_of(const TableRecord& r);
+Json json_of(const DirectionRecord& r);
 Json json_of(const GrowthFit& fit);
 Json json_of(const StepTime& step);
 Json json_of(const MapRecord& r);
@@ -186,6 +203,17 @@ Json json_of(const TableRecord& r) {
           {"ns_per_sample", number(r.ns_per_sample)},
           {"bytes_per_texel", number(r.bytes_per_texel)},
           {"worst_texel_error", number(r.worst_texel_error)},
+          {"times_baseline", number(r.times_baseline)},
+          {"share_of_limit", number(r.share_of_limit)}};
+}
+
+Json json_of(const DirectionRecord& r) {
+  return {{"sampler", r.sampler},
+          {"map", r.map},
+          {"size", json_of(r.extent)},
+          {"density", r.density},
+          {"order", r.order},
+          {"ns_per_sample", number(r.ns_per_sample)},
           {"times_baseline", number(r.times_baseline)},
           {"share_of_limit", number(r.share_of_limit)}};
 }
@@ -337,12 +365,19 @@ std::string study_json(const StudyResult& study, const RunDescription& run) {
                   {"gate", json_of(study.gate, verdict)},
                   {"self_test", self_test_json(study.self_test)},
                   {"published_forms", list_of(study.published_forms)},
+                  {"frames", frames_json(study.frames)},
+                  {"points", points_json(study.points)},
+                  {"level_costs", level_costs_json(study.level_costs)},
+                  {"published_pictures", list_of(study.published_pictures)},
+                  {"split_sum", list_of(study.split_sum)},
                   {"convergence", list_of(study.convergence)},
                   {"throughput", list_of(study.throughput)},
                   {"throughput_origin", study.throughput_origin},
+                  {"directions_origin", study.directions_origin},
                   {"caches", {{"l2", number(study.caches.l2)}, {"l3", number(study.caches.l3)}}},
                   {"growth", list_of(study.growth)},
                   {"tables", list_of(study.tables)},
+                  {"directions", list_of(study.directions)},
                   {"renders", renders_json(study.renders)}});
 }
 

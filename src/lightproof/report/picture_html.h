@@ -17,6 +17,9 @@ inline constexpr std::array<int, 3> kStops = {-3, 0, 3};
 /// those who cannot see it.
 std::string image_html(const Grid<Rgb>& encoded, std::string_view alternative);
 
+/// The colours of diverging_picture() with their numbers.
+std::string colour_bar_html(double range);
+
 /// The picture at each of kStops from the exposure of `scale`, each with its caption, in a <div> of
 /// the class "exposures". `name` is plain text, for those who cannot see it.
 std::string exposures_html(const Grid<Rgb>& linear, double scale, std::string_view name);

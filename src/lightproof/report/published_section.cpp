@@ -7,6 +7,7 @@
 #include "lightproof/page/html.h"
 #include "lightproof/page/numbers.h"
 #include "lightproof/report/csv.h"
+#include "lightproof/report/published_pictures.h"
 #include "lightproof/report/sections.h"
 
 namespace lightproof {
@@ -17,7 +18,7 @@ constexpr std::string_view kIntroduction =
     "corrected. Each row computes one quantity whose exact value is known by both forms. "
     "`lightproof list systems` names the documents and the tests.";
 
-/// Relative to the exact value, or absolute where that is 0.
+/// The error relative to the exact value, or absolute where that is 0.
 double error_of(double value, double exact) { return exact == 0.0 ? value : value / exact - 1.0; }
 
 Cell error_cell(double value, double exact) {
@@ -55,7 +56,8 @@ std::string table_of(const std::vector<PublishedComparison>& comparisons) {
 
 }  // namespace
 
-std::string published_section(const std::vector<PublishedComparison>& comparisons) {
+std::string published_section(const std::vector<PublishedComparison>& comparisons,
+                              const std::vector<PublishedPicture>& pictures) {
   std::string html = "<section id=\"published\">\n<h2>What do published forms get wrong?</h2>\n";
   if (comparisons.empty()) {
     return html + paragraph("No published forms were computed in this study.", "empty") +
@@ -63,7 +65,7 @@ std::string published_section(const std::vector<PublishedComparison>& comparison
   }
   return html + paragraph(finding(comparisons), "note") + paragraph(kIntroduction, "note") +
          table_of(comparisons) + download_link("published.csv", published_csv(comparisons)) +
-         "</section>\n";
+         published_pictures_html(pictures) + "</section>\n";
 }
 
 }  // namespace lightproof

@@ -1,8 +1,6 @@
 // Renders at equal numbers of samples, with their signed errors.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include <vector>
 
 #include "lightproof/page/html.h"
@@ -35,24 +33,6 @@ std::string estimator_figure(const RenderRecord& r, double scale, double range) 
       counted(r.samples, "sample"));
 }
 
-std::string hex(Rgb colour) {
-  const auto byte = [](float v) { return static_cast<int>(std::lround(v * 255.0F)); };
-  return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.r), byte(colour.g), byte(colour.b));
-}
-
-std::string colour_bar(double range) {
-  return fmt::format(
-      "<div class=\"colour-bar\"><svg viewBox=\"0 0 100 6\" preserveAspectRatio=\"none\" "
-      "role=\"img\" aria-label=\"Colour scale from {0} (blue) over 0 (white) to {1} (red)\">"
-      "<defs><linearGradient id=\"signed\"><stop offset=\"0\" stop-color=\"{2}\"/>"
-      "<stop offset=\".5\" stop-color=\"{3}\"/><stop offset=\"1\" stop-color=\"{4}\"/>"
-      "</linearGradient></defs><rect width=\"100\" height=\"6\" fill=\"url(#signed)\"/></svg>"
-      "<p><span>\u2264 {0}<br>too dark</span><span>0</span><span>\u2265 {1}<br>too bright</span>"
-      "</p></div>\n",
-      format_number(-range, 1), "+" + format_number(range, 1), hex(diverging_colour(-range, range)),
-      hex(diverging_colour(0.0, range)), hex(diverging_colour(range, range)));
-}
-
 std::string reference_text(const RenderRecord& r) {
   if (r.reference_samples == 0) return "";
   return fmt::format("<br>{} per pixel; its own noise counts in every RMSE",
@@ -72,7 +52,7 @@ std::string scene_html(const Scene& scene) {
   html +=
       fmt::format("<figure>{}\n{}<figcaption><strong>Reference</strong>{}</figcaption></figure>\n",
                   image_html(tone_mapped(first.reference, scale), "Reference picture"),
-                  colour_bar(range), reference_text(first));
+                  colour_bar_html(range), reference_text(first));
   for (const RenderRecord* r : scene) html += estimator_figure(*r, scale, range);
   return html + "</div>\n";
 }

@@ -8,6 +8,7 @@
 #include "lightproof/image/writer.h"
 #include "lightproof/report/csv.h"
 #include "lightproof/report/json.h"
+#include "lightproof/report/measured_csv.h"
 #include "lightproof/report/names.h"
 #include "lightproof/report/pictures.h"
 #include "lightproof/report/report_page.h"
@@ -48,9 +49,17 @@ NamedTables tables_of(const StudyResult& study) {
           {"growth.csv", growth_csv(study.growth)},
           {"build.csv", build_csv(study.throughput)},
           {"tables.csv", tables_csv(study.tables)},
+          {"directions.csv", directions_csv(study.directions)},
           {"renders.csv", renders_csv(study.renders)},
           {"maps.csv", maps_csv(study.maps)},
+          {"split_sum.csv", split_sum_csv(study.split_sum)},
           {"published.csv", published_csv(study.published_forms)},
+          {"frames.csv", frames_csv(study.frames)},
+          {"points.csv", point_errors_csv(study.points.rates)},
+          {"discrepancy.csv", discrepancy_csv(study.points.discrepancies)},
+          {"decay.csv", decay_csv(study.points.decay)},
+          {"levels.csv", level_costs_csv(study.level_costs.levels)},
+          {"thread-gains.csv", thread_gains_csv(study.level_costs.gains)},
           {"mutants.csv", mutants_csv(self_test.mutants)}};
 }
 

@@ -8,13 +8,19 @@
 namespace lightproof {
 
 std::string overview_section(const StudyResult& study);
-std::string gate_section(const GateResult& gate);
+/// `directions_origin`: of the tests of warps and materials; empty if it is not known.
+std::string gate_section(const GateResult& gate, const std::string& directions_origin);
 std::string self_test_section(const std::optional<SelfTestResult>& self_test);
 std::string map_section(const std::vector<MapRecord>& maps);
 std::string convergence_section(const std::vector<ConvergenceRecord>& records);
 std::string variance_section(const std::vector<ConvergenceRecord>& records);
 std::string throughput_section(const StudyResult& study);
 std::string render_section(const std::vector<RenderRecord>& renders);
-std::string published_section(const std::vector<PublishedComparison>& comparisons);
+std::string frame_section(const std::vector<FrameErrorRecord>& frames);
+std::string point_section(const PointStudy& points);
+std::string level_cost_section(const LevelCosts& costs);
+std::string split_sum_section(const std::vector<SplitSumRecord>& records);
+std::string published_section(const std::vector<PublishedComparison>& comparisons,
+                              const std::vector<PublishedPicture>& pictures);
 
 }  // namespace lightproof

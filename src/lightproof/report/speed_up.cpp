@@ -73,7 +73,7 @@ std::string baseline_name(const StudyResult& study) {
   return slowest(study.throughput)->sampler;
 }
 
-/// Ascending by size.
+/// The speed-ups, ascending by size.
 std::vector<SpeedUp> speed_ups(const std::vector<ThroughputRecord>& records,
                                const std::string& fastest, const std::string& baseline) {
   std::vector<SpeedUp> factors;

@@ -7,6 +7,7 @@
 #include "lightproof/page/numbers.h"
 #include "lightproof/report/charts.h"
 #include "lightproof/report/csv.h"
+#include "lightproof/report/directions_figure.h"
 #include "lightproof/report/findings.h"
 #include "lightproof/report/sections.h"
 
@@ -201,7 +202,8 @@ std::string throughput_section(const StudyResult& study) {
          chart_figure(chart, collapsible("Times as a table", throughput_table(study.throughput)) +
                                  download_link("throughput.csv", throughput_csv(study.throughput)) +
                                  growth_table(study.growth, study.caches)) +
-         build_figure(study) + table_figures(study.tables) + "</section>\n";
+         build_figure(study) + table_figures(study.tables) + directions_figure(study.directions) +
+         "</section>\n";
 }
 
 }  // namespace lightproof

@@ -53,7 +53,7 @@ Json unit_rule() {
           {"encoding", {{"y", {{"field", "one"}, {"type", "quantitative"}}}}}};
 }
 
-/// From 0: an error bar that reaches below says no more than that.
+/// The axis starts at 0: an error bar that reaches below says no more than that.
 Json ratio_axis(const std::string& field) {
   Json y = quantity(field, "measured / predicted variance", "linear");
   y["scale"]["domainMin"] = 0;

@@ -33,6 +33,23 @@ struct TableRecord {
   double share_of_limit = 0.0;     ///< speed over that of a bare gather; 0 if it is that itself
 };
 
+/// What a direction with its density per steradian costs, which is what a renderer asks for: a row
+/// of the benchmark of directions.
+struct DirectionRecord {
+  std::string sampler;
+  std::string map;
+  Extent extent;
+  std::string density;  ///< "A", "B" or "C"
+  /// "scalar": one at a time, at random points that are given. "fused": in batches, random numbers
+  /// included.
+  std::string order;
+  double ns_per_sample = 0.0;   ///< median over repetitions
+  double times_baseline = 0.0;  ///< speed over that of the usual way; 0 if it is that itself
+  /// Speed over that of a bare gather with a square root, a sine and a cosine; 0 if it is that
+  /// itself, or one at a time.
+  double share_of_limit = 0.0;
+};
+
 /// Sizes in bytes of the caches that a core of the measured machine reads through, as its system
 /// reports them; empty where it does not.
 struct CacheSizes {

@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lightproof::HWY_NAMESPACE {
 namespace {
 
-/// Whole vectors from the front; returns how many entries that were.
+/// Computes whole vectors from the front; returns how many entries that were.
 #if HWY_TARGET == HWY_SCALAR
 
 std::size_t entries_front(const AliasRun& /*run*/, double /*unit*/, float /*alias_mass*/,

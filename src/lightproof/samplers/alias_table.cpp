@@ -28,7 +28,7 @@ void for_blocks(const CellWeights& weights, std::size_t first, std::size_t end, 
   }
 }
 
-/// Of weights that are positive; some are less than a unit.
+/// What is known of the positive weights, some of which are less than a unit.
 struct Bright {
   std::size_t faint = 0;  ///< how many of the others
   double sum = 0.0;
@@ -85,7 +85,7 @@ Scale scale_of(const CellWeights& weights, std::uint64_t total) {
   return {bits, std::ldexp(shared, static_cast<int>(bits)) / bright.sum};
 }
 
-/// Of the cells of a task.
+/// What rounding the masses of the cells of a task gave.
 struct Rounded {
   std::size_t largest;  ///< cell
   std::int64_t sum;     ///< of the masses

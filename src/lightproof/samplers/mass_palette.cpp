@@ -22,7 +22,7 @@ constexpr std::size_t kParts = 16;
 constexpr std::size_t kOwnMasses = 1024;
 constexpr unsigned kMostDigits = 12;
 
-/// Of a mass; 1 for none too.
+/// The bits of a mass; 1 for none too.
 unsigned bits_of(std::uint64_t mass) { return static_cast<unsigned>(std::bit_width(mass | 1U)); }
 
 /// Masses cut to so many binary digits, numbered from 0 in ascending order.
@@ -33,7 +33,7 @@ class Steps {
   /// log2 of the step of masses with so many bits.
   unsigned step(unsigned bits) const { return std::max(bits, digits_) - digits_; }
   std::size_t key(std::uint64_t mass) const { return key(mass, bits_of(mass)); }
-  /// Of a mass with so many bits, or of the first that has one more.
+  /// The key of a mass with so many bits, or of the first that has one more.
   std::size_t key(std::uint64_t mass, unsigned bits) const {
     const unsigned s = step(bits);
     return (static_cast<std::size_t>(s) << (digits_ - 1)) + (mass >> s);
@@ -149,7 +149,7 @@ ByBits carry_on(std::span<ByBits> sums, const Steps& steps) {
   return carry;
 }
 
-/// Which keys are in use; from several threads.
+/// Which keys are in use; several threads may set them.
 class Marks {
  public:
   explicit Marks(std::size_t count) : marks_(count) {}

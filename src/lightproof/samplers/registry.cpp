@@ -67,7 +67,7 @@ MassRounding of_levels(Extent map) {
   return {.relative = 0x1p-22 * (2.0 + std::log2(std::max(map.width, map.height)))};
 }
 
-constexpr std::array<SamplerInfo, 11> kSamplers = {{
+constexpr auto kSamplers = std::to_array<SamplerInfo>({
     {.name = "linear_scan_published",
      .source = "lecture \"Image-based Lighting\", GLSL listing",
      .growth = "S + T",
@@ -196,7 +196,7 @@ constexpr std::array<SamplerInfo, 11> kSamplers = {{
      .known_defects = false,
      .inverts_shared_cdf = false,
      .make = make<Bilinear, kRec709, Lookup::bilinear>},
-}};
+});
 
 }  // namespace
 

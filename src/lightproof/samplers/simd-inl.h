@@ -242,6 +242,7 @@ class PositionKernel {
     Mask upper;           ///< whether the nearer pole is the zenith
     Number row;           ///< counted from it
     Int line;             ///< index of the row's line, in doubles
+    Number span;          ///< of the row's line
     Number squared_sine;  ///< squared sine of half the angle
     Number sine;
     Number cosine;
@@ -259,17 +260,17 @@ class PositionKernel {
                                number(1.0 - SolidAngleRows::kMargin));
     static_assert(sizeof(SolidAngleRows::Line) == 4 * sizeof(double));
     const Int line = hn::ShiftLeft<2>(to_whole(row));
-    const Number squared = hn::Add(of_line(line, &SolidAngleRows::Line::squared_sine),
-                                   hn::Mul(f, of_line(line, &SolidAngleRows::Line::span)));
+    const Number span = of_line(line, &SolidAngleRows::Line::span);
+    const Number squared =
+        hn::Add(of_line(line, &SolidAngleRows::Line::squared_sine), hn::Mul(f, span));
     const Number rest = hn::Sub(number(1.0), squared);
     const Number sine = hn::Mul(number(2.0), hn::Sqrt(hn::Mul(squared, rest)));
-    return {upper, row, line, squared, sine, hn::Sub(rest, squared)};
+    return {upper, row, line, span, squared, sine, hn::Sub(rest, squared)};
   }
 
   /// Per steradian.
   HWY_INLINE Number density_by_solid_angle(const Place& place, Number mass) const {
-    return hn::Div(
-        mass, hn::Mul(number(view_.solid_angle), of_line(place.line, &SolidAngleRows::Line::span)));
+    return hn::Div(mass, hn::Mul(number(view_.solid_angle), place.span));
   }
 
   HWY_INLINE Number position_by_solid_angle(Number y, const Place& place) const {

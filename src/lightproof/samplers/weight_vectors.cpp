@@ -182,7 +182,7 @@ HWY_EXPORT(sum_front);
 HWY_EXPORT(to_fixed_point_front);
 HWY_EXPORT(balance_front);
 
-/// In the order of a vector of eight.
+/// The combination in the order of a vector of eight.
 template <class T, class Combine>
 T combined(const std::array<T, WeightSums::kLanes>& lanes, const Combine& combine) {
   return combine(combine(combine(lanes[0], lanes[1]), combine(lanes[2], lanes[3])),

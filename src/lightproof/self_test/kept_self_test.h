@@ -2,10 +2,9 @@
 // names of mutants on the map as well, and none of it changes until one of these does.
 #pragma once
 
-#include <filesystem>
 #include <span>
-#include <string>
 
+#include "lightproof/core/kept_measurement.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/results/map_record.h"
 #include "lightproof/results/self_test_result.h"
@@ -13,20 +12,11 @@
 
 namespace lightproof {
 
-/// Where self-tests are kept, and of which program.
-struct SelfTestCache {
-  std::filesystem::path folder;  ///< empty: nothing is kept
-  std::filesystem::path
-      program;                 ///< the one that tests itself; nothing is kept if it is unreadable
-  std::string commit;          ///< that it was built from; empty if it is not known
-  bool measure_again = false;  ///< whatever is kept
-};
-
 /// What run_self_test() measures, with its origin: what the cache holds of this program, to the
 /// last byte, on this machine, with this compiler and commit, these options and (for the names of
 /// mutants) a map of this name and content; the rest is measured, and kept. Damaged files are
 /// replaced.
 SelfTestResult kept_self_test(std::span<const MapRecord> maps, const SelfTestOptions& options,
-                              const SelfTestCache& cache, const Progress& progress = {});
+                              const MeasurementCache& cache, const Progress& progress = {});
 
 }  // namespace lightproof

@@ -211,7 +211,7 @@ constexpr std::array kMutants = {
            .diagnosis = "other-measure-in-texel",
            .oracle = Oracle::reference,
            .sample = defects::change_measure},
-    // Of our own.
+    // The following mutants are our own.
     Mutant{.name = "columns-of-next-row",
            .defect = "columns drawn from the next row's sums",
            .diagnosis = "columns-of-next-row",

@@ -45,7 +45,7 @@ std::vector<TestCase> test_cases_for_all_seeds(
   return test_cases;
 }
 
-/// Of every mutant, before any run.
+/// The records of every mutant, before any run.
 std::vector<NamingRecord> no_runs() {
   std::vector<NamingRecord> records;
   for (const Mutant& mutant : mutants()) {

@@ -123,8 +123,8 @@ std::vector<Injection> injections_of_cells() {
            }}};
 }
 
-/// Of k equally likely cells a share e of all samples moved into one, or onto a diagonal, makes an
-/// effect of e sqrt(k - 1).
+/// The share e of all samples that makes this effect, e sqrt(k - 1), if it is moved into one of k
+/// equally likely cells, or onto a diagonal.
 double share_of(double effect, int cells) { return effect / std::sqrt(cells - 1.0); }
 
 /// s of a sample is that of the one `lag` before it, for so many that the share of all pairs is
@@ -176,7 +176,8 @@ std::vector<Injection> injections_of_positions() {
   std::vector<Injection> injections = {
       {TestId::transformed_pair,
        [](double effect) {
-         // In the quarters of the square on the diagonal, which no pool of bins spans.
+         // The samples are moved into the quarters of the square on the diagonal, which no pool of
+         // bins spans.
          const double share = share_of(effect, 2);
          return changed_trial({.points = [share](std::vector<SquarePoint>& points) {
            for (SquarePoint& u : points) {

@@ -16,7 +16,8 @@ namespace {
 
 /// Simulated series that a series is ranked among, at the least.
 constexpr std::size_t kLeastSimulated = 9999;
-/// Those that may step as clearly as one that is told from them at Holm's strictest level.
+/// The number of lines that may step as clearly as one that is told from them at Holm's strictest
+/// level.
 constexpr double kRanksAtLevel = 4.0;
 
 double median_of(std::span<const double> values) { return median({values.begin(), values.end()}); }

@@ -22,7 +22,8 @@ using Vector = std::vector<double>;
 constexpr std::size_t kBeyond = 2;
 /// Straight lines that a line is ranked among, at the least.
 constexpr std::size_t kLeastStraight = 9999;
-/// Those that may bend as clearly as one that is told from them at Holm's strictest level.
+/// The number of lines that may bend as clearly as one that is told from them at Holm's strictest
+/// level.
 constexpr double kRanksAtLevel = 4.0;
 
 double product(const Vector& a, const Vector& b) {
@@ -107,7 +108,7 @@ Candidate with_two_breakpoints(const Candidate& first, const Candidate& second) 
           {along, of_length_one(across)}};
 }
 
-/// Those with one breakpoint, then those with two.
+/// The lines with one breakpoint, then those with two.
 std::vector<Candidate> candidates_of(const Vector& x) {
   std::vector<Candidate> candidates;
   for (const std::size_t place : places_of(x)) candidates.push_back(with_one_breakpoint(x, place));
@@ -225,7 +226,7 @@ class Bends {
  private:
   static constexpr std::size_t kChunk = 256;
 
-  /// Of the smallest p-value of all candidates among those of straight lines.
+  /// The rank of the smallest p-value of all candidates among those of straight lines.
   double rank_of(double p_value) const {
     const auto as_clear = std::ranges::upper_bound(straight_, p_value) - straight_.begin();
     return static_cast<double>(as_clear + 1) / static_cast<double>(straight_.size() + 1);

@@ -39,7 +39,7 @@ double log_e(std::span<const double> probability, std::span<const std::uint64_t>
     deviances += half_deviance(n + c * p, (samples + c) * p, std::fma(-samples, p, n));
     remainders += log_rising_remainder(n, c * p);
   }
-  // Of an empty cell o / e = c / (N + c), whatever its p.
+  // In an empty cell o / e = c / (N + c), whatever its p.
   deviances += empty * half_deviance(c, samples + c, -samples);
   return deviances + (remainders - log_rising_remainder(samples, c));
 }

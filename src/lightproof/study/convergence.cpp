@@ -65,7 +65,7 @@ class PixelEstimator {
     return is_mean ? sum / static_cast<double>(count) : luminance_of(estimate, weights_);
   }
 
-  /// Of all single estimates so far.
+  /// The moments of all single estimates so far.
   const Moments& single() const { return single_; }
 
  private:
@@ -109,7 +109,7 @@ struct Line {
   std::vector<reference::EstimatorMoments> exact;
   int replicates;
 
-  /// Of its cell of work, and of its random numbers.
+  /// The key of its cell of work, and of its random numbers.
   std::string key() const {
     return fmt::format("convergence/{}/{}/{}/{}", map->name, receiver->name, material->name,
                        info->name);

@@ -18,7 +18,7 @@ constexpr std::size_t kLeastPoints = 3;
 double sides(Extent extent) { return extent.width + extent.height; }
 double texels(Extent extent) { return static_cast<double>(extent.count()); }
 
-/// Ascending sizes.
+/// The sampler's records, ascending by size.
 std::vector<ThroughputRecord> records_of(std::string_view sampler,
                                          std::span<const ThroughputRecord> records) {
   std::vector<ThroughputRecord> own;
@@ -43,7 +43,8 @@ std::optional<FittedExponent> exponent_of(const std::vector<PowerLawPoint>& poin
   return FittedExponent{fit.exponent, fit.exponent_error * std::sqrt(variance)};
 }
 
-/// Of what a record holds against what its size is; values that are not positive are left out.
+/// The exponent of what a record holds against what its size is; values that are not positive are
+/// left out.
 std::optional<FittedExponent> exponent_of(const std::vector<ThroughputRecord>& records,
                                           double ThroughputRecord::*cost, double (*size)(Extent)) {
   std::vector<PowerLawPoint> points;

@@ -10,6 +10,8 @@
 #include "lightproof/image/map_figures.h"
 #include "lightproof/samplers/binary_search.h"
 #include "lightproof/study/growth.h"
+#include "lightproof/study/kept_directions.h"
+#include "lightproof/study/split_sum.h"
 
 namespace lightproof {
 namespace {
@@ -37,6 +39,7 @@ MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed) {
 void set_throughput(StudyResult& study, Throughput measured) {
   study.throughput = std::move(measured.samplers);
   study.tables = std::move(measured.tables);
+  study.directions = std::move(measured.directions);
   study.caches = measured.caches;
   study.throughput_origin = std::move(measured.origin);
   study.growth = growth_of(study.throughput, study.caches);
@@ -58,10 +61,14 @@ StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& opti
   for (const EnvironmentMap& map : maps) {
     result.maps.push_back(describe_map(map, options.gate.seed));
   }
+  const KeptMeasurement<ScreenedRuns> directions =
+      kept_directions(options.gate, options.cache, part_of(progress, gate_start, 0.2));
+  result.directions_origin = directions.origin;
   result.gate = run_gate(test_cases_of(maps, all_samplers_under_test(), direction_samplers()),
-                         options.gate, part_of(progress, gate_start, 0.5));
+                         options.gate, part_of(progress, 0.2, 0.5), {}, directions.value);
   result.convergence = study_convergence(maps, options.convergence, part_of(progress, 0.5, 0.93));
-  result.renders = study_renders(maps, options.renders, part_of(progress, 0.93, 1.0));
+  result.renders = study_renders(maps, options.renders, part_of(progress, 0.93, 0.98));
+  result.split_sum = study_split_sum(maps, {}, part_of(progress, 0.98, 1.0));
   return result;
 }
 

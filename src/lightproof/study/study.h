@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "lightproof/core/kept_measurement.h"
 #include "lightproof/gate/gate.h"
 #include "lightproof/results/study_result.h"
 #include "lightproof/study/convergence.h"
@@ -19,6 +20,8 @@ struct StudyOptions {
   RenderOptions renders;
   /// Where throughput is measured; none: it is left out.
   std::optional<ThroughputSource> throughput;
+  /// Where the gate's first stage of warps and materials is kept, which no map changes.
+  MeasurementCache cache = {};
 };
 
 /// A map's figures and some hundred points that binary_search draws from it.
@@ -27,7 +30,8 @@ MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed);
 /// Puts what was measured into the study, and how it grows.
 void set_throughput(StudyResult& study, Throughput measured);
 
-/// Runs the gate, measures convergence, renders and, if it is asked for, throughput.
+/// Runs the gate, measures convergence, renders, the error of the split sum and, if it is asked
+/// for, throughput.
 StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& options,
                       const Progress& progress = {});
 

@@ -24,6 +24,12 @@ namespace {
 constexpr std::uint64_t kSmallestWidth = 256;
 /// Where bytes and errors of tables are compared.
 constexpr std::string_view kTableSize = "2048x1024";
+/// Samplers whose directions are timed: those that take the same few steps on any map, the usual
+/// way and the limit.
+constexpr std::string_view kDirectionRows =
+    "alias|packed_alias|alias_lines|guide_table|guide_lines|upper_bound_baseline|bare_gather_2B";
+/// Wall time over processor time from which a machine was busy with other work, as in bench/.
+constexpr double kBusyRatio = 1.1;
 
 /// The repetitions of one benchmark.
 struct Group {
@@ -64,7 +70,7 @@ struct SampleName {
   std::string order;
 };
 
-/// Nothing for benchmarks of other things.
+/// The parts of a benchmark's name; none for benchmarks of other things.
 std::optional<SampleName> sample_name(const std::string& name) {
   const std::vector<std::string> parts = split(name, '/');
   if (parts.size() != 5 || parts[0] != "sample") return std::nullopt;
@@ -103,6 +109,39 @@ TableRecord table_of(const SampleName& name, const std::vector<nlohmann::json>& 
           median_of(runs, "worst_texel_error"),
           has_ratios ? median_of(runs, "times_baseline") : 0.0,
           has_ratios ? median_of(runs, "share_of_limit") : 0.0};
+}
+
+/// The parts of directions/<sampler>/<map>/<W>x<H>/<density>/<order> as a record; none for
+/// benchmarks of other things.
+std::optional<DirectionRecord> directions_of(const std::string& name,
+                                             const std::vector<nlohmann::json>& runs) {
+  const std::vector<std::string> parts = split(name, '/');
+  if (parts.size() != 6 || parts[0] != "directions") return std::nullopt;
+  const std::vector<std::string> sides = split(parts[3], 'x');
+  if (sides.size() != 2 || !is_digits(sides[0]) || !is_digits(sides[1])) return std::nullopt;
+  const auto ratio = [&](const char* counter) {
+    return runs.front().contains(counter) ? median_of(runs, counter) : 0.0;
+  };
+  return DirectionRecord{parts[1],
+                         parts[2],
+                         {side_of(sides[0]), side_of(sides[1])},
+                         parts[4],
+                         parts[5],
+                         median_of(runs, "ns_per_sample"),
+                         ratio("times_baseline"),
+                         ratio("share_of_limit")};
+}
+
+/// The ratio of wall time to processor time, the median over all rows.
+double wall_per_cpu(const std::vector<Group>& groups) {
+  std::vector<double> ratios;
+  for (const Group& group : groups) {
+    for (const nlohmann::json& run : group.runs) {
+      const double cpu = run.value("cpu_time", 0.0);
+      if (cpu > 0.0) ratios.push_back(run.value("real_time", 0.0) / cpu);
+    }
+  }
+  return ratios.empty() ? 1.0 : median(std::move(ratios));
 }
 
 /// Throws InputError for a benchmark that reports an error: a sampler that fails its check must
@@ -145,7 +184,12 @@ std::string origin_of(const nlohmann::json& context) {
 
 Throughput records_of(const nlohmann::json& document) {
   Throughput records;
-  for (const auto& [text, runs] : groups_of(document)) {
+  const std::vector<Group> groups = groups_of(document);
+  for (const auto& [text, runs] : groups) {
+    if (const auto directions = directions_of(text, runs)) {
+      records.directions.push_back(*directions);
+      continue;
+    }
     const std::optional<SampleName> name = sample_name(text);
     if (!name) continue;
     if (name->order == "random") {
@@ -158,10 +202,15 @@ Throughput records_of(const nlohmann::json& document) {
   const nlohmann::json context = document.value("context", nlohmann::json::object());
   records.caches = {cache_size(context, 2), cache_size(context, 3)};
   records.origin = origin_of(context);
+  if (const double ratio = wall_per_cpu(groups); ratio > kBusyRatio) {
+    records.origin += fmt::format("{}the machine was busy: wall time {:.2g} times processor time",
+                                  records.origin.empty() ? "" : "; ", ratio);
+  }
   return records;
 }
 
-/// Empty where nothing can be kept: without a folder, or of a program that cannot be read.
+/// The file that keeps the throughput; empty where nothing can be kept: without a folder, or of a
+/// program that cannot be read.
 fs::path kept_file(const ThroughputSource& source, const std::string& filter) {
   const std::optional<std::uint64_t> program = hash_of_file(source.program);
   if (source.cache.empty() || !program) return {};
@@ -201,8 +250,10 @@ std::string throughput_filter(std::uint64_t largest_width) {
     widths.push_back(width);
     if (width / 2 * 3 <= largest_width) widths.push_back(width / 2 * 3);
   }
-  return fmt::format("^sample/[^/]*/[^/]*/(({})x[0-9]*/random|{}/fused)$", fmt::join(widths, "|"),
-                     kTableSize);
+  return fmt::format(
+      "^(sample/[^/]*/[^/]*/(({0})x[0-9]*/random|{1}/fused)|"
+      "directions/({2})/[^/]*/{1}/[ABC]/(scalar|fused))$",
+      fmt::join(widths, "|"), kTableSize, kDirectionRows);
 }
 
 Throughput measure_throughput(const ThroughputSource& source) {

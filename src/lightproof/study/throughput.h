@@ -14,12 +14,16 @@ namespace lightproof {
 struct Throughput {
   std::vector<ThroughputRecord> samplers;
   std::vector<TableRecord> tables;
+  std::vector<DirectionRecord> directions;
   CacheSizes caches;
-  std::string origin;  ///< when, where and of what it was measured, as the file says
+  /// When, where and of what it was measured, as the file says; and that the machine was busy, if
+  /// the wall time exceeds the processor time by more than a tenth.
+  std::string origin;
 };
 
 /// The benchmarks of a study, as a pattern of names: one sample at a time on maps from 256x128 to
-/// the largest width (16384 takes 8 GB), and the tables, in batches, on one size.
+/// the largest width (16384 takes 8 GB), the tables, in batches, on one size, and directions of
+/// every density on the same.
 std::string throughput_filter(std::uint64_t largest_width);
 
 /// Where throughput is measured, and kept.

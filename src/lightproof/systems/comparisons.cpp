@@ -8,6 +8,8 @@
 #include "lightproof/points/registry.h"
 #include "lightproof/prefilter/diffuse_comparisons.h"
 #include "lightproof/prefilter/specular_comparisons.h"
+#include "lightproof/shading/shaded_pictures.h"
+#include "lightproof/shading/shading_comparisons.h"
 #include "lightproof/systems/registry.h"
 
 namespace lightproof {
@@ -36,11 +38,16 @@ std::ptrdiff_t place_of(std::string_view id) {
 std::vector<PublishedComparison> system_comparisons() {
   std::vector<PublishedComparison> all = diffuse_comparisons();
   for (const PublishedComparison& specular : specular_comparisons()) all.push_back(specular);
+  for (const PublishedComparison& shading : shading_comparisons()) all.push_back(shading);
   all.push_back(distinct_points_comparison());
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
     return place_of(a.system) < place_of(b.system);
   });
   return all;
+}
+
+std::vector<PublishedPicture> system_pictures(const Progress& progress) {
+  return shaded_pictures({}, progress);
 }
 
 }  // namespace lightproof

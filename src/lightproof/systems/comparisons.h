@@ -3,11 +3,16 @@
 
 #include <vector>
 
+#include "lightproof/core/progress.h"
 #include "lightproof/results/published_comparison.h"
+#include "lightproof/results/published_picture.h"
 
 namespace lightproof {
 
 /// Of all systems, in the order of their ids: each on an input whose exact result is known.
 std::vector<PublishedComparison> system_comparisons();
+
+/// Pictures of those that are worth looking at, in the same order.
+std::vector<PublishedPicture> system_pictures(const Progress& progress = {});
 
 }  // namespace lightproof

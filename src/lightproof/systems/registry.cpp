@@ -32,7 +32,7 @@ constexpr SystemInfo kSystems[] = {
      "ZonalFactors.OfPhongAreTheClosedForms"},
     {"002-5", "BRDF integration map of the split sum", "BrdfIntegral.HasThePrintedValues"},
     {"002-6", "shading by metallic and roughness with the split sum",
-     "ChainLookUp.AsPublishedPassesTheLastLevel"},
+     "MetallicRoughnessSphere.IsTheOneByBruteForceInEveryPixelUnderAWhiteSky"},
     {"003-1", "Fresnel factor that knows roughness",
      "SchlickFresnelOfRoughness.IsSchlicksOwnForAMirror", true},
     {"003-2", "irradiance map by cosine-distributed samples",
@@ -71,7 +71,8 @@ constexpr SystemInfo kSystems[] = {
      "MapFiles.ShowAMapByReinhardsCurve"},
     {"004-14", "Fresnel factor of the mirrored direction",
      "Comparisons.OfTheFresnelTermIntegrateItUnderTheIntegral"},
-    {"004-15", "a scene shaded with both maps", "ReflectivityChain.IsTheExactMapOfEveryLevel"},
+    {"004-15", "a scene shaded with both maps",
+     "TwoMaps.ShowTheReflectionOfTheSurfaceSeenAlongItsNormal"},
     {"004-16", "pixel to normal", "EveryPreset.ReturnsImagePoints"},
 };
 

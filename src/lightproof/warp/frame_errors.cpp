@@ -27,7 +27,8 @@ constexpr int kAzimuths = 64;
 
 template <class T>
 UnitVector<T> normal_at(bool is_nadir, double distance, int azimuth) {
-  // Half a step aside: on no axis, where products of components vanish.
+  // The azimuths lie half a step aside, so that none is on an axis, where products of components
+  // vanish.
   const double phi = 2.0 * kPi * (azimuth + 0.5) / kAzimuths;
   const double sine = std::sin(distance);
   const double height = std::cos(distance);

@@ -10,7 +10,7 @@
 namespace lightproof {
 namespace {
 
-/// In the order of the enumeration.
+/// The presets in the order of the enumeration.
 constexpr std::array kPresets = {
     PresetInfo{Preset::z_up, "z-up",
                "z up: u = 1/2 - atan2(y,x)/2pi, v = acos(z)/pi from the top (Blender Cycles)",
@@ -44,9 +44,9 @@ double wrapped(double s) {
   return fraction < 1.0 ? fraction : 0.0;
 }
 
-/// From the s of `z-up` to that of a lat-long preset and back: each of these is its own inverse.
-/// With (X, Y, Z) = (y, z, x) the y-up presets are `z-up`: atan2(X, Z) is phi itself, and
-/// atan2(X, -Z) is pi - phi.
+/// Turns the s of `z-up` into that of a lat-long preset and back: each of these is its own inverse.
+/// With (X, Y, Z) = (y, z, x) the y-up presets are `z-up`: atan2(X, Z) is phi itself, and atan2(X,
+/// -Z) is pi - phi.
 double exchange_s(Preset preset, double s) {
   switch (preset) {
     case Preset::z_up_half_turn:

@@ -34,7 +34,7 @@ std::size_t direct(std::span<const double> /*s*/, std::span<const double> /*t*/,
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Whole vectors from the front; returns how many points that were.
+/// Converts whole vectors from the front; returns how many points that were.
 std::size_t convert(std::span<const double> s, std::span<const double> u,
                     const DirectionSpans& directions) {
   const hn::ScalableTag<double> d;
@@ -56,7 +56,7 @@ std::size_t convert(std::span<const double> s, std::span<const double> u,
   return done;
 }
 
-/// Whole vectors from the front; returns how many places that were.
+/// Converts whole vectors from the front; returns how many places that were.
 std::size_t direct(std::span<const double> s, std::span<const double> t,
                    const PositionedDirectionSpans& directions) {
   const hn::ScalableTag<double> d;
