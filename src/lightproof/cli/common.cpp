@@ -109,6 +109,10 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
   command.add_option("MAP", options.maps,
                      "environment maps: files (OpenEXR, Radiance .hdr, PNG, JPEG) or built-in "
                      "names (see `lightproof list maps`)");
+  add_shared_options(command, options, size_option);
+}
+
+void add_shared_options(CLI::App& command, CommonOptions& options, const std::string& size_option) {
   command.add_option("--preset", options.preset,
                      "how the files' pixels map to directions (see `lightproof list presets`)");
   command.add_option(size_option, options.size, "WxH of built-in maps")->capture_default_str();

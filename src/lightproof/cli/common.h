@@ -40,8 +40,11 @@ struct CommonOptions : InputOptions {
   CommandLine command_line = {};        ///< the command line of these options; may be empty
 };
 
-/// Adds the positional MAP… and the options above; `size_option` is the name of the one for the
-/// size of built-in maps.
+/// Adds the options above; `size_option` is the name of the one for the size of built-in maps.
+void add_shared_options(CLI::App& command, CommonOptions& options,
+                        const std::string& size_option = "--size");
+
+/// Adds the positional MAP… and the options above.
 void add_common_options(CLI::App& command, CommonOptions& options,
                         const std::string& size_option = "--size");
 
@@ -83,6 +86,7 @@ bool use_color(const CommonOptions& options, int stream);
 /// Each registers its subcommand, which writes the exit code when it is run. `line` is the command
 /// line that will be parsed.
 void add_gate(CLI::App& app, const CommandLine& line, int& exit_code);
+void add_check(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_precompute(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_study(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_info(CLI::App& app, const CommandLine& line, int& exit_code);

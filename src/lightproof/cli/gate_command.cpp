@@ -1,12 +1,10 @@
 // lightproof gate: verdicts only.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <chrono>
-#include <cstdio>
 #include <memory>
 #include <set>
 
@@ -18,12 +16,10 @@
 #include "lightproof/core/text_escapes.h"
 #include "lightproof/gate/gate.h"
 #include "lightproof/gate/sequential_gate.h"
-#include "lightproof/report/ci_outputs.h"
 #include "lightproof/report/gate_summary.h"
-#include "lightproof/report/gate_table.h"
-#include "lightproof/report/json.h"
 #include "lightproof/report/rejection_files.h"
 #include "outputs.h"
+#include "verdict_outputs.h"
 #include "whole_number.h"
 
 namespace lightproof::cli {
@@ -32,11 +28,8 @@ namespace {
 struct Options : CommonOptions {
   std::vector<std::string> samplers;
   std::string density_space;
-  std::string json;
-  std::string junit;
-  std::string markdown;
+  VerdictOutputs outputs;
   std::string rejections;
-  bool github = false;
   bool sequential = false;
   bool nightly = false;
   bool with_published = false;
@@ -60,12 +53,6 @@ std::uint64_t seed_of_today() {
   const std::uint64_t day = static_cast<unsigned>(date.day());
   return 10000 * year + 100 * month + day;
 }
-
-/// The gate's result, and how it is judged.
-struct Judged {
-  GateResult result;
-  GateVerdict verdict;
-};
 
 /// The names of all files that --rejections may write for these test cases.
 std::set<std::string> names_of_rejections(std::span<const TestCase> test_cases) {
@@ -93,52 +80,11 @@ Judged run_on(std::span<const TestCase> test_cases, const Options& options) {
   return judged;
 }
 
-/// What people read goes to stderr if the standard output is one of the files.
-void print_for_people(const Options& options, const Judged& judged, bool stdout_is_taken) {
-  std::FILE* const stream = stdout_is_taken ? stderr : stdout;
-  const bool counts = judged.verdict.count_known_defects;
-  if (!options.quiet) {
-    const bool colours = use_color(options, stdout_is_taken ? STDERR_FILENO : STDOUT_FILENO);
-    fmt::print(stream, "{}",
-               gate_table(judged.result, counts, colours ? Colour::ansi : Colour::off));
-  }
-  if (options.github) fmt::print(stream, "{}", gate_annotations(judged.result, counts));
-}
-
-void write_outputs(const Options& options, const Judged& judged, const RunDescription& run) {
-  const GateResult& result = judged.result;
-  const bool counts = judged.verdict.count_known_defects;
-  if (!options.json.empty()) {
-    write_output(options.json, gate_json(result, judged.verdict, run));
-  }
-  if (!options.junit.empty()) write_output(options.junit, gate_junit(result, counts));
-  if (!options.markdown.empty()) write_output(options.markdown, gate_markdown(result, counts));
-  if (!options.rejections.empty()) {
-    write_rejections(split_gate(result, counts).deciding, options.rejections, run,
-                     overwriting(options.force));
-  }
-}
-
-ExitCode exit_code_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::accept:
-    case Outcome::resolution_limited:
-      return kPassed;
-    case Outcome::reject:
-      return kRejected;
-    case Outcome::inconclusive:
-    case Outcome::not_run:
-      break;
-  }
-  return kInconclusive;
-}
-
 int run(const Options& options) {
   const ThreadLimit threads(options.threads);
   const ChosenSamplers chosen = choose_samplers(
       {options.samplers, options.density_space, options.with_published, !options.maps.empty()});
-  const bool stdout_is_taken =
-      check_outputs(std::vector<std::string>{options.json, options.junit, options.markdown});
+  const bool stdout_is_taken = check_verdict_outputs(options.outputs);
   if (!options.quiet) {
     for (const std::string& note : chosen.notes) fmt::print(stderr, "{}\n", terminal_text(note));
   }
@@ -150,8 +96,13 @@ int run(const Options& options) {
                  options.command_line);
   }
   const Judged judged = run_on(test_cases, options);
-  print_for_people(options, judged, stdout_is_taken);
-  write_outputs(options, judged, describe_run(options, maps));
+  print_verdict(options, options.outputs, judged, stdout_is_taken);
+  const RunDescription description = describe_run(options, maps);
+  write_verdict(options.outputs, judged, description);
+  if (!options.rejections.empty()) {
+    write_rejections(split_gate(judged.result, judged.verdict.count_known_defects).deciding,
+                     options.rejections, description, overwriting(options.force));
+  }
   return exit_code_of(judged.verdict.overall);
 }
 
@@ -187,17 +138,11 @@ void add_sampler_options(CLI::App& command, Options& options) {
 }
 
 void add_output_options(CLI::App& command, Options& options) {
-  add_output(command, "--json", options.json, "write every test to this file");
-  add_output(command, "--junit", options.junit, "the same as JUnit XML, one case a test");
-  add_output(command, "--markdown", options.markdown,
-             "a summary for a pull request or $GITHUB_STEP_SUMMARY");
+  add_verdict_outputs(command, options.outputs);
   add_path(command, "--rejections", options.rejections,
            "write residual maps, worst bins and the cumulative divergence of rows of what is "
            "rejected to this folder");
   add_force(command, options.force);
-  command.add_flag("--github", options.github,
-                   "print annotations for GitHub Actions: one for each rejected sampler on a map, "
-                   "nine at most, even if quiet");
 }
 
 void add_sample_options(CLI::App& command, const std::shared_ptr<Options>& options) {

@@ -64,6 +64,7 @@ int run(int argc, char** argv) {
   add_study(app, line, exit_code);
   add_precompute(app, line, exit_code);
   add_gate(app, line, exit_code);
+  add_check(app, line, exit_code);
   add_info(app, line, exit_code);
   add_history(app, line, exit_code);
   add_list(app, line, exit_code);

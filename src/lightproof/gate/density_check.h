@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string_view>
 
 #include "lightproof/core/grid.h"
 #include "lightproof/core/measure.h"
@@ -37,8 +38,9 @@ struct RatioRange {
 /// What a comparison of the pdf with the declared density found in all cells in which the latter is
 /// smooth.
 struct DensityComparison {
-  std::size_t unreachable_cells = 0;  ///< cells with a declared density above 0 and a pdf of 0
-  double unreachable_mass = 0.0;      ///< share of all light that lies in unreachable cells
+  std::string_view compared = "cells";  ///< what is counted below: cells, or samples
+  std::size_t unreachable_cells = 0;    ///< cells with a declared density above 0 and a pdf of 0
+  double unreachable_mass = 0.0;        ///< share of all light that lies in unreachable cells
   std::optional<ComparedCell> first_unreachable;
   /// Unreachable cells with more light than the sampler declares that its rounding may lose.
   std::size_t lost_cells = 0;

@@ -277,9 +277,9 @@ CheckResult check_declared_density(const DensityComparison& density) {
   CheckResult result{TestId::declared_density, density.cells_off == 0, density.largest_error, ""};
   if (!density.worst) return result;
   const ComparedCell& cell = *density.worst;
-  result.detail = fmt::format(
-      "{} cells are off, the worst in texel ({}, {}): pdf {:.6g} where {:.6g} is declared",
-      density.cells_off, cell.x, cell.y, cell.pdf, cell.declared);
+  result.detail =
+      fmt::format("{} {} are off, the worst in texel ({}, {}): pdf {:.6g} where {:.6g} is declared",
+                  density.cells_off, density.compared, cell.x, cell.y, cell.pdf, cell.declared);
   return result;
 }
 

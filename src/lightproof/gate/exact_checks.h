@@ -72,6 +72,8 @@ struct Inspection {
   bool has_pdf = true;       ///< BoundSampler::has_pdf() of the sampler
   bool has_weights = true;   ///< BoundSampler::has_weights of the sampler
   bool takes_points = true;  ///< BoundSampler::takes_points() of the sampler
+  /// Whether `density` compares the densities that came with samples, where there is no pdf().
+  bool compares_samples = false;
 };
 /// Inspects a sampler, given the rounding that it declares.
 Inspection inspect(const BoundSampler& sampler, const Expectation& expectation,

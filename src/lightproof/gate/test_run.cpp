@@ -277,9 +277,13 @@ std::vector<Measured> test_exactly(const TestRun& run, const Expectation& expect
     records.add_check(check_support(inspection.density));
     records.add_check(check_declared_density(inspection.density));
   } else {
-    for (const TestId test :
-         {TestId::pdf_integral, TestId::pdf_support, TestId::declared_density}) {
+    for (const TestId test : {TestId::pdf_integral, TestId::pdf_support}) {
       records.add_not_run(test, kNoPdf);
+    }
+    if (inspection.compares_samples) {
+      records.add_check(check_declared_density(inspection.density));
+    } else {
+      records.add_not_run(TestId::declared_density, kNoPdf);
     }
   }
   const std::uint64_t points = std::min(draws.samples, kMostCheckPoints);

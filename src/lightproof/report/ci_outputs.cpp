@@ -121,6 +121,7 @@ std::string annotation(const GateResult& gate, const GateCell& cell) {
 }  // namespace
 
 std::string replay_command(const GateResult& gate, const TestRecord& test) {
+  if (!gate.replay.empty()) return gate.replay;
   // Distributions over directions have no density of a map and need no map.
   const bool of_map = !test.density_space.empty();
   std::string options = gate.sequential ? " --sequential" : "";

@@ -79,6 +79,10 @@ std::string diagnosis_lines(const GateResult& gate) {
     if (!r.confidence.empty()) text += "\n    " + terminal_text(r.confidence);
     text += "\n    again: " + replay_command(gate, r) + "\n";
   }
+  for (const Recognition& recognition : gate.recognitions) {
+    text += fmt::format("The samples match the map {}: {}\n", recognition.words,
+                        recognition.options);
+  }
   return text.empty() ? "" : "\nDiagnosis\n" + text;
 }
 

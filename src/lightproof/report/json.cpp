@@ -87,6 +87,7 @@ Json json_of(const TestRecord& t) {
 
 // Declared here so that list_of finds them all.
 Json json_of(const GateResult& gate, const Rejection& r);
+Json json_of(const Recognition& r);
 Json json_of(const ConvergencePoint& p);
 Json json_of(const ConvergenceRecord& r);
 Json json_of(const ThroughputRecord& r);
@@ -124,7 +125,8 @@ Json json_of(const GateResult& gate, GateVerdict verdict) {
           {"seed", gate.seed},
           {"tests", list_of(gate.tests)},
           {"rejections", rejections_json(split.deciding)},
-          {"known_defects", rejections_json(split.known_defects)}};
+          {"known_defects", rejections_json(split.known_defects)},
+          {"recognised", list_of(gate.recognitions)}};
 }
 
 /// Documents that others have written already.
@@ -136,6 +138,13 @@ Json parsed(const std::vector<std::string>& documents) {
 
 Json commit_of(const RunDescription& run) {
   return run.commit.empty() ? Json(nullptr) : Json(run.commit);
+}
+
+Json json_of(const Recognition& r) {
+  return {{"change", r.name},
+          {"words", r.words},
+          {"options", r.options},
+          {"log10_p", number(r.log10_p)}};
 }
 
 Json json_of(const GateResult& gate, const Rejection& r) {

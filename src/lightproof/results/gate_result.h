@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lightproof/core/grid.h"
+#include "lightproof/results/recognition.h"
 #include "lightproof/results/test_record.h"
 
 namespace lightproof {
@@ -41,6 +42,11 @@ struct GateResult {
   std::uint64_t family = 0;        ///< p-values, or instances if sequential, that share the error
   bool sequential = false;
   double must_detect = kMustDetect;  ///< deviation of the bins that had to be detectable
+  /// The command line that gives the same result again, where it is not `lightproof gate` on one
+  /// sampler and map.
+  std::string replay = {};
+  /// Of rejected samples of another program: what would make them right, the likeliest first.
+  std::vector<Recognition> recognitions = {};
 };
 
 }  // namespace lightproof

@@ -1,0 +1,189 @@
+// Dumps that are right are accepted, whatever their convention; those that are wrong are rejected,
+// and what would make them right is recognised.
+#include "lightproof/check/dump_test_case.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "lightproof/check/recognition.h"
+#include "lightproof/core/random.h"
+#include "lightproof/image/synthetic.h"
+#include "lightproof/results/verdict.h"
+#include "lightproof/samplers/alias.h"
+#include "lightproof/samplers/batch.h"
+#include "tests/dump/files.h"
+
+namespace lightproof {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::size_t kSamples = std::size_t{1} << 20U;
+
+/// What a renderer would write of a sample: direction and density per steradian.
+using Written = std::array<double, 4>;
+using Change = std::function<void(Written&)>;
+
+const EnvironmentMap& sun_sky() {
+  static const EnvironmentMap map = make_synthetic_map("sun-sky", {256, 128});
+  return map;
+}
+
+/// Samples of a sampler that is right, as a file of floats, each changed as a defect would.
+class Dump {
+ public:
+  explicit Dump(DensitySpace drawn, const Change& change = {}, SampleConvention convention = {},
+                std::size_t samples = kSamples, bool with_pdf = true) {
+    const Alias sampler(sun_sky(), {drawn});
+    const RandomStream stream("dump", 7);
+    const std::size_t columns = with_pdf ? 4 : 3;
+    std::vector<float> numbers;
+    numbers.reserve(samples * columns);
+    for (std::size_t i = 0; i < samples; ++i) {
+      const LightSample sample = sample_direction(sampler, stream.point(i));
+      Written row = {sample.direction.x, sample.direction.y, sample.direction.z, sample.pdf.value};
+      if (change) change(row);
+      for (std::size_t k = 0; k < columns; ++k) numbers.push_back(static_cast<float>(row[k]));
+    }
+    const std::string shape = fmt::format("({}, {})", samples, columns);
+    test::write_bytes(folder_ / "a.npy", test::npy_header("<f4", shape) + test::bytes_of(numbers));
+    NumberTable table((folder_ / "a.npy").string(), std::nullopt, 0);
+    dump_ = std::make_shared<const SampleDump>(
+        std::move(table), sample_columns(default_columns(columns)), convention);
+  }
+
+  GateResult judged(DensitySpace declared) const {
+    const TestCase test_case = dump_test_case(dump_, sun_sky(), {"dump", {declared}});
+    return run_gate({&test_case, 1}, spending({}, dump_->count()));
+  }
+  std::vector<Recognition> recognised(DensitySpace declared) const {
+    return recognise(*dump_, sun_sky(), {declared});
+  }
+
+ private:
+  TemporaryFolder folder_;
+  std::shared_ptr<const SampleDump> dump_;
+};
+
+std::string rejected_tests(const GateResult& gate) {
+  std::string text;
+  for (const TestRecord& test : gate.tests) {
+    if (test.outcome != Outcome::reject) continue;
+    text += fmt::format("{}: {}; ", full_name(test.test), test.detail);
+  }
+  return text;
+}
+
+Outcome outcome_of(const GateResult& gate) { return overall_outcome(gate, false); }
+
+TEST(Dump, OfEveryDensityIsAcceptedThoughFloatsMoveSamplesOverEdges) {
+  for (const DensityInfo& density : kDensities) {
+    const GateResult gate = Dump(density.density_space).judged(density.density_space);
+    EXPECT_EQ(outcome_of(gate), Outcome::accept) << density.label << " " << rejected_tests(gate);
+  }
+}
+
+TEST(Dump, WithoutDensitiesIsJudgedByItsDirections) {
+  const Dump dump(DensitySpace::sine_weighted, {}, {}, kSamples, false);
+  const GateResult gate = dump.judged(DensitySpace::sine_weighted);
+  EXPECT_EQ(outcome_of(gate), Outcome::accept) << rejected_tests(gate);
+  EXPECT_EQ(outcome_of(dump.judged(DensitySpace::texture)), Outcome::reject);
+}
+
+TEST(Dump, InTheAxesOfItsProgramIsAcceptedIfTheyAreNamed) {
+  SampleConvention convention;
+  convention.axes = axes_of(Preset::mitsuba);
+  const auto to_y_up = [](Written& row) { row = {row[1], row[2], row[0], row[3]}; };
+  const GateResult gate =
+      Dump(DensitySpace::sine_weighted, to_y_up, convention).judged(DensitySpace::sine_weighted);
+  EXPECT_EQ(outcome_of(gate), Outcome::accept) << rejected_tests(gate);
+}
+
+TEST(Dump, OfTooFewSamplesIsInconclusive) {
+  const Dump dump(DensitySpace::sine_weighted, {}, {}, 500);
+  EXPECT_EQ(outcome_of(dump.judged(DensitySpace::sine_weighted)), Outcome::inconclusive);
+}
+
+struct Mistake {
+  const char* name;
+  Change change;
+  const char* options;  ///< that are recognised
+};
+
+TEST(Dump, InOtherAxesIsRejectedAndTheAxesAreRecognised) {
+  const std::vector<Mistake> mistakes = {
+      {"t flipped", [](Written& row) { row[2] = -row[2]; }, "--axes=x,y,-z"},
+      {"s mirrored", [](Written& row) { row[1] = -row[1]; }, "--axes=x,-y,z"},
+      {"half a turn",
+       [](Written& row) {
+         row = {-row[0], -row[1], row[2], row[3]};
+       },
+       "--axes=-x,-y,z"},
+      {"y up",
+       [](Written& row) {
+         row = {row[1], row[2], row[0], row[3]};
+       },
+       "--axes=z,x,y"},
+      {"left-handed", [](Written& row) { std::swap(row[1], row[2]); }, "--axes=x,z,y"}};
+  for (const Mistake& mistake : mistakes) {
+    const Dump dump(DensitySpace::sine_weighted, mistake.change);
+    EXPECT_EQ(outcome_of(dump.judged(DensitySpace::sine_weighted)), Outcome::reject)
+        << mistake.name;
+    const auto found = dump.recognised(DensitySpace::sine_weighted);
+    ASSERT_FALSE(found.empty()) << mistake.name;
+    EXPECT_EQ(found.front().options, mistake.options) << mistake.name;
+  }
+}
+
+TEST(Dump, OfAnotherDensityIsRejectedAndTheDensityIsRecognised) {
+  const Dump dump(DensitySpace::texture);
+  EXPECT_EQ(outcome_of(dump.judged(DensitySpace::sine_weighted)), Outcome::reject);
+  const auto found = dump.recognised(DensitySpace::sine_weighted);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found.front().options, "--density A");
+}
+
+TEST(Dump, ThatIsRightIsRecognisedAsNothingElse) {
+  EXPECT_TRUE(Dump(DensitySpace::sine_weighted).recognised(DensitySpace::sine_weighted).empty());
+}
+
+TEST(Dump, WithAnotherDensityThanItsSamplesIsRejected) {
+  const std::vector<std::pair<const char*, Change>> mistakes = {
+      {"twice too large", [](Written& row) { row[3] *= 2.0; }},
+      {"without its Jacobian", [](Written& row) { row[3] *= std::hypot(row[0], row[1]); }},
+      {"a percent too large", [](Written& row) { row[3] *= 1.01; }},
+      {"not a number once", [n = 0](Written& row) mutable {
+         if (++n == 1000) row[3] = NAN;
+       }}};
+  for (const auto& [name, change] : mistakes) {
+    const GateResult gate =
+        Dump(DensitySpace::sine_weighted, change).judged(DensitySpace::sine_weighted);
+    EXPECT_EQ(outcome_of(gate), Outcome::reject) << name;
+  }
+}
+
+TEST(Dump, WithDirectionsThatAreNoneIsRejected) {
+  const Dump dump(DensitySpace::sine_weighted, [n = 0](Written& row) mutable {
+    if (++n == 77) row = {2.0 * row[0], 2.0 * row[1], 2.0 * row[2], row[3]};
+  });
+  const GateResult gate = dump.judged(DensitySpace::sine_weighted);
+  EXPECT_THAT(rejected_tests(gate), HasSubstr("1 of "));
+}
+
+TEST(Dump, ThatRepeatsItsSamplesIsRejected) {
+  Written last = {};
+  const Dump dump(DensitySpace::sine_weighted, [&, n = 0](Written& row) mutable {
+    if (n++ % 4 == 1) row = last;
+    last = row;
+  });
+  EXPECT_EQ(outcome_of(dump.judged(DensitySpace::sine_weighted)), Outcome::reject);
+}
+
+}  // namespace
+}  // namespace lightproof

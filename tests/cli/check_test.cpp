@@ -1,0 +1,135 @@
+// lightproof check: dumps of samples, as the files that other programs write.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "lightproof/core/random.h"
+#include "tests/cli/program.h"
+#include "tests/cli/schema.h"
+#include "tests/dump/files.h"
+
+namespace lightproof::test {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// Uniform directions, z, y and x of which go to `change`, with their density.
+std::vector<float> uniform_samples(std::size_t count) {
+  const RandomStream stream("check", 1);
+  std::vector<float> numbers;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [u, v] = stream.point(i);
+    const double z = 2.0 * u - 1.0;
+    const double sine = std::sqrt(1.0 - z * z);
+    const double phi = 2.0 * kPi * v;
+    for (const double number : {sine * std::cos(phi), sine * std::sin(phi), z, 1.0 / kSphere}) {
+      numbers.push_back(static_cast<float>(number));
+    }
+  }
+  return numbers;
+}
+
+class CheckCommand : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string raw(const std::string& name, const std::vector<float>& numbers) const {
+    write_bytes(path(name), bytes_of(numbers));
+    return path(name);
+  }
+  /// Of a constant map, whose solid-angle density is that of uniform directions.
+  static Finished check(const std::string& dump, Words more) {
+    Words words = {"check", dump, "--map", "constant", "--size", "16x8"};
+    words.insert(words.end(), more.begin(), more.end());
+    return lightproof(words);
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+constexpr std::size_t kEnough = 200'000;
+
+TEST_F(CheckCommand, AcceptsWhatIsDrawnFromTheMap) {
+  const std::string dump = raw("a.f32", uniform_samples(kEnough));
+  const Finished finished =
+      check(dump, {"--columns", "x,y,z,pdf", "--density", "B", "--json", path("a.json")});
+  EXPECT_EQ(finished.exit_code, 0) << finished.out << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("accept"));
+  expect_valid("gate.schema.json", path("a.json"));
+  const json gate = json_of(path("a.json"));
+  EXPECT_EQ(gate.at("tests").front().at("sampler"), "a");
+  EXPECT_TRUE(gate.at("recognised").empty());
+}
+
+TEST_F(CheckCommand, TakesWhatASideCarSays) {
+  const std::string dump = raw("a.f32", uniform_samples(kEnough));
+  std::ofstream(dump + ".json")
+      << R"({"columns": ["x", "y", "z", "pdf"], "density": "B", "seed": 1})";
+  EXPECT_EQ(check(dump, {}).exit_code, 0);
+  // Options say it otherwise: with C the same samples lie wrongly inside the texels of the poles.
+  const Finished finished = check(dump, {"--density", "C"});
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_THAT(finished.out, HasSubstr("the samples fit density B"));
+}
+
+TEST_F(CheckCommand, RejectsAWrongDensityAndSaysHowToCheckAgain) {
+  std::vector<float> numbers = uniform_samples(kEnough);
+  for (std::size_t i = 3; i < numbers.size(); i += 4) numbers[i] *= 2.0F;
+  const std::string dump = raw("a.f32", numbers);
+  const Finished finished =
+      check(dump, {"--columns", "x,y,z,pdf", "--density", "B", "--junit", path("a.xml")});
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_THAT(finished.out,
+              AllOf(HasSubstr("pdf is the declared density"), HasSubstr("check " + dump)));
+}
+
+TEST_F(CheckCommand, IsInconclusiveWithFewSamples) {
+  const std::string dump = raw("a.f32", uniform_samples(1000));
+  EXPECT_EQ(check(dump, {"--columns", "x,y,z,pdf", "--density", "B"}).exit_code, 3);
+}
+
+TEST_F(CheckCommand, ReadsTheStandardInputAndText) {
+  const std::vector<float> numbers = uniform_samples(kEnough);
+  std::ofstream text(path("a.csv"));
+  text << "x,y,z,pdf\n";
+  text.precision(9);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    text << numbers[i] << (i % 4 == 3 ? '\n' : ',');
+  }
+  text.close();
+  EXPECT_EQ(check(path("a.csv"), {"--density", "B"}).exit_code, 0);
+  const std::string script =
+      "\"$0\" check - --format csv --density B --map constant --size 16x8 < " + path("a.csv");
+  const Command command = {{"/bin/sh", "-c", script, program()}};
+  EXPECT_EQ(run(command).exit_code, 0);
+}
+
+TEST_F(CheckCommand, RefusesWhatItCannotRead) {
+  const auto refusal = [&](const std::string& dump, const Words& more) {
+    const Finished finished = check(dump, more);
+    EXPECT_EQ(finished.exit_code, 2) << finished.out;
+    return finished.err;
+  };
+  const std::string dump = raw("a.f32", {1.0F, 0.0F, 0.0F, 1.0F, 1.0F});
+  EXPECT_THAT(refusal(dump, {}), HasSubstr("--columns"));
+  EXPECT_THAT(refusal(dump, {"--columns", "x,y,z,pdf"}), HasSubstr("ends inside row 1"));
+  EXPECT_THAT(refusal(dump, {"--columns", "x,y,z,w,pdf"}), HasSubstr("no column is called \"w\""));
+  EXPECT_THAT(refusal(dump, {"--columns", "x,y,z,pdf,-", "--axes", "x,y"}),
+              HasSubstr("names no axes"));
+  EXPECT_THAT(refusal(dump, {"--columns", "x,y,z,pdf,-", "--density", "D"}),
+              HasSubstr("none of A, B, C"));
+  EXPECT_THAT(refusal(dump, {"--columns", "x,y,z,pdf,-", "--measure", "cubic"}),
+              HasSubstr("none of solid-angle, square"));
+  EXPECT_THAT(refusal(path("nowhere.npy"), {}), HasSubstr("No such file"));
+  std::ofstream(dump + ".json") << "[1]";
+  EXPECT_THAT(refusal(dump, {"--columns", "x,y,z,pdf,-"}), HasSubstr("is no JSON object"));
+}
+
+}  // namespace
+}  // namespace lightproof::test
