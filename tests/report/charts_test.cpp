@@ -115,9 +115,10 @@ TEST(TableChart, MarksTheFrontOfTheLargestMap) {
 
 TEST(DirectionsFigure, SaysHowFastBatchesAndSinglesAreAndHowDensitiesDiffer) {
   const std::vector<DirectionRecord> records = testing::synthetic_study().directions;
-  EXPECT_EQ(directions_finding(records),
-            "In batches packed_alias draws a direction 50 times as fast as the usual way, one at a "
-            "time packed_alias 7.5 times; of packed_alias, B takes 1.10 and C 1 times as long as A");
+  EXPECT_EQ(
+      directions_finding(records),
+      "In batches packed_alias draws a direction 50 times as fast as the usual way, one at a "
+      "time packed_alias 7.5 times; of packed_alias, B takes 1.10 and C 1 times as long as A");
   const json chart = json::parse(directions_chart(records));
   EXPECT_EQ(chart["data"]["values"].size(), records.size());
   EXPECT_EQ(chart["layer"][0]["encoding"]["color"]["field"], "density");

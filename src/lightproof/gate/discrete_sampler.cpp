@@ -81,8 +81,8 @@ TexelSample DiscreteSampler::sample(SquarePoint u) const {
   const Cell row = find_cell(rows_, guides_.back(), u.t);
   const Cell column =
       find_cell(columns_.row(row.index), guides_[static_cast<std::size_t>(row.index)], u.s);
-  return positions_.sample({column.index, row.index, column.fraction, row.fraction,
-                            masses_(column.index, row.index)});
+  return positions_.sample(
+      {column.index, row.index, column.fraction, row.fraction, masses_(column.index, row.index)});
 }
 
 PerSquare DiscreteSampler::pdf(SquarePoint at) const {

@@ -80,8 +80,8 @@ std::string diagnosis_lines(const GateResult& gate) {
     text += "\n    again: " + replay_command(gate, r) + "\n";
   }
   for (const Recognition& recognition : gate.recognitions) {
-    text += fmt::format("The samples match the map {}: {}\n", recognition.words,
-                        recognition.options);
+    text +=
+        fmt::format("The samples match the map {}: {}\n", recognition.words, recognition.options);
   }
   return text.empty() ? "" : "\nDiagnosis\n" + text;
 }
