@@ -43,22 +43,25 @@ AxisMap AxisMap::parse(std::string_view text) {
   return map;
 }
 
-const std::array<AxisMap, 48>& AxisMap::all() {
-  static const std::array<AxisMap, 48> maps = [] {
-    std::array<AxisMap, 48> made;
-    std::array<int, 3> axes = {0, 1, 2};
-    std::size_t at = 0;
-    do {
-      for (int signs = 0; signs < 8; ++signs) {
-        made[at].axis_ = axes;
-        for (int i = 0; i < 3; ++i) {
-          made[at].sign_[static_cast<std::size_t>(i)] = (signs >> i & 1) != 0 ? -1 : 1;
+std::array<AxisMap, 48> AxisMap::make_all() {
+  std::array<AxisMap, 48> maps;
+  std::array<int, 3> axes = {0, 1, 2};
+  std::size_t at = 0;
+  do {
+    for (const int x : {1, -1}) {
+      for (const int y : {1, -1}) {
+        for (const int z : {1, -1}) {
+          maps[at].axis_ = axes;
+          maps[at++].sign_ = {x, y, z};
         }
-        ++at;
       }
-    } while (std::next_permutation(axes.begin(), axes.end()));
-    return made;
-  }();
+    }
+  } while (std::next_permutation(axes.begin(), axes.end()));
+  return maps;
+}
+
+const std::array<AxisMap, 48>& AxisMap::all() {
+  static const std::array<AxisMap, 48> maps = make_all();
   return maps;
 }
 

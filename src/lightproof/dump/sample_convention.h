@@ -34,6 +34,8 @@ class AxisMap {
   friend bool operator==(const AxisMap&, const AxisMap&) = default;
 
  private:
+  static std::array<AxisMap, 48> make_all();
+
   std::array<int, 3> axis_ = {0, 1, 2};
   std::array<int, 3> sign_ = {1, 1, 1};
 };

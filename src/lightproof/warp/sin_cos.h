@@ -39,8 +39,9 @@ struct SinCosOfTurns {
 /// error is so relative to it.
 inline SinCosOfTurns sin_cos_of_turns(double x) {
   const double quarters = 4.0 * x;
-  // Truncation of what is not negative: one instruction everywhere, which rounding is not.
-  const auto quarter = static_cast<std::int32_t>(quarters + 0.5);
+  // The nearest whole number of quarters, from the number of whole eighths: truncation of what is
+  // not negative is one instruction everywhere, which rounding is not.
+  const std::int32_t quarter = (static_cast<std::int32_t>(8.0 * x) + 1) / 2;
   const double angle = (quarters - quarter) * (0.5 * kPi);
   const double square = angle * angle;
   double sine = kSineTerms.back();
