@@ -1,8 +1,8 @@
 #include "lightproof/estimators/hierarchical_product.h"
 
 #include <algorithm>
-#include <memory>
 
+#include "lightproof/estimators/tabulated_source.h"
 #include "lightproof/estimators/texel_directions.h"
 #include "lightproof/samplers/texel_positions.h"
 #include "lightproof/samplers/texel_weights.h"
@@ -76,7 +76,7 @@ class Quadtree {
   }
 
   /// The map's sums times averages of k, for all levels at which k is known.
-  Pyramid product(const Material& material, const ShadingPoint& at) const {
+  Pyramid table(const Material& material, const ShadingPoint& at) const {
     const Grid<double>& light = light_[squares_];
     Grid<double> k(light.extent());
     for (int y = 0; y < k.extent().height; ++y) centres_.reflected(material, at, y, k.row(y));
@@ -145,19 +145,7 @@ class Quadtree {
 }  // namespace
 
 PreparedSource hierarchical_product_source(const EnvironmentMap& map) {
-  const auto tree = std::make_shared<const Quadtree>(map);
-  return {&map,
-          [tree](const Material& material) -> SamplesAt {
-            return [tree, material](const ShadingPoint& at) -> DrawSamples {
-              const auto product = std::make_shared<const Pyramid>(tree->product(material, at));
-              return [product, &tree = *tree, &material, &at](const BatchPoints& points,
-                                                              LightSamples& samples) {
-                draw_each(points, samples, [&](SquarePoint u) { return tree.sample(*product, u); });
-                samples.reflect(material, at);
-              };
-            };
-          },
-          tree->bytes()};
+  return tabulated_source<Quadtree>(map);
 }
 
 }  // namespace lightproof

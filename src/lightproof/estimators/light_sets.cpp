@@ -27,8 +27,9 @@ std::size_t orientation_of(Direction normal) {
 
 Direction centre_of(std::size_t orientation) {
   const auto side = static_cast<std::size_t>(kSide);
+  const std::size_t row = orientation / side;
   return octahedral_from_square({(static_cast<double>(orientation % side) + 0.5) / kSide,
-                                 (static_cast<double>(orientation / side) + 0.5) / kSide});
+                                 (static_cast<double>(row) + 0.5) / kSide});
 }
 
 /// The sine of the largest angle between an orientation's centre and a normal that is looked up
@@ -37,8 +38,9 @@ Direction centre_of(std::size_t orientation) {
 double sine_of_reach(std::size_t orientation) {
   constexpr int kSteps = 64;
   const Direction centre = centre_of(orientation);
+  const std::size_t row = orientation / static_cast<std::size_t>(kSide);
   const auto x = static_cast<double>(orientation % static_cast<std::size_t>(kSide));
-  const auto y = static_cast<double>(orientation / static_cast<std::size_t>(kSide));
+  const auto y = static_cast<double>(row);
   double least = 1.0;
   for (int i = 0; i <= kSteps; ++i) {
     const double place = static_cast<double>(i) / kSteps;
@@ -84,7 +86,8 @@ class LightSets {
         sum += product(x, y) *= std::max(0.0, seen);
       }
     }
-    return CellCdf(sum > 0.0 ? std::move(product) : weights);
+    if (!(sum > 0.0)) product = weights;
+    return CellCdf(std::move(product));
   }
 
   void draw_set(std::size_t orientation, const CellCdf& product, const TexelPositions& positions) {
@@ -97,23 +100,31 @@ class LightSets {
   std::vector<LightSample> lights_;
 };
 
-Rgb mean_of(std::span<const LightSample> set, std::size_t first, std::size_t count,
-            const EnvironmentMap& map, const Scene& scene, const Material& material,
+/// Lights of a set from one on, and around from its end to its beginning.
+struct Run {
+  std::span<const LightSample> set;
+  std::size_t first;
+  std::size_t count;
+
+  const LightSample& operator[](std::size_t i) const { return set[(first + i) % set.size()]; }
+};
+
+Rgb mean_of(const Run& run, const EnvironmentMap& map, const Scene& scene, const Material& material,
             const ShadingPoint& at) {
   LightSamples samples;
   Arrivals arrivals;
   glm::dvec3 sum(0.0);
-  for (std::size_t done = 0; done < count; done += LightSamples::kCapacity) {
-    samples.count = std::min(count - done, LightSamples::kCapacity);
+  for (std::size_t done = 0; done < run.count; done += LightSamples::kCapacity) {
+    samples.count = std::min(run.count - done, LightSamples::kCapacity);
     for (std::size_t i = 0; i < samples.count; ++i) {
-      samples.set(i, set[(first + done + i) % set.size()]);
+      samples.set(i, run[done + i]);
     }
     samples.reflect(material, at);
     for (const Rgb rgb : samples.estimates(scene, map.radiance, at.position, arrivals)) {
       sum += glm::dvec3(rgb);
     }
   }
-  return Rgb(sum / static_cast<double>(count));
+  return Rgb(sum / static_cast<double>(run.count));
 }
 
 }  // namespace
@@ -128,7 +139,7 @@ PreparedEstimator light_sets(const EnvironmentMap& map) {
           const auto count = std::min<std::uint64_t>(budget.samples, set.size());
           const auto first = static_cast<std::size_t>(stream.point(budget.first).s *
                                                       static_cast<double>(set.size()));
-          return mean_of(set, first, count, map, scene, material, at);
+          return mean_of({set, first, count}, map, scene, material, at);
         }};
       },
       sets->bytes()};

@@ -23,6 +23,13 @@ double over_weight(Heuristic heuristic, double p, double a, double b) {
   return heuristic == Heuristic::balance ? p * (1.0 + ratio) : p * (1.0 + ratio * ratio);
 }
 
+/// How samples are weighted: by a heuristic, of so many samples of lobes and of the map.
+struct Weighting {
+  Heuristic heuristic;
+  double lobes;
+  double texels;
+};
+
 /// Two techniques: lobes of a material, and a table of the map.
 class TwoTechniques {
  public:
@@ -33,10 +40,10 @@ class TwoTechniques {
   bool has_light() const { return table_.has_light(); }
   std::size_t bytes() const { return table_.bytes(); }
 
-  /// Draws from the lobes; divides densities by weights, for so many samples of either technique.
+  /// Draws from the lobes; divides densities by weights.
   void draw_lobes(const Material& material, const ShadingPoint& at,
-                  std::span<const SquarePoint> points, Heuristic heuristic, double lobes,
-                  double texels, LightSamples& samples) const {
+                  std::span<const SquarePoint> points, const Weighting& weighting,
+                  LightSamples& samples) const {
     const std::size_t count = samples.count = points.size();
     std::array<double, kCapacity> s;
     std::array<double, kCapacity> t;
@@ -51,16 +58,16 @@ class TwoTechniques {
     samples.locate(map_->radiance.extent());
     for (std::size_t i = 0; i < count; ++i) {
       const double p = samples.pdf[i];
-      samples.pdf[i] =
-          over_weight(heuristic, p, expected(lobes, p), expected(texels, table_pdf(samples, i)));
+      samples.pdf[i] = over_weight(weighting.heuristic, p, expected(weighting.lobes, p),
+                                   expected(weighting.texels, table_pdf(samples, i)));
     }
   }
 
   /// The same from the map. Its densities are those that the table draws, the ones in the weights
   /// those that it should, so that the weights of both techniques have the sum 1 at any direction.
   void draw_texels(const Material& material, const ShadingPoint& at,
-                   std::span<const SquarePoint> points, Heuristic heuristic, double lobes,
-                   double texels, LightSamples& samples) const {
+                   std::span<const SquarePoint> points, const Weighting& weighting,
+                   LightSamples& samples) const {
     const std::size_t count = samples.count = points.size();
     table_.draw(BatchPoints(points), samples);
     std::array<double, kCapacity> lobe_pdf;
@@ -68,9 +75,9 @@ class TwoTechniques {
         material, at, samples.directions(),
         {std::span(samples.reflected_cosine).first(count), std::span(lobe_pdf).first(count)});
     for (std::size_t i = 0; i < count; ++i) {
-      samples.pdf[i] =
-          over_weight(heuristic, samples.pdf[i], expected(texels, table_pdf(samples, i)),
-                      expected(lobes, lobe_pdf[i]));
+      samples.pdf[i] = over_weight(weighting.heuristic, samples.pdf[i],
+                                   expected(weighting.texels, table_pdf(samples, i)),
+                                   expected(weighting.lobes, lobe_pdf[i]));
     }
   }
 
@@ -128,6 +135,7 @@ Rgb MultiSample::integrate(const ShadingPoint& at, const RandomStream& stream, B
   const std::uint64_t lobes = budget.samples - texels;
   const double of_lobes = static_cast<double>(lobes);
   const double of_texels = static_cast<double>(texels);
+  const Weighting weighting = {heuristic, of_lobes, of_texels};
   const Grid<Rgb>& radiance = techniques->map().radiance;
   Batch batch;
   for (std::uint64_t done = 0; done < lobes; done += kCapacity) {
@@ -135,8 +143,8 @@ Rgb MultiSample::integrate(const ShadingPoint& at, const RandomStream& stream, B
     const auto texel_count =
         texels == 0 ? 0 : std::min<std::uint64_t>(texels - std::min(texels, done), kCapacity);
     batch.deal({stream, budget.first + (texels > 0 ? 2 * done : done)}, lobe_count, texel_count);
-    techniques->draw_lobes(material, at, std::span(batch.lobe_points).first(lobe_count), heuristic,
-                           of_lobes, of_texels, batch.samples);
+    techniques->draw_lobes(material, at, std::span(batch.lobe_points).first(lobe_count), weighting,
+                           batch.samples);
     const auto by_lobes = batch.samples.estimates(*scene, radiance, at.position, batch.arrivals);
     for (std::size_t i = 0; i < lobe_count; ++i) {
       batch.lobe_sum += glm::dvec3(by_lobes[i]);
@@ -144,7 +152,7 @@ Rgb MultiSample::integrate(const ShadingPoint& at, const RandomStream& stream, B
     }
     if (texel_count > 0) {
       techniques->draw_texels(material, at, std::span(batch.texel_points).first(texel_count),
-                              heuristic, of_lobes, of_texels, batch.samples);
+                              weighting, batch.samples);
       const auto by_texels = batch.samples.estimates(*scene, radiance, at.position, batch.arrivals);
       for (std::size_t i = 0; i < texel_count; ++i) {
         batch.texel_sum += glm::dvec3(by_texels[i]);
@@ -187,6 +195,7 @@ void draw_mixture(const TwoTechniques& techniques, const Material& material, con
   std::array<double, kCapacity> t;
   points.fill(0, std::span(s).first(samples.count), std::span(t).first(samples.count));
   const double share = techniques.has_light() ? 0.5 : 1.0;
+  const Weighting weighting = {Heuristic::balance, share, 1.0 - share};
   Dealt lobes;
   Dealt texels;
   for (std::size_t i = 0; i < samples.count; ++i) {
@@ -198,12 +207,11 @@ void draw_mixture(const TwoTechniques& techniques, const Material& material, con
   }
   LightSamples some;
   if (lobes.count > 0) {
-    techniques.draw_lobes(material, at, lobes.all(), Heuristic::balance, share, 1.0 - share, some);
+    techniques.draw_lobes(material, at, lobes.all(), weighting, some);
     lobes.put(some, share, samples);
   }
   if (texels.count > 0) {
-    techniques.draw_texels(material, at, texels.all(), Heuristic::balance, share, 1.0 - share,
-                           some);
+    techniques.draw_texels(material, at, texels.all(), weighting, some);
     texels.put(some, 1.0 - share, samples);
   }
 }

@@ -27,8 +27,9 @@ std::size_t cell_at(Extent cells, SquarePoint at) {
 
 SquarePoint centre_of(Extent cells, std::size_t index) {
   const auto width = static_cast<std::size_t>(cells.width);
+  const std::size_t row = index / width;
   return {(static_cast<double>(index % width) + 0.5) / cells.width,
-          (static_cast<double>(index / width) + 0.5) / cells.height};
+          (static_cast<double>(row) + 0.5) / cells.height};
 }
 
 /// Views by azimuth and cosine in the frame of the normal, which turns steadily over either half of

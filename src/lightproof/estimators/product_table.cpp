@@ -1,8 +1,7 @@
 #include "lightproof/estimators/product_table.h"
 
-#include <memory>
-
 #include "lightproof/estimators/cell_cdf.h"
+#include "lightproof/estimators/tabulated_source.h"
 #include "lightproof/estimators/texel_directions.h"
 #include "lightproof/samplers/texel_positions.h"
 #include "lightproof/samplers/texel_weights.h"
@@ -66,23 +65,27 @@ CellCdf product_of(const Light& light, const Material& material, const ShadingPo
   return CellCdf(std::move(product));
 }
 
+/// What is kept of the map, and the tables of points.
+class Product {
+ public:
+  explicit Product(const EnvironmentMap& map) : light_(map) {}
+
+  std::size_t bytes() const { return light_.bytes(); }
+  CellCdf table(const Material& material, const ShadingPoint& at) const {
+    return product_of(light_, material, at);
+  }
+  LightSample sample(const CellCdf& table, SquarePoint u) const {
+    return light_.positions.direction(table.draw(u));
+  }
+
+ private:
+  Light light_;
+};
+
 }  // namespace
 
 PreparedSource product_table_source(const EnvironmentMap& map) {
-  const auto light = std::make_shared<const Light>(map);
-  return {&map,
-          [light](const Material& material) -> SamplesAt {
-            return [light, material](const ShadingPoint& at) -> DrawSamples {
-              const auto table = std::make_shared<const CellCdf>(product_of(*light, material, at));
-              return [table, &light = *light, &material, &at](const BatchPoints& points,
-                                                              LightSamples& samples) {
-                draw_each(points, samples,
-                          [&](SquarePoint u) { return light.positions.direction(table->draw(u)); });
-                samples.reflect(material, at);
-              };
-            };
-          },
-          light->bytes()};
+  return tabulated_source<Product>(map);
 }
 
 }  // namespace lightproof

@@ -18,7 +18,8 @@ class Rings {
   /// The direction of this number, and the solid angle by which it is weighted: the ring's
   /// cosine-weighted area, 2 pi sin(theta) cos(theta) sin(step), over the cosine and the azimuths.
   Direction direction(std::uint64_t index, double& solid_angle) const {
-    const double theta = (static_cast<double>(index / steps_.azimuths) + 0.5) * step_;
+    const std::uint64_t ring = index / steps_.azimuths;
+    const double theta = (static_cast<double>(ring) + 0.5) * step_;
     const double phi = 2.0 * kPi * (static_cast<double>(index % steps_.azimuths) + 0.5) /
                        static_cast<double>(steps_.azimuths);
     const double sine = std::sin(theta);

@@ -1,9 +1,9 @@
 #include "lightproof/estimators/two_level_product.h"
 
 #include <algorithm>
-#include <memory>
 
 #include "lightproof/estimators/cell_cdf.h"
+#include "lightproof/estimators/tabulated_source.h"
 #include "lightproof/estimators/texel_directions.h"
 #include "lightproof/samplers/texel_positions.h"
 #include "lightproof/samplers/texel_weights.h"
@@ -39,7 +39,7 @@ class Blocks {
   }
 
   /// The blocks in proportion to their light times the mean of k.
-  CellCdf product(const Material& material, const ShadingPoint& at) const {
+  CellCdf table(const Material& material, const ShadingPoint& at) const {
     Grid<double> weights(blocks_);
     std::array<double, static_cast<std::size_t>(kNodes * kMostBlocks)> memory;
     const auto k = std::span(memory).first(static_cast<std::size_t>(nodes_.columns()));
@@ -111,20 +111,7 @@ class Blocks {
 }  // namespace
 
 PreparedSource two_level_product_source(const EnvironmentMap& map) {
-  const auto blocks = std::make_shared<const Blocks>(map);
-  return {&map,
-          [blocks](const Material& material) -> SamplesAt {
-            return [blocks, material](const ShadingPoint& at) -> DrawSamples {
-              const auto product = std::make_shared<const CellCdf>(blocks->product(material, at));
-              return [product, &blocks = *blocks, &material, &at](const BatchPoints& points,
-                                                                  LightSamples& samples) {
-                draw_each(points, samples,
-                          [&](SquarePoint u) { return blocks.sample(*product, u); });
-                samples.reflect(material, at);
-              };
-            };
-          },
-          blocks->bytes()};
+  return tabulated_source<Blocks>(map);
 }
 
 }  // namespace lightproof
