@@ -109,20 +109,20 @@ inline EstimatorSums estimator_sums(const Grid<double>& luminance, Value value,
   visit_middles(cells, [&](double s, double t, double area) {
     const double theta = kPi - kPi * t;
     const double phi = kPi - 2.0 * kPi * s;
-    const auto [k, pdf] =
+    const Factor factor =
         at(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
     const double light = value(luminance, s, t);
     const double jacobian = 2.0 * kPi * kPi * std::sin(theta);
     const auto add = [&](EstimatorSums::RawMoments& of, double density) {
       if (!(density > 0.0)) return;
-      const double x = light * k / density;
+      const double x = light * factor.k / density;
       for (std::size_t m = 0; m < 4; ++m) {
         of.raw[m] += std::pow(x, static_cast<double>(m + 1)) * density * jacobian * area;
       }
       of.largest = std::max(of.largest, x);
     };
     add(moments.uniform, 1.0 / (4.0 * kPi));
-    add(moments.material, pdf);
+    add(moments.material, factor.pdf);
     add(moments.environment_a, light / mean / jacobian);
     add(moments.environment_b, light / whole);
     add(moments.environment_c, value(weighted, s, t) / mean_weighted / jacobian);

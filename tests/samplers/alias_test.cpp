@@ -233,8 +233,7 @@ int digits_of(const Masses& exact, unsigned bits) {
       cut.push_back(cut.back() + (std::uint64_t{1} << surplus));
     }
     std::ranges::sort(cut);
-    const auto same = std::ranges::unique(cut);
-    cut.erase(same.begin(), same.end());
+    cut.erase(std::unique(cut.begin(), cut.end()), cut.end());
     if (cut.size() + 1024 <= std::size_t{1} << bits) return digits;
   }
 }

@@ -215,7 +215,8 @@ TEST_P(BilinearOnMaps, PdfIntegratesToOne) {
 // less than a unit for rounding and one for every cell with light. Inside the patch the luminance
 // is a float; under C it is that of the centres, times the sine there, that is interpolated.
 TEST_P(BilinearOnMaps, PdfIsTheInterpolatedLuminanceOverItsIntegral) {
-  const auto [name, density_space] = GetParam();
+  const std::string_view name = std::get<0>(GetParam());
+  const DensitySpace density_space = std::get<1>(GetParam());
   for (const Extent extent : kSizes) {
     const EnvironmentMap map = make_synthetic_map(name, extent);
     const Bilinear sampler(map, target_of(density_space));
