@@ -44,19 +44,15 @@ AxisMap AxisMap::parse(std::string_view text) {
 }
 
 std::array<AxisMap, 48> AxisMap::make_all() {
+  constexpr std::size_t kSigns = 8;
   std::array<AxisMap, 48> maps;
   std::array<int, 3> axes = {0, 1, 2};
-  std::size_t at = 0;
-  do {
-    for (const int x : {1, -1}) {
-      for (const int y : {1, -1}) {
-        for (const int z : {1, -1}) {
-          maps[at].axis_ = axes;
-          maps[at++].sign_ = {x, y, z};
-        }
-      }
-    }
-  } while (std::next_permutation(axes.begin(), axes.end()));
+  for (std::size_t at = 0; at < maps.size(); ++at) {
+    const std::size_t signs = at % kSigns;
+    if (at > 0 && signs == 0) std::next_permutation(axes.begin(), axes.end());
+    maps[at].axis_ = axes;
+    for (std::size_t i = 0; i < 3; ++i) maps[at].sign_[i] = (signs >> i & 1U) != 0 ? -1 : 1;
+  }
   return maps;
 }
 

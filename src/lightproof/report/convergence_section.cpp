@@ -56,7 +56,7 @@ Table density_table(const std::vector<DensityVariances>& places) {
                                             : Cell{"\u2013", "number", ""});
     }
     row[3 + p.least].css_class += " least";
-    table.add(std::move(row));
+    table.add(row);
   }
   return table;
 }

@@ -168,6 +168,7 @@ std::string discrepancy_finding(const std::vector<PointDiscrepancy>& all) {
     if (r.points != most_points(all)) continue;
     if (best == nullptr || r.l2_star < best->l2_star) best = &r;
   }
+  if (best == nullptr) return "The evenness of point sets was not measured";
   return fmt::format(
       "The most even of {} points are those of {}: their L2 star discrepancy is {} of that of "
       "independent points",
