@@ -272,22 +272,24 @@ void register_baselines(Extent extent, DensitySpace density_space) {
   add("bare_gather_2B", "fused", [](const Baselines& all) { return draw_limit(all.limit); });
 }
 
+void register_orders(const SamplerInfo& info, Extent extent, DensitySpace density_space) {
+  for (const auto& [order, order_name] : kOrders) {
+    if (order == Order::ahead && !prefetches(info)) continue;
+    benchmark::RegisterBenchmark(
+        name_of(info.name, extent, density_space, order_name).c_str(),
+        [&info, extent, density_space, order = order](benchmark::State& state) {
+          directions_benchmark(state, info, extent, density_space, order);
+        });
+  }
+}
+
 }  // namespace
 
 void register_direction_benchmarks() {
   for (const Extent extent : kExtents) {
     for (const DensitySpace density_space : kDensitySpaces) {
       register_baselines(extent, density_space);
-      for (const SamplerInfo& info : samplers()) {
-        for (const auto& [order, order_name] : kOrders) {
-          if (order == Order::ahead && !prefetches(info)) continue;
-          benchmark::RegisterBenchmark(
-              name_of(info.name, extent, density_space, order_name).c_str(),
-              [&info, extent, density_space, order = order](benchmark::State& state) {
-                directions_benchmark(state, info, extent, density_space, order);
-              });
-        }
-      }
+      for (const SamplerInfo& info : samplers()) register_orders(info, extent, density_space);
     }
   }
 }

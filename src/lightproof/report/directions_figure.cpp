@@ -86,7 +86,8 @@ std::string directions_chart(const std::vector<DirectionRecord>& records) {
   for (const DirectionRecord& r : records) {
     if (!drawable(r.ns_per_sample)) continue;
     times.add(r.ns_per_sample);
-    rows.push_back({{"series", r.sampler},
+    rows.push_back({{"series", fmt::format("{}, {}", r.sampler,
+                                           r.order == kBatches ? "in batches" : "one at a time")},
                     {"density", r.density},
                     {"order", words_of(r.order)},
                     {"ns", rounded(r.ns_per_sample)},
@@ -105,8 +106,7 @@ std::string directions_chart(const std::vector<DirectionRecord>& records) {
                         {{"field", "series"},
                          {"type", "nominal"},
                          {"title", nullptr},
-                         {"sort", {{"field", "ns"}, {"op", "min"}}}}},
-                       {"yOffset", {{"field", "order"}, {"type", "nominal"}}}};
+                         {"sort", {{"field", "ns"}, {"op", "min"}}}}}};
   chart["layer"] = {{{"mark", {{"type", "point"}, {"filled", true}, {"size", 70}, {"opacity", 1}}},
                      {"encoding",
                       {{"color", series(styles, &SeriesStyle::colour, legend)},
