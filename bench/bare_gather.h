@@ -17,8 +17,9 @@ class BareGather {
   /// Sum of the numbers at the points first, first + 1, … of the stream; nothing else is written.
   std::uint64_t read(const RandomStream& stream, std::uint64_t first, std::size_t count) const;
 
-  /// The same with what any sampler of directions has to add to a sample: one reciprocal square
-  /// root and one sine and cosine. Sum of what they are; nothing else is written.
+  /// Sum of the numbers at the points first, first + 1, … of the stream, and of one reciprocal
+  /// square root, one sine and one cosine a point: what any sampler of directions has to compute.
+  /// Nothing else is written.
   double read_directions(const RandomStream& stream, std::uint64_t first, std::size_t count) const;
 
   std::size_t table_bytes() const { return numbers_.size() * sizeof(std::uint16_t); }

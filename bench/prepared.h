@@ -30,10 +30,10 @@ struct Prepared {
   std::string why_not;             ///< what is wrong with the samples; empty if nothing is
 };
 
-/// Of the benchmarks' map of this size, by default under the lecture's density. Built, some times,
-/// and checked once, though Google Benchmark runs a benchmark several times; it stays until another
-/// is asked for. Its samples must fit the bins of reference/, one at a time and in batches; if it
-/// searches sums, its texels must be those of reference/.
+/// The sampler of the benchmarks' map of this size, by default under the lecture's density. It is
+/// built some times and checked once, though Google Benchmark runs a benchmark several times, and
+/// stays until another is asked for. Its samples must fit the bins of reference/, one at a time and
+/// in batches; if it searches sums, its texels must be those of reference/.
 const Prepared& prepared(const SamplerInfo& info, Extent extent,
                          DensitySpace density_space = DensitySpace::texture);
 

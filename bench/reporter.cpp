@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "lightproof/core/machine.h"
+
 namespace lightproof::bench {
 namespace {
 

@@ -7,10 +7,6 @@
 
 namespace lightproof::bench {
 
-/// A row whose wall time exceeds its processor time by more than this factor was measured while the
-/// machine had other work.
-inline constexpr double kBusyRatio = 1.1;
-
 /// The reporter that the command line asks for. Every row has the counter `wall_per_cpu`, the ratio
 /// of wall time to the measuring thread's processor time, and the label "machine busy" where that
 /// exceeds kBusyRatio.

@@ -64,7 +64,7 @@ struct Techniques {
   }
 };
 
-/// Those of several estimators; none before the first node.
+/// The techniques of several estimators; none before the first node.
 struct AllTechniques {
   std::vector<Techniques> of;
 

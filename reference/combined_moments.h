@@ -41,12 +41,14 @@ struct MeanAndVariance {
   double largest = 0.0;
 };
 
-/// One entry per grid of radiance L, which is constant inside a texel; all grids have one extent.
+/// The moments of one combined estimator, one entry per grid of radiance L, which is constant
+/// inside a texel; all grids have one extent.
 std::vector<MeanAndVariance> combined_moments(const Kernel& kernel,
                                               std::span<const Grid<double>> radiance,
                                               const CombinedSampling& sampling);
 
-/// The same of several estimators, as [estimator][grid], which share the kernel's values.
+/// The moments of several combined estimators, as [estimator][grid of radiance]; they share the
+/// kernel's values, which take most of the time.
 std::vector<std::vector<MeanAndVariance>> combined_moments(
     const Kernel& kernel, std::span<const Grid<double>> radiance,
     std::span<const CombinedSampling> samplings);

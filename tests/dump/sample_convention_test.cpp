@@ -17,6 +17,15 @@ TEST(AxisMap, TakesEachOfOurAxesFromTheirs) {
   EXPECT_EQ(AxisMap()(kOblique), kOblique);
 }
 
+TEST(AxisMap, AfterAnotherIsBothInTurn) {
+  for (const AxisMap& first : AxisMap::all()) {
+    for (const AxisMap& second : AxisMap::all()) {
+      EXPECT_EQ(second.after(first)(kOblique), second(first(kOblique)))
+          << first.text() << " then " << second.text();
+    }
+  }
+}
+
 TEST(AxisMap, AreFortyEightOfWhichHalfMirror) {
   std::set<std::string> texts;
   int mirrors = 0;

@@ -53,6 +53,16 @@ TEST_F(SampleDumpFile, OfImageCoordinatesHasTheDirectionsOfThePreset) {
   }
 }
 
+TEST_F(SampleDumpFile, OfImageCoordinatesMayBeTurnedToo) {
+  SampleConvention convention;
+  convention.axes = AxisMap::parse("x,-z,y");
+  convention.measure = DensityMeasure::square;
+  const DumpedSample sample = first_of(dump({0.3, 0.6, 1.5}, {"s", "t", "pdf"}, convention));
+  EXPECT_EQ(sample.direction, convention.axes(direction_from_image(Preset::z_up, {0.3, 0.6})));
+  // The area of the image there is that of its own row, wherever the direction is turned to.
+  EXPECT_NEAR(sample.pdf.value, 1.5 / solid_angle_per_square(0.6), 1e-12);
+}
+
 TEST_F(SampleDumpFile, WithDensitiesOverTheImageHasThemPerSteradian) {
   SampleConvention convention;
   convention.measure = DensityMeasure::square;

@@ -100,14 +100,7 @@ void add_sample(DensityComparison& found, double& worst, const ComparedCell& cel
     if (found.unlit_cells++ == 0) found.first_unlit = cell;
     return;
   }
-  const double ratio = cell.pdf / cell.declared;
-  const double jacobian = solid_angle_per_square(cell.at.t);
-  found.ratio.add(ratio);
-  found.times_jacobian.add(ratio * jacobian);
-  found.over_jacobian.add(ratio / jacobian);
-  const double error = std::abs(ratio - 1.0);
-  found.largest_error = std::max(found.largest_error, error);
-  const double over = error / tolerance;
+  const double over = std::abs(found.add_ratio(cell) - 1.0) / tolerance;
   if (over <= 1.0) return;  // false for NaN
   ++found.cells_off;
   if (found.worst && !(over > worst)) return;

@@ -100,14 +100,14 @@ struct Candidate {
   double log_likelihood;
 };
 
+/// Adds other axes than those by which the directions were read, which are `named`.
 void add_axes(std::vector<Candidate>& found, const Target& declared,
-              const std::vector<Direction>& directions) {
+              const std::vector<Direction>& directions, const AxisMap& named) {
   const auto& all = AxisMap::all();
   std::vector<Target::Fit> fits(all.size());
   parallel_for(all.size(), [&](std::size_t i) { fits[i] = declared.fit(directions, all[i]); });
   for (std::size_t i = 1; i < all.size(); ++i) {
-    const std::string text = all[i].text();
-    found.push_back({{"axes " + text, words_of(all[i]), "--axes=" + text, fits[i].log10_p},
+    found.push_back({{words_of(all[i]), "--axes=" + all[i].after(named).text(), fits[i].log10_p},
                      1,
                      fits[i].log_likelihood});
   }
@@ -140,8 +140,7 @@ void add_densities(std::vector<Candidate>& found, const EnvironmentMap& map, Tar
         parts.push_back(fmt::format("the luminance `{}`", weights.name));
         options.push_back(fmt::format("--luminance {}", weights.name));
       }
-      found.push_back({{fmt::format("{}", fmt::join(options, " ")),
-                        fmt::format("if they are drawn by {}", fmt::join(parts, " and ")),
+      found.push_back({{fmt::format("if they are drawn by {}", fmt::join(parts, " and ")),
                         fmt::format("{}", fmt::join(options, " ")), fit.log10_p},
                        options.size(),
                        fit.log_likelihood});
@@ -159,7 +158,7 @@ std::vector<Recognition> recognise(const SampleDump& dump, const EnvironmentMap&
   if (declared.fit(directions, AxisMap()).log10_p >= kRejectedLog10P) return {};
   std::vector<Candidate> found;
   add_densities(found, map, target, directions);
-  add_axes(found, declared, directions);
+  add_axes(found, declared, directions, dump.axes());
   std::erase_if(found, [](const Candidate& candidate) {
     return candidate.recognition.log10_p < kFittingLog10P;
   });

@@ -66,7 +66,8 @@ std::optional<NumberFormat> format_of(const std::string& name) {
   return chosen("--format", name, kFormats);
 }
 
-SampleConvention convention_of(const DumpDescription& said) {
+/// Image coordinates name directions in Lightproof's axes, whatever the preset.
+SampleConvention convention_of(const DumpDescription& said, bool are_directions) {
   SampleConvention convention;
   if (!said.preset.empty()) {
     const auto preset = preset_by_name(said.preset);
@@ -75,7 +76,7 @@ SampleConvention convention_of(const DumpDescription& said) {
                                    no_such_name("preset", said.preset, names_of(presets()))));
     }
     convention.preset = *preset;
-    convention.axes = axes_of(*preset);
+    if (are_directions) convention.axes = axes_of(*preset);
   }
   if (!said.axes.empty()) convention.axes = AxisMap::parse(said.axes);
   constexpr std::array<std::pair<const char*, DensityMeasure>, 2> kMeasures = {
@@ -105,7 +106,8 @@ std::shared_ptr<const SampleDump> open_dump(const std::string& file, const DumpD
   }
   try {
     const SampleColumns columns = sample_columns(names);
-    return std::make_shared<const SampleDump>(std::move(table), columns, convention_of(said));
+    return std::make_shared<const SampleDump>(std::move(table), columns,
+                                              convention_of(said, columns.are_directions()));
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file, error.what()));
   }
@@ -186,14 +188,7 @@ void add_dump_options(CLI::App& command, Options& options) {
       ->check(CLI::Range(1e-12, 1.0))
       ->type_name("E")
       ->capture_default_str();
-  command
-      .add_option("--must-detect", options.gate.must_detect,
-                  "relative root mean square deviation of the bins over (phi, theta) that an "
-                  "accepting run must have been able to see with 99 % probability; else it is "
-                  "inconclusive")
-      ->check(CLI::Range(1e-9, 1e9))
-      ->type_name("W")
-      ->capture_default_str();
+  add_must_detect(command, options.gate.must_detect);
 }
 
 }  // namespace

@@ -166,14 +166,7 @@ void add_sample_options(CLI::App& command, const std::shared_ptr<Options>& optio
   add_number(command, "--family", options->gate.family, 0, std::uint64_t{1} << 53U,
              "p-values (with --sequential: samplers) that share the error probability, if more "
              "than this run has: to judge a part of a run as the whole did");
-  command
-      .add_option("--must-detect", options->gate.must_detect,
-                  "relative root mean square deviation of the bins over (phi, theta) that an "
-                  "accepting run must have been able to see with 99 % probability; else it is "
-                  "inconclusive")
-      ->check(CLI::Range(1e-9, 1e9))
-      ->type_name("W")
-      ->capture_default_str();
+  add_must_detect(command, options->gate.must_detect);
 }
 
 }  // namespace

@@ -74,7 +74,8 @@ PrecomputeRequest request_of(const Options& options) {
   return request;
 }
 
-/// Without --size and --levels, chooses the smallest sizes that reach --max-error.
+/// Sets the smallest sizes and numbers of levels that reach --max-error, unless --size or --levels
+/// says them.
 void choose_sizes(const EnvironmentMap& map, const Options& options, PrecomputeRequest& request) {
   if (!options.max_error || !options.product_size.empty() || options.levels > 0) return;
   for (ProductRequest& product : request.products) {

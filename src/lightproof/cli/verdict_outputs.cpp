@@ -22,6 +22,17 @@ void add_verdict_outputs(CLI::App& command, VerdictOutputs& outputs) {
                    "nine at most, even if quiet");
 }
 
+void add_must_detect(CLI::App& command, double& must_detect) {
+  command
+      .add_option("--must-detect", must_detect,
+                  "relative root mean square deviation of the bins over (phi, theta) that an "
+                  "accepting run must have been able to see with 99 % probability; else it is "
+                  "inconclusive")
+      ->check(CLI::Range(1e-9, 1e9))
+      ->type_name("W")
+      ->capture_default_str();
+}
+
 bool check_verdict_outputs(const VerdictOutputs& outputs) {
   return check_outputs(std::vector<std::string>{outputs.json, outputs.junit, outputs.markdown});
 }

@@ -23,6 +23,9 @@ struct VerdictOutputs {
 /// Adds --json, --junit, --markdown and --github.
 void add_verdict_outputs(CLI::App& command, VerdictOutputs& outputs);
 
+/// Adds --must-detect.
+void add_must_detect(CLI::App& command, double& must_detect);
+
 /// Whether one of them is the standard output; throws as check_outputs() does.
 bool check_verdict_outputs(const VerdictOutputs& outputs);
 

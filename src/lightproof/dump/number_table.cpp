@@ -86,7 +86,7 @@ NumberTable::NumberTable(const std::string& file, std::optional<NumberFormat> fo
       open_raw(name, columns);
       break;
     case NumberFormat::text:
-      open_text(name, columns);
+      open_text(name);
       break;
   }
   if (columns != 0 && columns != columns_) {
@@ -121,7 +121,7 @@ void NumberTable::open_raw(const std::string& name, std::size_t columns) {
                   name, rows_, file_->bytes().size(), columns_, number_size_));
 }
 
-void NumberTable::open_text(const std::string& name, std::size_t /*columns*/) {
+void NumberTable::open_text(const std::string& name) {
   if (!folder_) folder_ = std::make_unique<TemporaryFolder>();
   const fs::path numbers = *folder_ / "numbers";
   const TextTable table = write_numbers(name, file_->bytes(), numbers);

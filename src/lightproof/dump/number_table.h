@@ -46,7 +46,7 @@ class NumberTable {
   void read(std::uint64_t first, std::span<double> numbers) const;
 
  private:
-  void open_text(const std::string& name, std::size_t columns);
+  void open_text(const std::string& name);
   void open_raw(const std::string& name, std::size_t columns);
 
   std::unique_ptr<TemporaryFolder> folder_;  ///< of the standard input, or of the numbers of a text

@@ -61,6 +61,16 @@ const std::array<AxisMap, 48>& AxisMap::all() {
   return maps;
 }
 
+AxisMap AxisMap::after(const AxisMap& first) const {
+  AxisMap both;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto middle = static_cast<std::size_t>(axis_[i]);
+    both.axis_[i] = first.axis_[middle];
+    both.sign_[i] = sign_[i] * first.sign_[middle];
+  }
+  return both;
+}
+
 std::string AxisMap::text() const {
   std::string text;
   for (std::size_t i = 0; i < 3; ++i) {

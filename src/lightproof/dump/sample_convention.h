@@ -27,6 +27,9 @@ class AxisMap {
     return {sign_[0] * parts[axis_[0]], sign_[1] * parts[axis_[1]], sign_[2] * parts[axis_[2]]};
   }
 
+  /// The axes of what `first` gives, taken by this one.
+  AxisMap after(const AxisMap& first) const;
+
   /// "x,-z,y".
   std::string text() const;
   /// Whether it turns right-handed axes into left-handed ones.
@@ -51,6 +54,7 @@ enum class DensityMeasure {
 
 /// What must be known of samples beside their numbers.
 struct SampleConvention {
+  /// From the axes of the directions, given or named by image coordinates, to Lightproof's.
   AxisMap axes;
   /// By which image coordinates are directions, and densities over the image are ones over
   /// directions.

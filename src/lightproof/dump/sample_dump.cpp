@@ -50,21 +50,24 @@ double SampleDump::rounding() const {
 
 DumpedSample SampleDump::sample_of(std::span<const double> row) const {
   DumpedSample sample{{kNaN, kNaN, kNaN}, {kNaN}};
+  Direction of_image = sample.direction;  // in the axes of the preset's image coordinates
   if (columns_.are_directions()) {
     sample.direction =
         convention_.axes(normalised({row[*columns_.x], row[*columns_.y], row[*columns_.z]}));
+    of_image = sample.direction;
   } else {
     const double s = row[*columns_.s];
     const double t = columns_.t_is_from_top ? 1.0 - row[*columns_.t] : row[*columns_.t];
     if (s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0) {
-      sample.direction = direction_from_image(convention_.preset, {s, t});
+      of_image = direction_from_image(convention_.preset, {s, t});
+      sample.direction = convention_.axes(of_image);
     }
   }
   if (!columns_.pdf) return sample;
   const double pdf = row[*columns_.pdf];
   sample.pdf.value = convention_.measure == DensityMeasure::solid_angle
                          ? pdf
-                         : pdf / solid_angle_per_image(convention_.preset, sample.direction);
+                         : pdf / solid_angle_per_image(convention_.preset, of_image);
   return sample;
 }
 

@@ -27,6 +27,8 @@ class SampleDump {
 
   std::uint64_t count() const { return table_.rows(); }
   bool has_pdf() const { return columns_.pdf.has_value(); }
+  /// The axes by which the directions are read.
+  const AxisMap& axes() const { return convention_.axes; }
   /// By how much rounding may have moved a direction, in radians.
   double rounding() const;
 

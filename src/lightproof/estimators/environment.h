@@ -42,7 +42,8 @@ class EnvironmentTable {
   MapMeasure positions_;
   LuminanceWeights weights_;
   double floor_ = 0.0;  ///< luminance that is taken off
-  /// Of each row: density over luminance, times the sine if positions are uniform in the square.
+  /// For each row the density over the luminance, times the sine if positions are uniform in the
+  /// square.
   std::vector<double> scales_;
   std::optional<GuideTable> table_;
 };
@@ -50,8 +51,8 @@ class EnvironmentTable {
 /// The map by this density, by the fastest monotone table. Throws InputError if the map is black.
 PreparedSource environment_source(const EnvironmentMap& map, DensitySpace density_space);
 
-/// The same by one alias table over all texels, which is not monotone: neighbouring points go to
-/// unrelated texels. Throws InputError if the map is black.
+/// The map by this density, by one alias table over all texels, which is not monotone: neighbouring
+/// points go to unrelated texels. Throws InputError if the map is black.
 PreparedSource alias_source(const EnvironmentMap& map, DensitySpace density_space);
 
 }  // namespace lightproof

@@ -75,17 +75,12 @@ struct RowComparison {
       if (found.unlit_cells++ == 0) found.first_unlit = cell;
       return;
     }
-    const double ratio = cell.pdf / cell.declared;
-    const double jacobian = solid_angle_per_square(cell.at.t);
-    found.ratio.add(ratio);
-    found.times_jacobian.add(ratio * jacobian);
-    found.over_jacobian.add(ratio / jacobian);
+    const double ratio = found.add_ratio(cell);
     if (cell.pdf <= 0.0) {
       found.unreachable_mass += mass;
       if (found.unreachable_cells++ == 0) found.first_unreachable = cell;
     } else {
       const double weight_error = std::abs(1.0 / ratio - 1.0);
-      found.largest_error = std::max(found.largest_error, std::abs(ratio - 1.0));
       found.largest_weight_error = std::max(found.largest_weight_error, weight_error);
       found.rounding_variance += weight_error * weight_error * ratio * mass;
     }
@@ -157,6 +152,17 @@ void RatioRange::merge(const RatioRange& other) {
 }
 
 bool RatioRange::is_constant() const { return least > 0.0 && largest <= least * (1.0 + kRelative); }
+
+double DensityComparison::add_ratio(const ComparedCell& cell) {
+  const double of_both = cell.pdf / cell.declared;
+  const double jacobian = solid_angle_per_square(cell.at.t);
+  ratio.add(of_both);
+  times_jacobian.add(of_both * jacobian);
+  over_jacobian.add(of_both / jacobian);
+  // A cell that cannot be reached is counted as such, and not as one that is off by all of it.
+  if (of_both > 0.0) largest_error = std::max(largest_error, std::abs(of_both - 1.0));
+  return of_both;
+}
 
 double declared_density(const Expectation& expectation, SquarePoint at, int x, int y) {
   if (expectation.density) return expectation.density(at);

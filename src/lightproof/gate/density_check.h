@@ -60,6 +60,10 @@ struct DensityComparison {
   /// The pdf over that of the declared masses, spread inside the texels by the other measure than
   /// the declared one. Stays empty if the declared density is no masses of texels.
   RatioRange over_other_measure;
+
+  /// Adds the ratio of the two densities of a cell, whose declared one is positive, to `ratio`,
+  /// `times_jacobian` and `over_jacobian`, and its error to `largest_error`. Returns the ratio.
+  double add_ratio(const ComparedCell& cell);
 };
 
 /// Compares a sampler's pdf with the declared density, given the rounding that the sampler

@@ -48,6 +48,7 @@ struct Batch {
   std::vector<SquarePoint> points = std::vector<SquarePoint>(kBatch);
   std::vector<TexelSample> samples = std::vector<TexelSample>(kBatch);
   std::vector<std::size_t> order = std::vector<std::size_t>(kBatch);  ///< in the batch as drawn
+  std::uint64_t first = 0;  ///< number of the first sample
   std::size_t size = 0;
   std::size_t drawn = 0;  ///< before those that left the map were taken out
   Numbers s = Numbers(kBatch);
@@ -82,7 +83,7 @@ void count_out_of_domain(Draws& draws, Batch& batch, Extent map) {
   batch.drawn = batch.size;
   for (std::size_t i = 0; i < batch.size; ++i) {
     if (!is_on_map(batch.samples[i], map)) {
-      draws.out_of_domain.add(batch.points[i], batch.samples[i]);
+      draws.out_of_domain.add({batch.points[i], batch.samples[i], batch.first + i});
       continue;
     }
     batch.order[kept] = i;
@@ -114,7 +115,9 @@ void count_texels(Part& part, Batch& batch, const Expectation& expectation) {
                           static_cast<std::uint32_t>(sample.x));
     const std::uint8_t flags = expectation.flags(sample.x, sample.y);
     batch.is_bright[i] = (flags & Expectation::counts_as_bright) != 0 ? 1 : 0;
-    if ((flags & Expectation::has_mass) == 0) part.draws.zero_density.add(batch.points[i], sample);
+    if ((flags & Expectation::has_mass) == 0) {
+      part.draws.zero_density.add({batch.points[i], sample, batch.first + batch.order[i]});
+    }
   }
   for (std::size_t i = 0; i < batch.size; ++i) {
     const TexelSample& sample = batch.samples[i];
@@ -216,7 +219,8 @@ Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
   Batch batch;
   for (std::uint64_t done = 0; done < range.count; done += kBatch) {
     batch.size = static_cast<std::size_t>(std::min(kBatch, range.count - done));
-    draw_batch(batch, sampler, stream, range.first + done);
+    batch.first = range.first + done;
+    draw_batch(batch, sampler, stream, batch.first);
     count_repeats(part.draws, batch);
     count_out_of_domain(part.draws, batch, expectation.masses.extent());
     find_directions(batch);

@@ -15,10 +15,12 @@
 
 namespace lightproof {
 
-/// A sample that should not be, and the point that it came from.
+/// A sample that should not be, the point that it came from, which is not a number where the source
+/// has an order of its own, and its number in that order or among the points.
 struct InvalidSample {
   SquarePoint u;
   TexelSample sample;
+  std::uint64_t number;
 };
 
 /// Samples of one kind that should not be: how many, and the first of them.
@@ -26,8 +28,8 @@ struct InvalidSamples {
   std::uint64_t count = 0;
   std::optional<InvalidSample> first;
 
-  void add(SquarePoint u, const TexelSample& sample) {
-    if (count++ == 0) first = InvalidSample{u, sample};
+  void add(const InvalidSample& sample) {
+    if (count++ == 0) first = sample;
   }
   void merge(const InvalidSamples& other) {
     if (count == 0) first = other.first;

@@ -141,11 +141,12 @@ void Records::add_invalid(TestId test, std::string_view what,
   record.effect = record.statistic / static_cast<double>(samples_);
   record.outcome = invalid_samples.count == 0 ? Outcome::accept : Outcome::reject;
   if (!invalid_samples.first) return;
-  const auto& [u, sample] = *invalid_samples.first;
+  const auto& [u, sample, number] = *invalid_samples.first;
+  const std::string from = std::isnan(u.s) ? fmt::format("sample {}, counted from 0,", number)
+                                           : fmt::format("u = ({:.17g}, {:.17g})", u.s, u.t);
   record.detail = fmt::format(
-      "{} of {} samples {}; first: u = ({:.17g}, {:.17g}) gives texel ({}, {}) at ({:.9g}, "
-      "{:.9g}), pdf {:.3g}",
-      invalid_samples.count, samples_, what, u.s, u.t, sample.x, sample.y, sample.at.s, sample.at.t,
+      "{} of {} samples {}; first: {} gives texel ({}, {}) at ({:.9g}, {:.9g}), pdf {:.3g}",
+      invalid_samples.count, samples_, what, from, sample.x, sample.y, sample.at.s, sample.at.t,
       sample.pdf.value);
 }
 

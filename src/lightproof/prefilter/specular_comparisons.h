@@ -66,7 +66,7 @@ PublishedComparison height_comparison(int width);
 /// sum F0 A + B, which is exact here.
 PublishedComparison fresnel_at_mirror_comparison(double f0, double cosine, double roughness);
 
-/// All of them, at telling inputs.
+/// The comparisons of this header, at inputs that show the difference.
 std::vector<PublishedComparison> specular_comparisons();
 
 /// The share of half-vectors that mirror light from below the horizon when n = v: alpha^2/(1 +

@@ -141,10 +141,7 @@ Json commit_of(const RunDescription& run) {
 }
 
 Json json_of(const Recognition& r) {
-  return {{"change", r.name},
-          {"words", r.words},
-          {"options", r.options},
-          {"log10_p", number(r.log10_p)}};
+  return {{"words", r.words}, {"options", r.options}, {"log10_p", number(r.log10_p)}};
 }
 
 Json json_of(const GateResult& gate, const Rejection& r) {

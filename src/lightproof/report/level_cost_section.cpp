@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "lightproof/core/machine.h"
 #include "lightproof/page/chart_parts.h"
 #include "lightproof/page/html.h"
 #include "lightproof/page/numbers.h"
@@ -16,8 +17,6 @@ namespace lightproof {
 namespace {
 
 constexpr const char* kFrontColour = "#1d232a";
-/// Above this ratio of wall to processor time other programs have taken a share.
-constexpr double kBusy = 1.1;
 
 using Levels = std::vector<LevelCost>;
 
@@ -213,7 +212,7 @@ std::string busy_text(const std::vector<ThreadGain>& gains) {
   double ratio = 0.0;
   for (const ThreadGain& gain : gains) ratio = std::max(ratio, gain.wall_over_processor);
   if (!(ratio > 0.0)) return "";
-  if (ratio <= kBusy)
+  if (ratio <= kBusyRatio)
     return " The machine was idle: work on one thread got a processor all the time.";
   return fmt::format(
       " The machine was busy: work on one thread took up to {} times the processor time that it "

@@ -19,7 +19,7 @@ PublishedComparison white_furnace_comparison(double roughness, double cosine);
 /// the surface's reflection by quadrature.
 PublishedComparison two_maps_comparison(TwoMapsForm published);
 
-/// All of them, at telling inputs.
+/// The comparisons of 002-6 and 004-15, at inputs that show the difference.
 std::vector<PublishedComparison> shading_comparisons();
 
 /// What a grey glossy surface of the two maps' model reflects of light of radiance 1 from all

@@ -28,8 +28,6 @@ constexpr std::string_view kTableSize = "2048x1024";
 /// way and the limit.
 constexpr std::string_view kDirectionRows =
     "alias|packed_alias|alias_lines|guide_table|guide_lines|upper_bound_baseline|bare_gather_2B";
-/// Wall time over processor time from which a machine was busy with other work, as in bench/.
-constexpr double kBusyRatio = 1.1;
 
 /// The repetitions of one benchmark.
 struct Group {
