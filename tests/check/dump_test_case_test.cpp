@@ -184,6 +184,26 @@ TEST(Dump, WithAnotherDensityThanItsSamplesIsRejected) {
   }
 }
 
+// Too few and too little for any statistic: each sample's density is compared.
+TEST(Dump, WithADensityThatIsWrongNowAndThenIsRejectedByThatCheckAlone) {
+  const Dump dump(DensitySpace::sine_weighted, [n = 0](Written& row) mutable {
+    if (++n % 1000 == 0) row[3] *= 1.01;
+  });
+  for (const TestRecord& test : dump.judged(DensitySpace::sine_weighted).tests) {
+    EXPECT_EQ(test.outcome == Outcome::reject, test.test == TestId::declared_density)
+        << full_name(test.test) << ": " << test.detail;
+  }
+}
+
+TEST(Dump, IsSpentInTwoStagesAFifthFirst) {
+  EXPECT_EQ(spending({}, 1000).samples, 200U);
+  EXPECT_EQ(spending({}, 1).samples, 1U);
+  const Dump dump(DensitySpace::sine_weighted, [](Written& row) { row[2] = -row[2]; });
+  for (const TestRecord& test : dump.judged(DensitySpace::sine_weighted).tests) {
+    EXPECT_EQ(test.samples, (test.stage == 1 ? 1 : 4) * (kSamples / 5)) << full_name(test.test);
+  }
+}
+
 TEST(Dump, WithDirectionsThatAreNoneIsRejected) {
   const Dump dump(DensitySpace::sine_weighted, [n = 0](Written& row) mutable {
     if (++n == 77) row = {2.0 * row[0], 2.0 * row[1], 2.0 * row[2], row[3]};
