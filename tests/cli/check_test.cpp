@@ -78,6 +78,24 @@ TEST_F(CheckCommand, TakesWhatASideCarSays) {
   EXPECT_THAT(finished.out, HasSubstr("the samples fit density B"));
 }
 
+TEST_F(CheckCommand, TakesTheLuminanceOfASideCarUnlessAnOptionSaysIt) {
+  const std::string dump = raw("a.f32", uniform_samples(kEnough));
+  const auto command_in_json = [&](Words more) {
+    more.insert(more.end(), {"--columns", "x,y,z,pdf", "--density", "B", "--json", path("a.json")});
+    EXPECT_EQ(check(dump, more).exit_code, 0);
+    return json_of(path("a.json")).at("maps").at(0).at("luminance_weights").dump();
+  };
+  std::ofstream(dump + ".json") << R"({"luminance": "average"})";
+  const std::string average = command_in_json({"--luminance", "average"});
+  const std::string rec709 = command_in_json({"--luminance", "rec709"});
+  EXPECT_NE(average, rec709);
+  EXPECT_EQ(command_in_json({}), average);
+  std::ofstream(dump + ".json") << R"({"luminance": "max"})";
+  const Finished finished = check(dump, {"--columns", "x,y,z,pdf"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.err, HasSubstr("\"max\" is none of rec709"));
+}
+
 TEST_F(CheckCommand, RejectsAWrongDensityAndSaysHowToCheckAgain) {
   std::vector<float> numbers = uniform_samples(kEnough);
   for (std::size_t i = 3; i < numbers.size(); i += 4) numbers[i] *= 2.0F;

@@ -208,7 +208,12 @@ void add_check(CLI::App& app, const CommandLine& line, int& exit_code) {
       "confirms. Exit codes: 0 not rejected, 1 rejected, 2 usage or input, 3 inconclusive (too "
       "few\n"
       "samples), 70 internal error, 71 not enough memory, 128 + N ended by signal N.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  const CLI::Option* luminance = command->get_option("--luminance");
+  command->callback([options, luminance, &exit_code] {
+    // What stands there without the option says nothing against a side-car.
+    if (luminance->count() > 0) options->said.luminance = options->luminance;
+    exit_code = run(*options);
+  });
 }
 
 }  // namespace lightproof::cli

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/text_escapes.h"
 
 namespace lightproof::cli {
 namespace {
@@ -38,9 +39,12 @@ std::vector<std::string> channel_names(const std::string& text) {
 }
 
 LuminanceChoice choice_of(std::string_view name) {
+  if (name == "rec709") return LuminanceChoice::rec709;
   if (name == "published") return LuminanceChoice::published;
   if (name == "average") return LuminanceChoice::average;
-  return name == "file" ? LuminanceChoice::file : LuminanceChoice::rec709;
+  if (name == "file") return LuminanceChoice::file;
+  throw InputError(fmt::format("luminance: \"{}\" is none of rec709, published, average, file",
+                               terminal_text(name)));
 }
 
 /// A word that a shell reads as it is.
