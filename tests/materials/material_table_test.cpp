@@ -57,4 +57,19 @@ TEST(MaterialTable, AnswersAnUnknownNameWithTheKnownOnes) {
 }
 
 }  // namespace
+TEST(MaterialOf, TakesAParameterOfTheUsersOwn) {
+  EXPECT_EQ(std::get<ModifiedPhong>(material_of("phong:12.5")).exponent, 12.5);
+  EXPECT_EQ(std::get<ModifiedPhong>(material_of("phong:12.5")).diffuse,
+            std::get<ModifiedPhong>(material_of("phong")).diffuse);
+  EXPECT_EQ(std::get<Ggx>(material_of("ggx:0.1")).roughness, 0.1);
+  EXPECT_TRUE(std::holds_alternative<Lambert>(material_of("lambert")));
+}
+
+TEST(MaterialOf, RefusesWhatIsNoMaterialAndSaysWhatThereIs) {
+  for (const char* text : {"phong:", "phong:0.5", "phong:nan", "phong:5x", "phong:2e5", "ggx:0",
+                           "ggx:1.5", "ggx:-0.3", "lambert:1", "glass", ":", ""}) {
+    EXPECT_THROW(material_of(text), InputError) << text;
+  }
+}
+
 }  // namespace lightproof

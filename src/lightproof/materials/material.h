@@ -28,4 +28,9 @@ std::span<const MaterialInfo> materials();
 /// Throws InputError listing the names if there is none of this name.
 const MaterialInfo& material_by_name(std::string_view name);
 
+/// The material of the registry of this name, or one with a parameter of the user's own: "phong:N"
+/// with an exponent N from 1 to 1e5, "ggx:R" with a roughness R from 0.02 to 1; all else as in the
+/// registry. Throws InputError, which says what there is.
+Material material_of(std::string_view text);
+
 }  // namespace lightproof
