@@ -1,6 +1,8 @@
 #include "reference/combined_moments.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/warp/lat_long.h"
@@ -35,23 +37,24 @@ MapDensity density_of(const Grid<double>& radiance, double compensation) {
   return left < 1e-6 * whole ? MapDensity{0.0, whole} : MapDensity{floor, left};
 }
 
-/// Integrals of one technique: of w f, and of w^2 f^2 / p.
+/// Integrals of one technique: of (w f / p)^n p for n from 1 to 4.
 struct Technique {
-  double light = 0.0;
-  double square = 0.0;
+  std::array<double, 4> raw = {};
   double largest = 0.0;  ///< w f / p
 
   void add(double weight, double f, double p, double solid_angle) {
-    light += weight * f * solid_angle;
+    raw[0] += weight * f * solid_angle;
     if (!(p > 0.0)) return;
-    square += weight * weight * f * f / p * solid_angle;
-    largest = std::max(largest, weight * f / p);
+    const double estimate = weight * f / p;
+    double term = weight * f * solid_angle;
+    for (std::size_t n = 1; n < raw.size(); ++n) raw[n] += term *= estimate;
+    largest = std::max(largest, estimate);
   }
   void merge(const Technique& other) {
-    light += other.light;
-    square += other.square;
+    for (std::size_t n = 0; n < raw.size(); ++n) raw[n] += other.raw[n];
     largest = std::max(largest, other.largest);
   }
+  EstimatorMoments moments() const { return {raw, largest}; }
 };
 
 struct Techniques {
@@ -64,11 +67,12 @@ struct Techniques {
   }
 };
 
-/// The techniques of several estimators; none before the first node.
-struct AllTechniques {
-  std::vector<Techniques> of;
+/// The sums of several estimators; none before the first node.
+template <class Sum>
+struct AllOf {
+  std::vector<Sum> of;
 
-  void merge(const AllTechniques& other) {
+  void merge(const AllOf& other) {
     of.resize(std::max(of.size(), other.of.size()));
     for (std::size_t i = 0; i < other.of.size(); ++i) of[i].merge(other.of[i]);
   }
@@ -77,12 +81,14 @@ struct AllTechniques {
 /// Sums add(sum of a row, map, radiance, value, node) over all nodes at which k is positive.
 template <class Sum, class Add>
 std::vector<Sum> sums_over(const Kernel& kernel, std::span<const Grid<double>> radiance,
-                           const Add& add) {
+                           CellRule rule, const Add& add) {
   const Extent extent = radiance.front().extent();
-  constexpr Extent kLeast = SphereQuadrature::kLeastCells;
-  const Extent parts = {(kLeast.width + extent.width - 1) / extent.width,
-                        (kLeast.height + extent.height - 1) / extent.height};
-  const SphereQuadrature quadrature({extent.width * parts.width, extent.height * parts.height});
+  const Extent least = rule == CellRule::gauss ? SphereQuadrature::kLeastCells
+                                               : SphereQuadrature::kLeastMidpointCells;
+  const Extent parts = {(least.width + extent.width - 1) / extent.width,
+                        (least.height + extent.height - 1) / extent.height};
+  const SphereQuadrature quadrature({extent.width * parts.width, extent.height * parts.height},
+                                    rule);
   const auto height = static_cast<std::size_t>(quadrature.extent().height);
   std::vector<std::vector<Sum>> rows(height, std::vector<Sum>(radiance.size()));
   const auto add_cell = [&](int x, int y, std::vector<Sum>& sums) {
@@ -105,15 +111,27 @@ std::vector<Sum> sums_over(const Kernel& kernel, std::span<const Grid<double>> r
   return sums;
 }
 
-MeanAndVariance moments_of(const Techniques& techniques, const CombinedSampling& sampling) {
-  const auto& [lobes, map] = techniques;
-  const double mean = lobes.light + map.light;
-  const double squares = lobes.square + map.square;
-  const double off = sampling.is_one_sample ? 0.5 * mean * mean
-                                            : lobes.light * lobes.light + map.light * map.light;
-  const double largest = sampling.is_one_sample ? 2.0 * std::max(lobes.largest, map.largest)
-                                                : lobes.largest + map.largest;
-  return {mean, std::max(0.0, 2.0 * (squares - off)), largest};
+/// The moments of samples each of which chooses its technique by the toss of a coin.
+MeanAndVariance one_sample_moments(const Techniques& techniques) {
+  // An estimate is 2 w f / p with probability p / 2.
+  EstimatorMoments moments;
+  for (std::size_t n = 0; n < moments.raw.size(); ++n) {
+    moments.raw[n] =
+        std::ldexp(techniques.lobes.raw[n] + techniques.map.raw[n], static_cast<int>(n));
+  }
+  return {moments.mean(), moments.variance(),
+          2.0 * std::max(techniques.lobes.largest, techniques.map.largest),
+          moments.fourth_central()};
+}
+
+/// The moments of pairs of independent samples, one of each technique; the variance is that of one
+/// sample.
+MeanAndVariance pair_moments(const Techniques& techniques) {
+  const EstimatorMoments lobes = techniques.lobes.moments();
+  const EstimatorMoments map = techniques.map.moments();
+  return {lobes.mean() + map.mean(), 2.0 * (lobes.variance() + map.variance()),
+          lobes.largest + map.largest,
+          lobes.fourth_central() + map.fourth_central() + 6.0 * lobes.variance() * map.variance()};
 }
 
 double emphasised(Heuristic heuristic, double x) {
@@ -124,7 +142,7 @@ double emphasised(Heuristic heuristic, double x) {
 
 std::vector<std::vector<MeanAndVariance>> combined_moments(
     const Kernel& kernel, std::span<const Grid<double>> radiance,
-    std::span<const CombinedSampling> samplings) {
+    std::span<const CombinedSampling> samplings, CellRule rule) {
   std::vector<std::vector<MapDensity>> densities;  // [estimator][grid]
   for (const CombinedSampling& sampling : samplings) {
     densities.emplace_back();
@@ -133,25 +151,26 @@ std::vector<std::vector<MeanAndVariance>> combined_moments(
     }
   }
   const auto sums =
-      sums_over<AllTechniques>(kernel, radiance,
-                               [&](AllTechniques& sum, std::size_t map, double light,
-                                   const KernelValue& value, const Node& node) {
-                                 sum.of.resize(samplings.size());
-                                 for (std::size_t i = 0; i < samplings.size(); ++i) {
-                                   const double f = light * value.k;
-                                   const double p = value.pdf;
-                                   const double q = densities[i][map].pdf(light);
-                                   const double a = emphasised(samplings[i].heuristic, p);
-                                   const double b = emphasised(samplings[i].heuristic, q);
-                                   sum.of[i].lobes.add(a / (a + b), f, p, node.solid_angle);
-                                   sum.of[i].map.add(b / (a + b), f, q, node.solid_angle);
-                                 }
-                               });
+      sums_over<AllOf<Techniques>>(kernel, radiance, rule,
+                                   [&](AllOf<Techniques>& sum, std::size_t map, double light,
+                                       const KernelValue& value, const Node& node) {
+                                     sum.of.resize(samplings.size());
+                                     for (std::size_t i = 0; i < samplings.size(); ++i) {
+                                       const double f = light * value.k;
+                                       const double p = value.pdf;
+                                       const double q = densities[i][map].pdf(light);
+                                       const double a = emphasised(samplings[i].heuristic, p);
+                                       const double b = emphasised(samplings[i].heuristic, q);
+                                       sum.of[i].lobes.add(a / (a + b), f, p, node.solid_angle);
+                                       sum.of[i].map.add(b / (a + b), f, q, node.solid_angle);
+                                     }
+                                   });
   std::vector<std::vector<MeanAndVariance>> moments(samplings.size());
   for (std::size_t i = 0; i < samplings.size(); ++i) {
-    for (const AllTechniques& all : sums) {
-      moments[i].push_back(all.of.empty() ? MeanAndVariance{}
-                                          : moments_of(all.of[i], samplings[i]));
+    for (const AllOf<Techniques>& all : sums) {
+      moments[i].push_back(all.of.empty()               ? MeanAndVariance{}
+                           : samplings[i].is_one_sample ? one_sample_moments(all.of[i])
+                                                        : pair_moments(all.of[i]));
     }
   }
   return moments;
@@ -163,20 +182,32 @@ std::vector<MeanAndVariance> combined_moments(const Kernel& kernel,
   return combined_moments(kernel, radiance, std::span(&sampling, 1)).front();
 }
 
+std::vector<std::vector<MeanAndVariance>> density_moments(
+    const Kernel& kernel, std::span<const Grid<double>> radiance,
+    std::span<const std::function<double(Direction)>> pdfs, CellRule rule) {
+  const auto sums = sums_over<AllOf<Technique>>(
+      kernel, radiance, rule,
+      [&](AllOf<Technique>& sum, std::size_t /*map*/, double light, const KernelValue& value,
+          const Node& node) {
+        sum.of.resize(pdfs.size());
+        for (std::size_t i = 0; i < pdfs.size(); ++i) {
+          sum.of[i].add(1.0, light * value.k, pdfs[i](node.direction), node.solid_angle);
+        }
+      });
+  std::vector<std::vector<MeanAndVariance>> moments(pdfs.size());
+  for (const auto& all : sums) {
+    for (std::size_t i = 0; i < pdfs.size(); ++i) {
+      const EstimatorMoments sum = all.of.empty() ? EstimatorMoments{} : all.of[i].moments();
+      moments[i].push_back({sum.mean(), sum.variance(), sum.largest, sum.fourth_central()});
+    }
+  }
+  return moments;
+}
+
 std::vector<MeanAndVariance> density_moments(const Kernel& kernel,
                                              std::span<const Grid<double>> radiance,
                                              const std::function<double(Direction)>& pdf) {
-  const auto sums =
-      sums_over<Technique>(kernel, radiance,
-                           [&](Technique& sum, std::size_t /*map*/, double light,
-                               const KernelValue& value, const Node& node) {
-                             sum.add(1.0, light * value.k, pdf(node.direction), node.solid_angle);
-                           });
-  std::vector<MeanAndVariance> moments;
-  for (const auto& [light, square, largest] : sums) {
-    moments.push_back({light, std::max(0.0, square - light * light), largest});
-  }
-  return moments;
+  return density_moments(kernel, radiance, std::span(&pdf, 1)).front();
 }
 
 }  // namespace lightproof::reference

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reference/estimator_moments.h"
+#include "reference/quadrature.h"
 
 namespace lightproof::reference {
 
@@ -36,9 +37,11 @@ struct CombinedSampling {
 struct MeanAndVariance {
   double mean = 0.0;
   double variance = 0.0;
-  /// The largest estimate at any node, of one sample or, of a multi-sample estimator, of a pair;
-  /// between nodes it is a few percent more.
+  /// The largest independent estimate at any node, of one sample or, of a multi-sample estimator,
+  /// of a pair; between nodes it is a few percent more.
   double largest = 0.0;
+  /// The fourth central moment of independent estimates. A pair's variance is half of `variance`.
+  double fourth_central = 0.0;
 };
 
 /// The moments of one combined estimator, one entry per grid of radiance L, which is constant
@@ -51,12 +54,17 @@ std::vector<MeanAndVariance> combined_moments(const Kernel& kernel,
 /// kernel's values, which take most of the time.
 std::vector<std::vector<MeanAndVariance>> combined_moments(
     const Kernel& kernel, std::span<const Grid<double>> radiance,
-    std::span<const CombinedSampling> samplings);
+    std::span<const CombinedSampling> samplings, CellRule rule = CellRule::gauss);
 
 /// The moments of the one-sample estimator of any density over directions: `pdf` of a direction,
 /// positive wherever k is.
 std::vector<MeanAndVariance> density_moments(const Kernel& kernel,
                                              std::span<const Grid<double>> radiance,
                                              const std::function<double(Direction)>& pdf);
+
+/// The moments of several of them, as [density][grid of radiance]; they share the kernel's values.
+std::vector<std::vector<MeanAndVariance>> density_moments(
+    const Kernel& kernel, std::span<const Grid<double>> radiance,
+    std::span<const std::function<double(Direction)>> pdfs, CellRule rule = CellRule::gauss);
 
 }  // namespace lightproof::reference

@@ -18,7 +18,7 @@
 #include "lightproof/prefilter/specular_chain.h"
 #include "lightproof/prefilter/spherical_harmonics.h"
 #include "lightproof/render/receiver.h"
-#include "lightproof/study/exact_light.h"
+#include "lightproof/accuracy/exact_light.h"
 #include "lightproof/warp/lat_long.h"
 
 namespace lightproof {

@@ -14,7 +14,7 @@
 #include "lightproof/image/synthetic.h"
 #include "lightproof/render/receiver.h"
 #include "lightproof/stats/moment_tests.h"
-#include "lightproof/study/exact_light.h"
+#include "lightproof/accuracy/exact_light.h"
 
 namespace lightproof {
 namespace {

@@ -13,7 +13,7 @@
 #include "lightproof/image/synthetic.h"
 #include "lightproof/render/receiver.h"
 #include "lightproof/stats/tails.h"
-#include "lightproof/study/exact_light.h"
+#include "lightproof/accuracy/exact_light.h"
 
 namespace lightproof {
 namespace {

@@ -17,7 +17,7 @@
 #include "lightproof/render/receiver.h"
 #include "lightproof/stats/moment_tests.h"
 #include "lightproof/stats/tails.h"
-#include "lightproof/study/exact_light.h"
+#include "lightproof/accuracy/exact_light.h"
 
 namespace lightproof {
 namespace {

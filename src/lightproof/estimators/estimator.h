@@ -66,6 +66,24 @@ enum class EstimatorKind {
 /// "precomputed".
 std::string_view to_string(EstimatorKind kind);
 
+/// What an estimator belongs to: what charts switch on and off together.
+enum class EstimatorFamily {
+  uniform,      ///< directions whatever the light and the material
+  lobes,        ///< the material
+  environment,  ///< the map
+  product,      ///< the product of both
+  mis,          ///< both, weighted
+  ris,          ///< candidates of both, chosen
+  points,       ///< any of these, at points that depend on each other
+  lights,       ///< lights that were chosen beforehand
+  quadrature,   ///< sums at fixed directions
+  precomputed,  ///< look-ups in what was integrated beforehand
+};
+
+/// The name of a family: "uniform", "lobes", "environment", "product", "MIS", "RIS", "point sets",
+/// "lights", "quadrature", "precomputed".
+std::string_view to_string(EstimatorFamily family);
+
 /// Serves every material.
 constexpr bool serves_all(const Material& /*material*/) { return true; }
 
@@ -74,6 +92,7 @@ struct EstimatorInfo {
   std::string_view name;         ///< "environment B"
   std::string_view description;  ///< how its directions come about
   std::string_view source;       ///< paper, book or lecture, with the equation
+  EstimatorFamily family = EstimatorFamily::uniform;
   EstimatorKind kind = EstimatorKind::one_sample;
   bool is_biased = false;
   /// The density whose exact moments are those of its single estimates; none if they are not known.
@@ -81,9 +100,18 @@ struct EstimatorInfo {
   /// How it combines the densities of material and map, if its exact mean and variance follow from
   /// that.
   std::optional<reference::CombinedSampling> combined = {};
+  /// The density per steradian with which it draws a direction, if it is a mean over independent
+  /// samples of one density that is none of `density`'s. The direction is above the surface.
+  double (*pdf)(const Material& material, const ShadingPoint& at, Direction direction) = nullptr;
+  /// The row that draws the same at independent points; empty for one whose points are.
+  std::string_view at_independent_points = {};
   /// Samples of the budget that make one of the independent estimates that are shown; budgets that
   /// are no multiple of it show none.
   std::uint64_t samples_per_estimate = 1;
+  /// Directions that are drawn for each sample of the budget.
+  std::uint64_t candidates = 1;
+  /// Whether every shading point needs a set-up that takes as long as one of the map.
+  bool tabulates_each_point = false;
   /// Whether it takes nothing to be in the way of light: it is wrong where something is.
   bool ignores_occlusion = false;
   /// Whether the budget is without meaning to it: one estimate costs what it costs.

@@ -86,6 +86,22 @@ PreparedSource ggx_source(const EnvironmentMap& map, MicrofacetSampling sampling
           }};
 }
 
+double hemisphere_pdf(const Material& /*material*/, const ShadingPoint& /*at*/,
+                      Direction /*direction*/) {
+  return 0.5 / kPi;
+}
+
+double cosine_pdf(const Material& /*material*/, const ShadingPoint& at, Direction direction) {
+  return std::max(0.0, glm::dot(at.frame.normal, direction)) / kPi;
+}
+
+double ggx_pdf(MicrofacetSampling sampling, const Material& material, const ShadingPoint& at,
+               Direction direction) {
+  Ggx ggx = std::get<Ggx>(material);
+  ggx.sampling = sampling;
+  return ggx.evaluate(at, direction).pdf.value;
+}
+
 bool is_ggx(const Material& material) { return std::holds_alternative<Ggx>(material); }
 
 }  // namespace lightproof

@@ -19,6 +19,16 @@ PreparedSource material_source(const EnvironmentMap& map);
 /// other materials.
 PreparedSource ggx_source(const EnvironmentMap& map, MicrofacetSampling sampling);
 
+/// Density 1/2pi over the hemisphere, per steradian, of a direction above the surface.
+double hemisphere_pdf(const Material& material, const ShadingPoint& at, Direction direction);
+
+/// Density cos/pi, per steradian, of a direction above the surface.
+double cosine_pdf(const Material& material, const ShadingPoint& at, Direction direction);
+
+/// The density per steradian with which a GGX draws a direction if it draws its normals in one way.
+double ggx_pdf(MicrofacetSampling sampling, const Material& material, const ShadingPoint& at,
+               Direction direction);
+
 /// Whether the material is a GGX.
 bool is_ggx(const Material& material);
 

@@ -51,6 +51,11 @@ PreparedEstimator from_alias_at(const EnvironmentMap& map) {
   return samples_at_points(alias_source(map, DensitySpace::solid_angle), kPointSet);
 }
 
+template <MicrofacetSampling kSampling>
+double pdf_of_ggx(const Material& material, const ShadingPoint& at, Direction direction) {
+  return ggx_pdf(kSampling, material, at, direction);
+}
+
 template <std::size_t kCandidates>
 PreparedEstimator resampled_of(const EnvironmentMap& map) {
   return resampled(one_sample_mixture(map, DensitySpace::solid_angle, 0.0), kCandidates);
@@ -74,18 +79,22 @@ constexpr std::array kEstimators = {
         .name = "hemisphere",
         .description = "uniform over the hemisphere above the surface, density 1/2pi",
         .source = "Kajiya 1986",
+        .pdf = hemisphere_pdf,
         .prepare =
             [](const EnvironmentMap& map) { return independent_samples(hemisphere_source(map)); }},
     EstimatorInfo{
         .name = "cosine",
         .description = "the cosine to the normal, density cos/pi",
         .source = "Shirley and Chiu 1997; the lecture, whatever the material",
+        .family = EstimatorFamily::lobes,
+        .pdf = cosine_pdf,
         .prepare =
             [](const EnvironmentMap& map) { return independent_samples(cosine_source(map)); }},
     EstimatorInfo{
         .name = "brdf",
         .description = "the material's own lobes",
         .source = "Lafortune and Willems 1994",
+        .family = EstimatorFamily::lobes,
         .density = SampledDensity::material,
         .is_studied = true,
         .prepare =
@@ -93,6 +102,8 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "ggx normals",
                   .description = "GGX's normals, whatever the view",
                   .source = "Walter et al. 2007, eq. 35 and 36",
+                  .family = EstimatorFamily::lobes,
+                  .pdf = pdf_of_ggx<MicrofacetSampling::normals>,
                   .serves = is_ggx,
                   .prepare =
                       [](const EnvironmentMap& map) {
@@ -101,6 +112,8 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "ggx visible normals",
                   .description = "GGX's visible normals, by projecting a hemisphere",
                   .source = "Heitz 2018",
+                  .family = EstimatorFamily::lobes,
+                  .pdf = pdf_of_ggx<MicrofacetSampling::visible_normals>,
                   .serves = is_ggx,
                   .prepare =
                       [](const EnvironmentMap& map) {
@@ -110,6 +123,8 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "ggx spherical caps",
                   .description = "GGX's visible normals, by a spherical cap",
                   .source = "Dupuy and Benyoub 2023",
+                  .family = EstimatorFamily::lobes,
+                  .pdf = pdf_of_ggx<MicrofacetSampling::spherical_caps>,
                   .serves = is_ggx,
                   .prepare =
                       [](const EnvironmentMap& map) {
@@ -120,6 +135,8 @@ constexpr std::array kEstimators = {
         .name = "ggx bounded caps",
         .description = "GGX's visible normals that reflect above the surface, by a smaller cap",
         .source = "Tokuyoshi and Eto 2023",
+        .family = EstimatorFamily::lobes,
+        .pdf = pdf_of_ggx<MicrofacetSampling::bounded_caps>,
         .serves = is_ggx,
         .prepare =
             [](const EnvironmentMap& map) {
@@ -128,6 +145,7 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "environment A",
                   .description = "the map, density over (s,t) proportional to luminance",
                   .source = "the lecture: weights 2 pi^2 sin(theta) / p(s,t)",
+                  .family = EstimatorFamily::environment,
                   .density = SampledDensity::texture_space,
                   .is_studied = true,
                   .prepare =
@@ -137,6 +155,7 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "environment B",
                   .description = "the map, density over directions proportional to luminance",
                   .source = "Pharr, Jakob and Humphreys, Physically Based Rendering, 12.5",
+                  .family = EstimatorFamily::environment,
                   .density = SampledDensity::solid_angle,
                   .is_studied = true,
                   .prepare =
@@ -147,6 +166,7 @@ constexpr std::array kEstimators = {
                   .description = "the map, texels in proportion to luminance times solid angle, "
                                  "positions uniform in (s,t)",
                   .source = "pbrt-v3's InfiniteAreaLight, Mitsuba's envmap, Cycles",
+                  .family = EstimatorFamily::environment,
                   .density = SampledDensity::sine_weighted,
                   .is_studied = true,
                   .prepare =
@@ -156,6 +176,7 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "environment B alias",
                   .description = "as environment B, by an alias table",
                   .source = "Walker 1974; Vose 1991",
+                  .family = EstimatorFamily::environment,
                   .density = SampledDensity::solid_angle,
                   .prepare =
                       [](const EnvironmentMap& map) {
@@ -165,6 +186,8 @@ constexpr std::array kEstimators = {
         .name = "product table",
         .description = "the product of map and material, tabulated for every shading point",
         .source = "Burke, Ghosh and Heidrich 2005, their exact product",
+        .family = EstimatorFamily::product,
+        .tabulates_each_point = true,
         .prepare =
             [](const EnvironmentMap& map) {
               return independent_samples(product_table_source(map));
@@ -173,6 +196,7 @@ constexpr std::array kEstimators = {
         .name = "product two-level",
         .description = "the product of map and material on 12 x 12 blocks, then the map alone",
         .source = "Conty Estevez and Lecocq 2018",
+        .family = EstimatorFamily::product,
         .prepare =
             [](const EnvironmentMap& map) {
               return independent_samples(two_level_product_source(map));
@@ -180,6 +204,7 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "product hierarchical",
                   .description = "the product of map and material down a quadtree",
                   .source = "Clarberg and Akenine-Möller 2008",
+                  .family = EstimatorFamily::product,
                   .prepare =
                       [](const EnvironmentMap& map) {
                         return independent_samples(hierarchical_product_source(map));
@@ -189,6 +214,7 @@ constexpr std::array kEstimators = {
         .description =
             "half of the samples by the lobes, half by the map, weighted by the balance heuristic",
         .source = "Veach and Guibas 1995",
+        .family = EstimatorFamily::mis,
         .kind = EstimatorKind::multi_sample,
         .combined = CombinedSampling{.heuristic = Heuristic::balance, .compensation = 0.0},
         .samples_per_estimate = 2,
@@ -199,6 +225,7 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "mis power",
                   .description = "as mis balance, by the power heuristic of exponent 2",
                   .source = "Veach and Guibas 1995",
+                  .family = EstimatorFamily::mis,
                   .kind = EstimatorKind::multi_sample,
                   .combined = CombinedSampling{.heuristic = Heuristic::power, .compensation = 0.0},
                   .samples_per_estimate = 2,
@@ -210,6 +237,7 @@ constexpr std::array kEstimators = {
         .name = "mis balance half-compensated",
         .description = "as mis balance, half of the mean taken off the map",
         .source = "Karlík et al. 2019",
+        .family = EstimatorFamily::mis,
         .kind = EstimatorKind::multi_sample,
         .combined = CombinedSampling{.heuristic = Heuristic::balance, .compensation = 0.5},
         .samples_per_estimate = 2,
@@ -221,6 +249,7 @@ constexpr std::array kEstimators = {
         .name = "mis balance compensated",
         .description = "as mis balance, the mean taken off the map",
         .source = "Karlík et al. 2019",
+        .family = EstimatorFamily::mis,
         .kind = EstimatorKind::multi_sample,
         .combined = CombinedSampling{.heuristic = Heuristic::balance, .compensation = 1.0},
         .samples_per_estimate = 2,
@@ -231,6 +260,7 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "mis power compensated",
                   .description = "as mis power, the mean taken off the map",
                   .source = "Karlík et al. 2019",
+                  .family = EstimatorFamily::mis,
                   .kind = EstimatorKind::multi_sample,
                   .combined = CombinedSampling{.heuristic = Heuristic::power, .compensation = 1.0},
                   .samples_per_estimate = 2,
@@ -243,6 +273,7 @@ constexpr std::array kEstimators = {
         .description =
             "each sample by the lobes or by the map at the toss of a coin, balance heuristic",
         .source = "Veach and Guibas 1995",
+        .family = EstimatorFamily::mis,
         .combined = CombinedSampling{.is_one_sample = true, .compensation = 0.0},
         .prepare =
             [](const EnvironmentMap& map) {
@@ -251,6 +282,7 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "mis one-sample half-compensated",
                   .description = "as mis one-sample, half of the mean taken off the map",
                   .source = "Karlík et al. 2019",
+                  .family = EstimatorFamily::mis,
                   .combined = CombinedSampling{.is_one_sample = true, .compensation = 0.5},
                   .prepare =
                       [](const EnvironmentMap& map) {
@@ -260,6 +292,7 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "mis one-sample compensated",
                   .description = "as mis one-sample, the mean taken off the map",
                   .source = "Karlík et al. 2019",
+                  .family = EstimatorFamily::mis,
                   .combined = CombinedSampling{.is_one_sample = true, .compensation = 1.0},
                   .prepare =
                       [](const EnvironmentMap& map) {
@@ -270,94 +303,126 @@ constexpr std::array kEstimators = {
         .name = "ris 4",
         .description = "one of 4 candidates of mis one-sample, chosen by its unoccluded light",
         .source = "Burke, Ghosh and Heidrich 2005; Talbot, Cline and Egbert 2005",
+        .family = EstimatorFamily::ris,
         .kind = EstimatorKind::resampled,
+        .candidates = 4,
         .prepare = resampled_of<4>},
     EstimatorInfo{
         .name = "ris 16",
         .description = "one of 16 candidates of mis one-sample, chosen by its unoccluded light",
         .source = "Burke, Ghosh and Heidrich 2005; Talbot, Cline and Egbert 2005",
+        .family = EstimatorFamily::ris,
         .kind = EstimatorKind::resampled,
+        .candidates = 16,
         .prepare = resampled_of<16>},
     EstimatorInfo{
         .name = "ris 64",
         .description = "one of 64 candidates of mis one-sample, chosen by its unoccluded light",
         .source = "Burke, Ghosh and Heidrich 2005; Talbot, Cline and Egbert 2005",
+        .family = EstimatorFamily::ris,
         .kind = EstimatorKind::resampled,
+        .candidates = 64,
         .prepare = resampled_of<64>},
     EstimatorInfo{.name = "environment B stratified",
                   .description = "as environment B, one at random in each cell of a grid",
                   .source = "Cook, Porter and Carpenter 1984",
+                  .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
+                  .at_independent_points = "environment B",
                   .prepare = from_map_at<kStratified>},
     EstimatorInfo{.name = "environment B hammersley",
                   .description = "as environment B, at Hammersley's points, shifted at random",
                   .source = "Hammersley 1960; Cranley and Patterson 1976",
+                  .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
+                  .at_independent_points = "environment B",
                   .is_studied = true,
                   .prepare = from_map_at<kHammersley>},
     EstimatorInfo{.name = "environment B R2",
                   .description = "as environment B, at the points of R2, shifted at random",
                   .source = "Roberts 2018; Cranley and Patterson 1976",
+                  .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
+                  .at_independent_points = "environment B",
                   .is_studied = true,
                   .prepare = from_map_at<kR2>},
     EstimatorInfo{.name = "environment B sobol",
                   .description = "as environment B, at Owen-scrambled Sobol points",
                   .source = "Owen 1995; Kollig and Keller 2002; Burley 2020",
+                  .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
+                  .at_independent_points = "environment B",
                   .is_studied = true,
                   .prepare = from_map_at<kSobol>},
     EstimatorInfo{.name = "brdf stratified",
                   .description = "as brdf, one at random in each cell of a grid",
                   .source = "Cook, Porter and Carpenter 1984",
+                  .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
+                  .at_independent_points = "brdf",
                   .prepare = from_lobes_at<kStratified>},
     EstimatorInfo{.name = "brdf hammersley",
                   .description = "as brdf, at Hammersley's points, shifted at random",
                   .source = "Hammersley 1960; Cranley and Patterson 1976",
+                  .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
+                  .at_independent_points = "brdf",
                   .is_studied = true,
                   .prepare = from_lobes_at<kHammersley>},
     EstimatorInfo{.name = "brdf R2",
                   .description = "as brdf, at the points of R2, shifted at random",
                   .source = "Roberts 2018; Cranley and Patterson 1976",
+                  .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
+                  .at_independent_points = "brdf",
                   .is_studied = true,
                   .prepare = from_lobes_at<kR2>},
     EstimatorInfo{.name = "brdf sobol",
                   .description = "as brdf, at Owen-scrambled Sobol points",
                   .source = "Owen 1995; Kollig and Keller 2002; Burley 2020",
+                  .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
+                  .at_independent_points = "brdf",
                   .is_studied = true,
                   .prepare = from_lobes_at<kSobol>},
     EstimatorInfo{.name = "environment B alias stratified",
                   .description = "as environment B alias, one at random in each cell of a grid: "
                                  "what an alias table leaves of their evenness",
                   .source = "Cook, Porter and Carpenter 1984",
+                  .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
+                  .at_independent_points = "environment B alias",
                   .prepare = from_alias_at<kStratified>},
     EstimatorInfo{.name = "environment B alias hammersley",
                   .description = "as environment B alias, at Hammersley's points, shifted at "
                                  "random: what an alias table leaves of their evenness",
                   .source = "Hammersley 1960; Cranley and Patterson 1976",
+                  .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
+                  .at_independent_points = "environment B alias",
                   .prepare = from_alias_at<kHammersley>},
     EstimatorInfo{.name = "environment B alias R2",
                   .description = "as environment B alias, at the points of R2, shifted at random: "
                                  "what an alias table leaves of their evenness",
                   .source = "Roberts 2018; Cranley and Patterson 1976",
+                  .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
+                  .at_independent_points = "environment B alias",
                   .prepare = from_alias_at<kR2>},
     EstimatorInfo{.name = "environment B alias sobol",
                   .description = "as environment B alias, at Owen-scrambled Sobol points: what an "
                                  "alias table leaves of their evenness",
                   .source = "Owen 1995; Kollig and Keller 2002; Burley 2020",
+                  .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
+                  .at_independent_points = "environment B alias",
                   .prepare = from_alias_at<kSobol>},
     EstimatorInfo{.name = "mis one-sample sobol",
                   .description = "as mis one-sample, at Owen-scrambled Sobol points",
                   .source = "Owen 1995; Kollig and Keller 2002; Burley 2020",
+                  .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
+                  .at_independent_points = "mis one-sample",
                   .prepare =
                       [](const EnvironmentMap& map) {
                         return samples_at_points(
@@ -366,7 +431,9 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "product hierarchical sobol",
                   .description = "as product hierarchical, at Owen-scrambled Sobol points",
                   .source = "Owen 1995; Kollig and Keller 2002; Burley 2020",
+                  .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
+                  .at_independent_points = "product hierarchical",
                   .prepare =
                       [](const EnvironmentMap& map) {
                         return samples_at_points(hierarchical_product_source(map), kSobol);
@@ -375,6 +442,7 @@ constexpr std::array kEstimators = {
         .name = "light sets",
         .description = "lights drawn beforehand, 1024 for each of 64 orientations of the surface",
         .source = "precomputed importance sampling; Agarwal et al. 2003",
+        .family = EstimatorFamily::lights,
         .kind = EstimatorKind::precomputed,
         .is_biased = true,
         .prepare = [](const EnvironmentMap& map) { return light_sets(map); }},
@@ -382,12 +450,14 @@ constexpr std::array kEstimators = {
         .name = "riemann",
         .description = "midpoints in azimuth and polar angle, about twice as many azimuths",
         .source = "the lecture: rho pi / (K J) times the sum of L cos sin",
+        .family = EstimatorFamily::quadrature,
         .kind = EstimatorKind::deterministic,
         .is_biased = true,
         .prepare = riemann_sum},
     EstimatorInfo{.name = "median cut 16",
                   .description = "16 lights of equal power, each with a shadow ray",
                   .source = "Debevec 2005",
+                  .family = EstimatorFamily::lights,
                   .kind = EstimatorKind::deterministic,
                   .is_biased = true,
                   .ignores_budget = true,
@@ -395,6 +465,7 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "median cut 64",
                   .description = "64 lights of equal power, each with a shadow ray",
                   .source = "Debevec 2005",
+                  .family = EstimatorFamily::lights,
                   .kind = EstimatorKind::deterministic,
                   .is_biased = true,
                   .ignores_budget = true,
@@ -402,6 +473,7 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "median cut 256",
                   .description = "256 lights of equal power, each with a shadow ray",
                   .source = "Debevec 2005",
+                  .family = EstimatorFamily::lights,
                   .kind = EstimatorKind::deterministic,
                   .is_biased = true,
                   .ignores_budget = true,
@@ -409,6 +481,7 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "median cut 1024",
                   .description = "1024 lights of equal power, each with a shadow ray",
                   .source = "Debevec 2005",
+                  .family = EstimatorFamily::lights,
                   .kind = EstimatorKind::deterministic,
                   .is_biased = true,
                   .ignores_budget = true,
@@ -417,12 +490,14 @@ constexpr std::array kEstimators = {
         .name = "filtered importance sampling",
         .description = "the material's lobes at Hammersley's points, looked up in smaller maps",
         .source = "Křivánek and Colbert 2008",
+        .family = EstimatorFamily::lobes,
         .kind = EstimatorKind::point_set,
         .is_biased = true,
         .prepare = filtered_sampling},
     EstimatorInfo{.name = "sh-9",
                   .description = "irradiance by nine spherical harmonics; ignores occlusion",
                   .source = "Ramamoorthi and Hanrahan 2001",
+                  .family = EstimatorFamily::precomputed,
                   .kind = EstimatorKind::precomputed,
                   .is_biased = true,
                   .ignores_occlusion = true,
@@ -432,6 +507,7 @@ constexpr std::array kEstimators = {
     EstimatorInfo{.name = "tabulated irradiance",
                   .description = "irradiance of 64 x 32 normals, interpolated; ignores occlusion",
                   .source = "Miller and Hoffman 1984; Greene 1986",
+                  .family = EstimatorFamily::precomputed,
                   .kind = EstimatorKind::precomputed,
                   .is_biased = true,
                   .ignores_occlusion = true,
@@ -443,6 +519,7 @@ constexpr std::array kEstimators = {
         .description =
             "a chain of maps prefiltered by GGX, times the light of a white sky; ignores occlusion",
         .source = "Karis 2013",
+        .family = EstimatorFamily::precomputed,
         .kind = EstimatorKind::precomputed,
         .is_biased = true,
         .ignores_occlusion = true,
@@ -453,6 +530,7 @@ constexpr std::array kEstimators = {
                   .description = "irradiance and a map prefiltered by Phong's lobe, times the "
                                  "light of a white sky; ignores occlusion",
                   .source = "Heidrich and Seidel 1999; the lecture",
+                  .family = EstimatorFamily::precomputed,
                   .kind = EstimatorKind::precomputed,
                   .is_biased = true,
                   .ignores_occlusion = true,
@@ -463,6 +541,7 @@ constexpr std::array kEstimators = {
                   .description = "reflected radiance of 32 x 16 normals and 16 x 8 views, the "
                                  "nearest; ignores occlusion",
                   .source = "after Kautz and McCool 1999, without separation",
+                  .family = EstimatorFamily::precomputed,
                   .kind = EstimatorKind::precomputed,
                   .is_biased = true,
                   .ignores_occlusion = true,

@@ -13,7 +13,7 @@
 #include "lightproof/estimators/registry.h"
 #include "lightproof/render/receiver.h"
 #include "lightproof/stats/power_law.h"
-#include "lightproof/study/exact_light.h"
+#include "lightproof/accuracy/exact_light.h"
 
 namespace lightproof {
 namespace {

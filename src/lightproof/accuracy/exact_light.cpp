@@ -1,4 +1,4 @@
-#include "lightproof/study/exact_light.h"
+#include "lightproof/accuracy/exact_light.h"
 
 #include <variant>
 

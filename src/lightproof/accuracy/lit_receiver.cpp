@@ -1,0 +1,113 @@
+#include "lightproof/accuracy/lit_receiver.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "lightproof/accuracy/exact_light.h"
+#include "lightproof/core/error.h"
+#include "lightproof/core/parallel.h"
+#include "lightproof/estimators/registry.h"
+#include "reference/combined_moments.h"
+
+namespace lightproof {
+namespace {
+
+using reference::MeanAndVariance;
+
+/// The moments at one point, by estimator.
+using MomentsAtPoint = std::map<std::string_view, MeanAndVariance>;
+
+void add_densities(const reference::LightMoments& light, MomentsAtPoint& moments) {
+  for (const EstimatorInfo& info : estimators()) {
+    if (!info.density) continue;
+    const reference::EstimatorMoments& of = light[*info.density];
+    moments[info.name] = {of.mean(), of.variance(), of.largest, of.fourth_central()};
+  }
+}
+
+void add_combined(const reference::Kernel& kernel, const Grid<double>& luminance,
+                  MomentsAtPoint& moments) {
+  std::vector<reference::CombinedSampling> samplings;
+  for (const EstimatorInfo& info : estimators()) {
+    if (info.combined) samplings.push_back(*info.combined);
+  }
+  const auto found = reference::combined_moments(kernel, {&luminance, 1}, samplings,
+                                                 reference::CellRule::midpoint);
+  auto next = found.begin();
+  for (const EstimatorInfo& info : estimators()) {
+    if (info.combined) moments[info.name] = (*next++)[0];
+  }
+}
+
+void add_lobes(const reference::Kernel& kernel, const Grid<double>& luminance,
+               const Material& material, const ShadingPoint& at, MomentsAtPoint& moments) {
+  std::vector<std::string_view> names;
+  std::vector<std::function<double(Direction)>> pdfs;
+  for (const EstimatorInfo& info : estimators()) {
+    if (info.pdf == nullptr || !info.serves(material)) continue;
+    names.push_back(info.name);
+    pdfs.emplace_back([pdf = info.pdf, &material, &at](Direction direction) {
+      return pdf(material, at, direction);
+    });
+  }
+  const auto found =
+      reference::density_moments(kernel, {&luminance, 1}, pdfs, reference::CellRule::midpoint);
+  for (std::size_t i = 0; i < names.size(); ++i) moments[names[i]] = found[i][0];
+}
+
+std::vector<Pixel> pixels_of(const ReceiverInfo& receiver, const Scene& scene, int points) {
+  std::vector<Pixel> pixels;
+  for (int scale = 1; pixels.size() < static_cast<std::size_t>(points); ++scale) {
+    pixels = visible_pixels(receiver, scene, {4 * scale, 3 * scale});
+    if (pixels.size() == 1 && !receiver.content.sphere && !receiver.content.plane) break;
+  }
+  return pixels;
+}
+
+}  // namespace
+
+LitReceiver::LitReceiver(const EnvironmentMap& map, const ReceiverInfo& receiver,
+                         NamedMaterial material, int points)
+    : map_(&map),
+      receiver_(&receiver),
+      material_(std::move(material)),
+      scene_(receiver.content),
+      pixels_(pixels_of(receiver, scene_, points)) {
+  const Grid<double> luminance = luminance_of(map);
+  const auto light = exact_light({&luminance, 1}, receiver, scene_, material_.material, pixels_)[0];
+  const auto count = static_cast<double>(pixels_.size());
+  for (const reference::LightMoments& at_point : light) {
+    exact_.push_back(at_point[reference::SampledDensity::uniform].mean());
+    mean_ += exact_.back() / count;
+  }
+  if (!(mean_ > 0.0)) {
+    throw InputError(
+        fmt::format("{}: no light of this map reaches the receiver '{}'", map.name, receiver.name));
+  }
+  std::vector<MomentsAtPoint> moments(pixels_.size());
+  parallel_for(pixels_.size(), [&](std::size_t i) {
+    const ShadingPoint& at = pixels_[i].point;
+    const auto kernel = kernel_at(receiver, scene_, material_.material, at);
+    add_densities(light[i], moments[i]);
+    add_combined(kernel, luminance, moments[i]);
+    add_lobes(kernel, luminance, material_.material, at, moments[i]);
+  });
+  for (const MomentsAtPoint& at_point : moments) {
+    for (const auto& [name, exact] : at_point) {
+      Spread& spread = spreads_[name];
+      spread.variance += exact.variance / count / (mean_ * mean_);
+      spread.fourth_central += exact.fourth_central / count / std::pow(mean_, 4);
+    }
+  }
+}
+
+std::optional<Spread> LitReceiver::spread(const EstimatorInfo& info) const {
+  const auto found = spreads_.find(info.name);
+  if (found == spreads_.end()) return std::nullopt;
+  return found->second;
+}
+
+}  // namespace lightproof
