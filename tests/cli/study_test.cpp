@@ -98,9 +98,9 @@ TEST_F(Study, WritesResultsAsJson) {
 }
 
 TEST_F(Study, WritesTablesWithAHeadAndRows) {
-  for (const char* name :
-       {"gate.csv", "convergence.csv", "variance.csv", "renders.csv", "maps.csv", "frames.csv",
-        "points.csv", "discrepancy.csv", "decay.csv", "split_sum.csv", "published.csv"}) {
+  for (const char* name : {"gate.csv", "convergence.csv", "variance.csv", "renders.csv", "maps.csv",
+                           "frames.csv", "points.csv", "discrepancy.csv", "decay.csv",
+                           "split_sum.csv", "accuracy.csv", "published.csv"}) {
     const std::string table = bytes_of(path(name));
     EXPECT_GE(std::count(table.begin(), table.end(), '\n'), 2) << name;
     EXPECT_NE(table.find(','), std::string::npos) << name;

@@ -292,6 +292,59 @@ std::vector<SplitSumRecord> split_sum() {
   return records;
 }
 
+/// A falling line, or a point if it has one.
+AccuracyLine accuracy_line(const char* estimator, const char* family, double error, double seconds,
+                           bool is_biased) {
+  AccuracyLine line;
+  line.estimator = estimator;
+  line.family = family;
+  line.is_biased = is_biased;
+  line.set_up_seconds = 0.02;
+  line.bytes = 3163136;
+  if (is_biased) {
+    line.floor = error;
+    line.points = {{1, seconds, error, 0.0}};
+    return line;
+  }
+  for (const std::uint64_t samples : {1, 4, 16, 64, 256, 1024, 4096}) {
+    const double n = static_cast<double>(samples);
+    const double rmse = error / std::sqrt(n);
+    line.points.push_back({samples, seconds * (1.0 + 0.2 * n), 1.01 * rmse, 0.03 * rmse, rmse});
+  }
+  line.slope = -0.5;
+  line.slope_error = 0.01;
+  return line;
+}
+
+/// Two receivers on every map. The uniform estimator finds light by rare hits.
+std::vector<AccuracyChart> accuracy() {
+  std::vector<AccuracyChart> charts;
+  for (std::size_t map = 0; map < kMaps.size(); ++map) {
+    for (const char* receiver : {"sphere", "sphere-on-plane"}) {
+      const double scale = 1.0 + static_cast<double>(map);
+      AccuracyChart chart;
+      chart.map = kMaps[map];
+      chart.receiver = receiver;
+      chart.material = "ggx:0.3";
+      chart.is_occluded = receiver == std::string("sphere-on-plane");
+      chart.shading_points = 29;
+      chart.replicates = 3;
+      chart.quality = "draft";
+      chart.mean = 1.1;
+      chart.lines = {accuracy_line("uniform", "uniform", 30.0 * scale, 2e-7, false),
+                     accuracy_line("brdf", "lobes", 2.0 * scale, 3e-7, false),
+                     accuracy_line("environment B", "environment", 1.0, 5e-7, false),
+                     accuracy_line("environment B sobol", "point sets", 0.5, 5e-7, false),
+                     accuracy_line("mis balance", "MIS", 0.8, 6e-7, false),
+                     accuracy_line("split-sum", "precomputed", 0.08 * scale, 8e-8, true)};
+      chart.lines[0].points[0].rmse_error = 20.0;
+      chart.left_out = {{"sh-9", "it does not serve this material"}};
+      charts.push_back(std::move(chart));
+    }
+  }
+  return charts;
+}
+
 PublishedPicture published_picture() {
   const Extent extent = {32, 24};
   PublishedPicture picture;
@@ -333,6 +386,7 @@ StudyResult synthetic_study() {
       }
     }
   }
+  study.accuracy = accuracy();
   study.throughput = throughput();
   study.tables = tables();
   study.directions = directions();

@@ -125,6 +125,7 @@ TEST(StudyJson, HoldsEverythingButThePixels) {
                                                       "maps",
                                                       "gate",
                                                       "convergence",
+                                                      "accuracy",
                                                       "throughput",
                                                       "throughput_origin",
                                                       "directions_origin",

@@ -37,6 +37,10 @@ struct Options : CommonOptions {
   bool no_self_test = false;
   bool measure_again = false;
   std::uint64_t largest_width = 8192;
+  std::vector<std::string> materials = {"ggx:0.3"};
+  std::vector<std::string> receivers = {"sphere", "sphere-on-plane"};
+  std::string quality = "draft";
+  bool no_accuracy = false;
   StudyOptions study;
 };
 
@@ -69,6 +73,18 @@ fs::path cache_folder() {
   return home.empty() ? home : home / ".cache" / "lightproof";
 }
 
+/// Every receiver in every material.
+std::vector<AccuracyScene> accuracy_scenes(const Options& options) {
+  std::vector<AccuracyScene> scenes;
+  if (options.no_accuracy) return scenes;
+  for (const std::string& material : options.materials) {
+    for (const std::string& receiver : options.receivers) {
+      scenes.push_back({&receiver_by_name(receiver), {material, material_of(material)}});
+    }
+  }
+  return scenes;
+}
+
 /// All that goes into the report. Progress is shown until it returns.
 StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
   const Progress progress = progress_of(options);
@@ -97,7 +113,9 @@ int run(Options options) {
                                 options.measure_again};
   }
   options.study.gate.seed = options.study.convergence.seed = options.study.renders.seed =
-      options.seed;
+      options.study.accuracy.seed = options.seed;
+  options.study.accuracy.quality = accuracy_quality_by_name(options.quality);
+  options.study.accuracy_scenes = accuracy_scenes(options);
   Throughput throughput;
   if (!options.throughput.empty()) throughput = read_throughput(options.throughput);
   std::vector<EnvironmentMap> maps = load_maps(options);
@@ -137,6 +155,28 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
                  "measure what is kept of this program and machine: throughput, self-test, first "
                  "tests of warps and materials, costs of levels, point sets")
       ->excludes(file);
+  auto* material =
+      command
+          ->add_option("--material", options->materials,
+                       "a material in which speed is charted against accuracy: a name of `list "
+                       "materials`, phong:N or ggx:R; may be given again")
+          ->type_name("NAME")
+          ->capture_default_str();
+  auto* receiver = command
+                       ->add_option("--receiver", options->receivers,
+                                    "a receiver on which it is charted: point, sphere, plane or "
+                                    "sphere-on-plane; may be given again")
+                       ->type_name("NAME")
+                       ->capture_default_str();
+  auto* quality = command
+                      ->add_option("--quality", options->quality,
+                                   "how thoroughly it is charted: draft, default or paper")
+                      ->type_name("NAME")
+                      ->capture_default_str();
+  command->add_flag("--no-accuracy", options->no_accuracy, "leave that chart out")
+      ->excludes(material)
+      ->excludes(receiver)
+      ->excludes(quality);
   command->add_flag("--no-self-test", options->no_self_test,
                     "leave out the test of the gate itself (mutants, calibration, power)");
   command->footer(

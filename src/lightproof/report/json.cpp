@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "lightproof/report/accuracy_tables.h"
 #include "lightproof/report/ci_outputs.h"
 #include "lightproof/report/findings.h"
 #include "lightproof/report/gate_summary.h"
@@ -368,6 +369,7 @@ std::string study_json(const StudyResult& study, const RunDescription& run) {
                   {"published_pictures", list_of(study.published_pictures)},
                   {"split_sum", list_of(study.split_sum)},
                   {"convergence", list_of(study.convergence)},
+                  {"accuracy", accuracy_json(study.accuracy)},
                   {"throughput", list_of(study.throughput)},
                   {"throughput_origin", study.throughput_origin},
                   {"directions_origin", study.directions_origin},

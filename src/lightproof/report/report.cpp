@@ -6,6 +6,7 @@
 #include "lightproof/core/atomic_file.h"
 #include "lightproof/core/error.h"
 #include "lightproof/image/writer.h"
+#include "lightproof/report/accuracy_tables.h"
 #include "lightproof/report/csv.h"
 #include "lightproof/report/json.h"
 #include "lightproof/report/measured_csv.h"
@@ -43,6 +44,7 @@ using NamedTables = std::vector<std::pair<std::string, std::string>>;
 NamedTables tables_of(const StudyResult& study) {
   const SelfTestResult self_test = study.self_test.value_or(SelfTestResult{});
   return {{"gate.csv", gate_csv(study.gate)},
+          {"accuracy.csv", accuracy_csv(study.accuracy)},
           {"convergence.csv", convergence_csv(study.convergence)},
           {"variance.csv", variance_csv(study.convergence)},
           {"throughput.csv", throughput_csv(study.throughput)},

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lightproof/results/accuracy_chart.h"
 #include "lightproof/results/convergence_record.h"
 #include "lightproof/results/frame_record.h"
 #include "lightproof/results/gate_result.h"
@@ -15,6 +16,7 @@
 #include "lightproof/results/point_study.h"
 #include "lightproof/results/published_comparison.h"
 #include "lightproof/results/published_picture.h"
+#include "lightproof/results/recommendation.h"
 #include "lightproof/results/render_record.h"
 #include "lightproof/results/self_test_result.h"
 #include "lightproof/results/split_sum_record.h"
@@ -32,6 +34,8 @@ struct StudyResult {
   /// When, where and of what warps and materials went through the gate's first stage.
   std::string directions_origin;
   std::vector<ConvergenceRecord> convergence;
+  std::vector<AccuracyChart> accuracy;
+  std::vector<Recommendation> recommendations;
   std::vector<ThroughputRecord> throughput;
   std::string throughput_origin;  ///< when, where and of what the throughput was measured
   CacheSizes caches;              ///< caches of the machine that measured the throughput

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <string>
 
 #include "lightproof/core/machine.h"
@@ -66,7 +67,17 @@ StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& opti
   result.directions_origin = directions.origin;
   result.gate = run_gate(test_cases_of(maps, all_samplers_under_test(), direction_samplers()),
                          options.gate, part_of(progress, 0.2, 0.5), {}, directions.value);
-  result.convergence = study_convergence(maps, options.convergence, part_of(progress, 0.5, 0.93));
+  result.convergence = study_convergence(maps, options.convergence, part_of(progress, 0.5, 0.75));
+  if (!options.accuracy_scenes.empty()) {
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      const auto share = [&](std::size_t done) {
+        return 0.75 + 0.18 * static_cast<double>(done) / static_cast<double>(maps.size());
+      };
+      auto charts = measure_accuracy(maps[i], options.accuracy_scenes, options.accuracy,
+                                     part_of(progress, share(i), share(i + 1)));
+      std::move(charts.begin(), charts.end(), std::back_inserter(result.accuracy));
+    }
+  }
   result.renders = study_renders(maps, options.renders, part_of(progress, 0.93, 0.98));
   result.split_sum = study_split_sum(maps, {}, part_of(progress, 0.98, 1.0));
   return result;

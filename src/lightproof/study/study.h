@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "lightproof/accuracy/measurement.h"
 #include "lightproof/core/kept_measurement.h"
 #include "lightproof/gate/gate.h"
 #include "lightproof/results/study_result.h"
@@ -18,6 +19,9 @@ struct StudyOptions {
   GateOptions gate;
   ConvergenceOptions convergence;
   RenderOptions renders;
+  /// What is charted of speed against accuracy on every map; no scene: nothing.
+  AccuracyOptions accuracy;
+  std::vector<AccuracyScene> accuracy_scenes;
   /// Where throughput is measured; none: it is left out.
   std::optional<ThroughputSource> throughput;
   /// Where the gate's first stage of warps and materials is kept, which no map changes.
@@ -30,8 +34,8 @@ MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed);
 /// Puts what was measured into the study, and how it grows.
 void set_throughput(StudyResult& study, Throughput measured);
 
-/// Runs the gate, measures convergence, renders, the error of the split sum and, if it is asked
-/// for, throughput.
+/// Runs the gate, measures convergence, speed against accuracy, renders, the error of the split sum
+/// and, if it is asked for, throughput.
 StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& options,
                       const Progress& progress = {});
 
