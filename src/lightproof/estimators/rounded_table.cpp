@@ -30,6 +30,16 @@ struct SmallFloat {
     const int base = (exponent - least_exponent) << fraction_bits;
     return static_cast<std::uint16_t>(std::max(1.0, base + steps));
   }
+  /// The number that encode() stands for.
+  double rounded(double x) const {
+    if (x < std::ldexp(1.0, least_exponent)) {
+      return std::max(1.0, std::nearbyint(x / unit())) * unit();
+    }
+    const auto dropped = static_cast<unsigned>(52 - fraction_bits);
+    auto bits = std::bit_cast<std::uint64_t>(x);
+    bits += (std::uint64_t{1} << (dropped - 1)) - 1 + ((bits >> dropped) & 1U);
+    return std::bit_cast<double>(bits >> dropped << dropped);
+  }
   double decode(unsigned code) const {
     const unsigned one = 1U << static_cast<unsigned>(fraction_bits);
     if (code < 2 * one) return code * unit();
@@ -147,32 +157,44 @@ PreparedSource rounded_table_source(const EnvironmentMap& map, MassForm form) {
 
 double rounded_table_variance(const EnvironmentMap& map, MassForm form) {
   const Extent extent = map.radiance.extent();
+  const SmallFloat small = float_of(form);
   std::vector<double> light(static_cast<std::size_t>(extent.height));
+  std::vector<double> added(light.size());  // of a row's light
   parallel_for(light.size(), [&](std::size_t row) {
-    const auto y = static_cast<int>(row);
-    for (int x = 0; x < extent.width; ++x) {
-      light[row] += luminance_of(map.radiance(x, y), map.weights);
+    std::vector<double> luminance(static_cast<std::size_t>(extent.width));
+    double most = 0.0;
+    double sum = 0.0;
+    for (std::size_t x = 0; x < luminance.size(); ++x) {
+      luminance[x] =
+          luminance_of(map.radiance(static_cast<int>(x), static_cast<int>(row)), map.weights);
+      most = std::max(most, luminance[x]);
+      sum += luminance[x];
     }
-    light[row] *= texel_solid_angle(extent, y);
+    if (!(most > 0.0)) return;
+    // Of relative values v and rounded ones r, (sum of v^2/r) (sum of r) / (sum of v)^2 - 1, with
+    // v = r + d: cancellation leaves sums of d and d^2/r alone.
+    double rounded = 0.0;
+    double off = 0.0;
+    double squares = 0.0;
+    for (const double each : luminance) {
+      if (!(each > 0.0)) continue;
+      const double r = small.rounded(each / most);
+      const double d = each / most - r;
+      rounded += r;
+      off += d;
+      squares += d * d / r;
+    }
+    const double all = rounded + off;
+    added[row] = (squares * rounded - off * off) / (all * all);
+    light[row] = sum * texel_solid_angle(extent, static_cast<int>(row));
   });
   double whole = 0.0;
-  for (const double row : light) whole += row;
-  if (!(whole > 0.0)) return 0.0;
-  const RoundedTable table(map, form);
-  std::vector<double> squares(light.size());
-  parallel_for(light.size(), [&](std::size_t row) {
-    const auto y = static_cast<int>(row);
-    const double area = texel_solid_angle(extent, y) / whole;
-    for (int x = 0; x < extent.width; ++x) {
-      const double mass = area * luminance_of(map.radiance(x, y), map.weights);
-      // (m - M)^2 / M adds up to the same, for both have the sum 1, and nothing cancels.
-      const double off = mass - table.mass(x, y);
-      if (mass > 0.0) squares[row] += off * off / table.mass(x, y);
-    }
-  });
   double variance = 0.0;
-  for (const double row : squares) variance += row;
-  return variance;
+  for (std::size_t row = 0; row < light.size(); ++row) {
+    whole += light[row];
+    variance += added[row] * light[row];
+  }
+  return whole > 0.0 ? variance / whole : 0.0;
 }
 
 }  // namespace lightproof
