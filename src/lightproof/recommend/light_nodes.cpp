@@ -10,13 +10,18 @@ namespace lightproof {
 namespace {
 
 /// The size of a node, relative to the lobe's width or its distance.
-constexpr double kRelativeSize = 1.0 / 3.0;
+constexpr double kRelativeSize = 1.0 / 5.0;
 /// Parts of a texel along either side, at most.
 constexpr int kMostParts = 16;
+/// A block is looked at texel by texel if it has more than this share of all light, and such a
+/// texel in parts: where hardly anything but a sun shines, all variance is that of k across it.
+constexpr double kBrightBlock = 5e-3;
+constexpr double kBrightTexel = 2e-3;
+constexpr int kBrightParts = 4;
 
 /// Width in radians of what a lobe of normals of this slope mirrors at a cosine of the view:
 /// narrower across where the view grazes.
-double mirrored_width(double slope, double cosine) { return 2.0 * slope * std::max(cosine, 0.3); }
+double mirrored_width(double slope, double cosine) { return 2.0 * slope * std::max(cosine, 0.15); }
 
 double width_of(const Material& material, double cosine) {
   if (const auto* phong = std::get_if<ModifiedPhong>(&material)) {
@@ -38,7 +43,9 @@ class Collector {
       : summary_(&summary), lobe_(&lobe), nodes_(&nodes), texels_(summary.finest.extent()) {}
 
   void add(const LightBlock& block) {
-    if (block.width <= size_at(block.centre, 0.71 * block.width)) return add_cells(block);
+    if (!is_bright(block) && block.width <= size_at(block.centre, 0.71 * block.width)) {
+      return add_cells(block);
+    }
     const double area_factor = 1.0 / texels_.height;
     for (int y = block.y0; y < block.y1; ++y) {
       const double area = texel_solid_angle(texels_, y);
@@ -50,6 +57,14 @@ class Collector {
   }
 
  private:
+  bool is_bright(const LightBlock& block) const {
+    double light = 0.0;
+    for (std::size_t i = block.first_cell; i < block.end_cell; ++i) {
+      light += summary_->cells.light[i];
+    }
+    return light > kBrightBlock * summary_->light;
+  }
+
   /// The size that nodes may have within a radius of a direction.
   double size_at(Direction d, double radius) const {
     if (std::isinf(lobe_->width)) return lobe_->width;
@@ -78,12 +93,13 @@ class Collector {
     const double height = kPi / texels_.height;
     const double width = 2.0 * kPi * sin_theta(t) / texels_.width;
     const double size = size_at(centre, 0.0);
-    const auto parts = [size](double side) {
-      return std::clamp(static_cast<int>(std::ceil(side / size)), 1, kMostParts);
+    const auto luminance = static_cast<double>(summary_->finest(x, y));
+    const int least = area * luminance > kBrightTexel * summary_->light ? kBrightParts : 1;
+    const auto parts = [size, least](double side) {
+      return std::clamp(static_cast<int>(std::ceil(side / size)), least, kMostParts);
     };
     const int rows = parts(height);
     const int columns = parts(width);
-    const auto luminance = static_cast<double>(summary_->finest(x, y));
     const double mean_square = summary_->finest_square.extent().count() > 0
                                    ? static_cast<double>(summary_->finest_square(x, y))
                                    : luminance * luminance;
