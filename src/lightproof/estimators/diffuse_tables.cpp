@@ -12,8 +12,6 @@
 namespace lightproof {
 namespace {
 
-constexpr Extent kNormals = {64, 32};
-
 /// The albedo of a diffuse material. Throws InputError for other ones.
 double albedo_of(const Material& material) {
   const Lambert* lambert = std::get_if<Lambert>(&material);
@@ -71,7 +69,7 @@ PreparedEstimator harmonic_irradiance(const EnvironmentMap& map) {
 
 PreparedEstimator tabulated_irradiance(const EnvironmentMap& map) {
   const auto table = std::make_shared<const Grid<Rgb>>(
-      rounded(diffuse_map(irradiance_map(map, kNormals)).radiance));
+      rounded(diffuse_map(irradiance_map(map, kTabulatedNormals)).radiance));
   return by_normal(
       [table](Direction normal) { return look_up_bilinear(*table, square_from_direction(normal)); },
       table->values().size_bytes());

@@ -6,6 +6,9 @@
 
 namespace lightproof {
 
+/// The normals of tabulated irradiance.
+inline constexpr Extent kTabulatedNormals = {64, 32};
+
 /// Irradiance by nine spherical harmonics (Ramamoorthi and Hanrahan 2001, "An Efficient
 /// Representation for Irradiance Environment Maps"), not below 0. Off by at most 3/32 of the light
 /// of all directions, by sqrt(1/768) of it root mean square over normals. Lambert alone; binding to

@@ -11,10 +11,8 @@
 namespace lightproof {
 namespace {
 
-/// The largest grid of squares at which k is taken.
-constexpr Extent kMostSquares = {64, 32};
-/// The share of k's mean that every square has besides its own k.
-constexpr double kDefensiveShare = 0.05;
+constexpr Extent kMostSquares = HierarchicalProduct::kMostSquares;
+constexpr double kDefensiveShare = HierarchicalProduct::kDefensiveShare;
 
 /// Grids from one cell down; each cell has up to 2 x 2 in the next one.
 using Pyramid = std::vector<Grid<double>>;

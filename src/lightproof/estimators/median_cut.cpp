@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lightproof/estimators/light_samples.h"
+#include "lightproof/estimators/texel_directions.h"
 #include "lightproof/warp/lat_long.h"
 
 namespace lightproof {
@@ -86,17 +87,16 @@ void cut(const Region& region, Extent extent, const SummedAreas& sums,
   regions.push_back(second);
 }
 
-DirectedLight light_of(const Region& region, const EnvironmentMap& map) {
+DirectedLight light_of(const Region& region, const EnvironmentMap& map,
+                       const TexelDirections& centres) {
   const Extent extent = map.radiance.extent();
   glm::dvec3 mean(0.0);
   glm::dvec3 flux(0.0);
   for (int y = region.y0; y < region.y1; ++y) {
     const double area = texel_solid_angle(extent, y);
     for (int x = region.x0; x < region.x1; ++x) {
-      const Direction centre =
-          direction_from_square({(x + 0.5) / extent.width, (y + 0.5) / extent.height});
       const Rgb radiance = map.radiance(x, y);
-      mean += area * luminance_of(radiance, map.weights) * centre;
+      mean += area * luminance_of(radiance, map.weights) * centres.at(x, y);
       flux += area * glm::dvec3(radiance);
     }
   }
@@ -140,9 +140,10 @@ std::vector<DirectedLight> median_cut(const EnvironmentMap& map, int cuts) {
     for (const Region& region : regions) cut(region, extent, sums, halves);
     regions = std::move(halves);
   }
+  const TexelDirections centres(cell_size(extent), 0.5, extent);
   std::vector<DirectedLight> lights;
   for (const Region& region : regions) {
-    const DirectedLight light = light_of(region, map);
+    const DirectedLight light = light_of(region, map, centres);
     if (light.flux != glm::dvec3(0.0)) lights.push_back(light);
   }
   return lights;

@@ -16,7 +16,6 @@ namespace {
 constexpr Extent kNormals = {32, 16};
 /// Azimuths and cosines of views around the normal.
 constexpr Extent kViews = {16, 8};
-constexpr std::uint64_t kSamples = 64;
 constexpr std::uint64_t kSeed = 1;
 
 std::size_t cell_at(Extent cells, SquarePoint at) {
@@ -59,13 +58,16 @@ std::vector<Rgb> tabulated(const PreparedEstimator& estimator, const Material& m
   parallel_for(kNormals.count(), [&](std::size_t normal) {
     for (std::size_t view = 0; view < kViews.count(); ++view) {
       const std::size_t entry = normal * kViews.count() + view;
-      table[entry] = bound.integrate(point_of(entry), stream, {entry * kSamples, kSamples}, {});
+      table[entry] = bound.integrate(point_of(entry), stream,
+                                     {entry * kOutgoingTableSamples, kOutgoingTableSamples}, {});
     }
   });
   return table;
 }
 
 }  // namespace
+
+ShadingPoint outgoing_table_point(const ShadingPoint& at) { return point_of(entry_of(at)); }
 
 PreparedEstimator outgoing_table(const EnvironmentMap& map) {
   const auto filling = std::make_shared<const PreparedEstimator>(

@@ -9,9 +9,6 @@
 namespace lightproof {
 namespace {
 
-/// The share of k's mean that every texel has besides its own k.
-constexpr double kDefensiveShare = 1e-3;
-
 /// What is kept of the map.
 struct Light {
   explicit Light(const EnvironmentMap& map)
@@ -60,7 +57,7 @@ CellCdf product_of(const Light& light, const Material& material, const ShadingPo
   const std::span<const double> weights = light.weights.values();
   double sum = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) sum += values[i] * weights[i];
-  const double least = sum > 0.0 ? kDefensiveShare * sum / light.sum : 1.0;
+  const double least = sum > 0.0 ? kProductTableShare * sum / light.sum : 1.0;
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = (values[i] + least) * weights[i];
   return CellCdf(std::move(product));
 }

@@ -6,6 +6,9 @@
 
 namespace lightproof {
 
+/// The share of k's mean that every texel of a product table has besides its own k.
+inline constexpr double kProductTableShare = 1e-3;
+
 /// Texels in proportion to their luminance, their solid angle and the mean of k over their centre
 /// and corners, plus a thousandth of k's mean, so that all light is reached. What is left of the
 /// variance of an unoccluded point is that of k inside a texel. The table is made in double for

@@ -17,8 +17,10 @@
 #include "lightproof/estimators/outgoing_table.h"
 #include "lightproof/estimators/point_set.h"
 #include "lightproof/estimators/product_table.h"
+#include "lightproof/estimators/reduced_table.h"
 #include "lightproof/estimators/resampled.h"
 #include "lightproof/estimators/riemann_sum.h"
+#include "lightproof/estimators/rounded_table.h"
 #include "lightproof/estimators/sampled.h"
 #include "lightproof/estimators/specular_tables.h"
 #include "lightproof/estimators/two_level_product.h"
@@ -59,6 +61,16 @@ double pdf_of_ggx(const Material& material, const ShadingPoint& at, Direction di
 template <std::size_t kCandidates>
 PreparedEstimator resampled_of(const EnvironmentMap& map) {
   return resampled(one_sample_mixture(map, DensitySpace::solid_angle, 0.0), kCandidates);
+}
+
+template <int kFactor>
+PreparedEstimator from_reduced_table(const EnvironmentMap& map) {
+  return independent_samples(reduced_table_source(map, kFactor));
+}
+
+template <MassForm kForm>
+PreparedEstimator from_rounded_table(const EnvironmentMap& map) {
+  return independent_samples(rounded_table_source(map, kForm));
 }
 
 template <int kCuts>
@@ -182,6 +194,32 @@ constexpr std::array kEstimators = {
                       [](const EnvironmentMap& map) {
                         return independent_samples(alias_source(map, DensitySpace::solid_angle));
                       }},
+    EstimatorInfo{.name = "environment B alias 1/2",
+                  .description = "the map by an alias table of the means of 2 x 2 texels",
+                  .source = "Walker 1974; the light is that of the texel",
+                  .prepare = from_reduced_table<2>},
+    EstimatorInfo{.name = "environment B alias 1/4",
+                  .description = "the map by an alias table of the means of 4 x 4 texels",
+                  .source = "Walker 1974; the light is that of the texel",
+                  .prepare = from_reduced_table<4>},
+    EstimatorInfo{.name = "environment B alias 1/8",
+                  .description = "the map by an alias table of the means of 8 x 8 texels",
+                  .source = "Walker 1974; the light is that of the texel",
+                  .prepare = from_reduced_table<8>},
+    EstimatorInfo{.name = "environment B alias 1/16",
+                  .description = "the map by an alias table of the means of 16 x 16 texels",
+                  .source = "Walker 1974; the light is that of the texel",
+                  .prepare = from_reduced_table<16>},
+    EstimatorInfo{.name = "environment B half",
+                  .description = "as environment B, each texel's mass rounded to half floats, "
+                                 "relative to the brightest of its row",
+                  .source = "cumulative sums over runs of 32 texels",
+                  .prepare = from_rounded_table<MassForm::half>},
+    EstimatorInfo{.name = "environment B 8-bit",
+                  .description = "as environment B, each texel's mass rounded to 8 bits, a small "
+                                 "float relative to the brightest of its row",
+                  .source = "cumulative sums over runs of 32 texels",
+                  .prepare = from_rounded_table<MassForm::byte>},
     EstimatorInfo{
         .name = "product table",
         .description = "the product of map and material, tabulated for every shading point",

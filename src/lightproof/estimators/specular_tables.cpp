@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lightproof/core/error.h"
+#include "lightproof/estimators/diffuse_tables.h"
 #include "lightproof/prefilter/brdf_map.h"
 #include "lightproof/prefilter/brdf_quadrature.h"
 #include "lightproof/prefilter/irradiance_map.h"
@@ -16,9 +17,9 @@
 namespace lightproof {
 namespace {
 
-constexpr Extent kFinestLevel = {256, 128};
-constexpr int kLevels = 5;
-constexpr Extent kNormals = {64, 32};
+constexpr Extent kFinestLevel = kSplitSumFinest;
+constexpr int kLevels = kSplitSumLevels;
+constexpr Extent kNormals = kTabulatedNormals;
 constexpr std::size_t kCosines = 64;
 
 /// Values at the cosines i/(kCosines - 1), interpolated linearly between them.
@@ -58,16 +59,6 @@ Masking masking_of(SmithMasking masking) {
   return Masking::height_correlated;
 }
 
-/// What the material reflects of a white sky, a row of Karis's table.
-CosineTable white_sky(const Ggx& ggx) {
-  const std::vector<double> cosines = table_cosines();
-  std::vector<ScaleBias> row(cosines.size());
-  BrdfQuadrature(10, 18).integrate(cosines, ggx.roughness, masking_of(ggx.masking), row);
-  std::vector<double> reflected;
-  for (const ScaleBias& value : row) reflected.push_back(value.reflected(ggx.normal_reflectance));
-  return CosineTable(std::move(reflected));
-}
-
 /// What Phong's lobe of unit reflectance reflects of a white sky: (n+2)/(n+1) times the mean of
 /// (n·l)+ over the density (n+1)/2pi cos^n around the mirrored view, by midpoints of its inverse
 /// distribution function.
@@ -83,21 +74,6 @@ double white_sky_of_lobe(double exponent, double cosine) {
     }
   }
   return (exponent + 2.0) / (exponent + 1.0) * sum / (kPoints * kPoints);
-}
-
-CosineTable white_sky(const ModifiedPhong& phong) {
-  std::vector<double> reflected;
-  for (const double cosine : table_cosines()) {
-    reflected.push_back(white_sky_of_lobe(phong.exponent, cosine));
-  }
-  return CosineTable(std::move(reflected));
-}
-
-/// As many rows as eight to the width of the lobe, a power of two.
-Extent extent_for(const PhongLobe& lobe) {
-  int rows = 16;
-  while (rows < kFinestLevel.height && rows * width(lobe).value < 8.0 * kPi) rows *= 2;
-  return {2 * rows, rows};
 }
 
 std::size_t bytes_of(const SpecularChain& chain) {
@@ -123,6 +99,31 @@ struct PhongTables {
 
 }  // namespace
 
+PhongLobe prefilter_lobe(const ModifiedPhong& phong) { return {phong.exponent + 1.0}; }
+
+Extent prefilter_extent(const PhongLobe& lobe) {
+  int rows = 16;
+  while (rows < kFinestLevel.height && rows * width(lobe).value < 8.0 * kPi) rows *= 2;
+  return {2 * rows, rows};
+}
+
+std::vector<double> reflected_of_white_sky(const Ggx& ggx, std::span<const double> cosines) {
+  std::vector<ScaleBias> row(cosines.size());
+  BrdfQuadrature(10, 18).integrate(cosines, ggx.roughness, masking_of(ggx.masking), row);
+  std::vector<double> reflected;
+  for (const ScaleBias& value : row) reflected.push_back(value.reflected(ggx.normal_reflectance));
+  return reflected;
+}
+
+std::vector<double> reflected_of_white_sky(const ModifiedPhong& phong,
+                                           std::span<const double> cosines) {
+  std::vector<double> reflected;
+  for (const double cosine : cosines) {
+    reflected.push_back(white_sky_of_lobe(phong.exponent, cosine));
+  }
+  return reflected;
+}
+
 PreparedEstimator split_sum(const EnvironmentMap& map) {
   const auto chain =
       std::make_shared<const SpecularChain>(ggx_chain(map.radiance, kFinestLevel, kLevels));
@@ -131,7 +132,7 @@ PreparedEstimator split_sum(const EnvironmentMap& map) {
             if (ggx == nullptr) {
               throw InputError("the split sum is for GGX, and for no other material");
             }
-            return {[chain, white = white_sky(*ggx),
+            return {[chain, white = CosineTable(reflected_of_white_sky(*ggx, table_cosines())),
                      level = level_of_roughness(ggx->roughness, kLevels)](
                         const ShadingPoint& at, const RandomStream& /*stream*/, Budget /*budget*/,
                         const EachEstimate& /*each*/) {
@@ -151,11 +152,11 @@ PreparedEstimator prefiltered_phong(const EnvironmentMap& map) {
             if (phong == nullptr) {
               throw InputError("a map prefiltered by Phong's lobe is for the modified Phong model");
             }
-            // The receiver's cosine at n = r raises the exponent by one.
-            const PhongLobe lobe = {phong->exponent + 1.0};
-            const PrefilteredLevel wanted = {lobe, extent_for(lobe)};
-            const auto tables = std::make_shared<const PhongTables>(PhongTables{
-                diffuse, prefilter(map.radiance, {&wanted, 1}).front(), white_sky(*phong)});
+            const PhongLobe lobe = prefilter_lobe(*phong);
+            const PrefilteredLevel wanted = {lobe, prefilter_extent(lobe)};
+            const auto tables = std::make_shared<const PhongTables>(
+                PhongTables{diffuse, prefilter(map.radiance, {&wanted, 1}).front(),
+                            CosineTable(reflected_of_white_sky(*phong, table_cosines()))});
             return {[tables, phong = *phong](const ShadingPoint& at, const RandomStream& /*stream*/,
                                              Budget /*budget*/, const EachEstimate& /*each*/) {
                       return tables->reflected(phong, at);

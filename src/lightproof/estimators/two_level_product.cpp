@@ -11,11 +11,9 @@
 namespace lightproof {
 namespace {
 
-constexpr int kMostBlocks = 12;
-/// Directions at which k is taken, along either side of a block.
-constexpr int kNodes = 2;
-/// The share of k's mean that every block has besides its own k.
-constexpr double kDefensiveShare = 0.05;
+constexpr int kMostBlocks = TwoLevelProduct::kMostBlocks;
+constexpr int kNodes = TwoLevelProduct::kNodes;
+constexpr double kDefensiveShare = TwoLevelProduct::kDefensiveShare;
 
 /// The map's light by blocks, rows inside of blocks, and texels inside of these.
 class Blocks {

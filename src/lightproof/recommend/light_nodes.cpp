@@ -1,0 +1,169 @@
+#include "lightproof/recommend/light_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lightproof/warp/lat_long.h"
+
+namespace lightproof {
+namespace {
+
+/// The size of a node, relative to the lobe's width or its distance.
+constexpr double kRelativeSize = 1.0 / 5.0;
+/// Parts of a texel along either side, at most.
+constexpr int kMostParts = 16;
+/// A block is looked at texel by texel if it has more than this share of all light, and such a
+/// texel in parts: where hardly anything but a sun shines, all variance is that of k across it.
+constexpr double kBrightBlock = 5e-3;
+constexpr double kBrightTexel = 2e-3;
+constexpr int kBrightParts = 4;
+
+/// Width in radians of what a lobe of normals of this slope mirrors at a cosine of the view:
+/// narrower across where the view grazes.
+double mirrored_width(double slope, double cosine) { return 2.0 * slope * std::max(cosine, 0.15); }
+
+double width_of(const Material& material, double cosine) {
+  if (const auto* phong = std::get_if<ModifiedPhong>(&material)) {
+    return 1.0 / std::sqrt(phong->exponent);
+  }
+  if (const auto* ggx = std::get_if<Ggx>(&material)) {
+    return mirrored_width(ggx_alpha(ggx->roughness), cosine);
+  }
+  if (const auto* blinn = std::get_if<BlinnMicrofacet>(&material)) {
+    return mirrored_width(blinn->roughness * blinn->roughness, cosine);
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+/// Adds nodes to those of one point.
+class Collector {
+ public:
+  Collector(const MapSummary& summary, const LobePlace& lobe, LightNodes& nodes)
+      : summary_(&summary), lobe_(&lobe), nodes_(&nodes), texels_(summary.finest.extent()) {}
+
+  void add(const LightBlock& block) {
+    if (!is_bright(block) && block.width <= size_at(block.centre, 0.71 * block.width)) {
+      return add_cells(block);
+    }
+    const double area_factor = 1.0 / texels_.height;
+    for (int y = block.y0; y < block.y1; ++y) {
+      const double area = texel_solid_angle(texels_, y);
+      const double t = (y + 0.5) * area_factor;
+      for (int x = block.x0; x < block.x1; ++x) {
+        if (summary_->finest(x, y) > 0.0F) add_texel(block, x, y, t, area);
+      }
+    }
+  }
+
+ private:
+  bool is_bright(const LightBlock& block) const {
+    double light = 0.0;
+    for (std::size_t i = block.first_cell; i < block.end_cell; ++i) {
+      light += summary_->cells.light[i];
+    }
+    return light > kBrightBlock * summary_->light;
+  }
+
+  /// The size that nodes may have within a radius of a direction.
+  double size_at(Direction d, double radius) const {
+    if (std::isinf(lobe_->width)) return lobe_->width;
+    const double angle = std::acos(std::clamp(glm::dot(d, lobe_->axis), -1.0, 1.0));
+    return kRelativeSize * std::max(lobe_->width, angle - radius - lobe_->margin);
+  }
+
+  void add_cells(const LightBlock& block) {
+    const LightCells& cells = summary_->cells;
+    const auto append = [&](auto& to, const auto& from) {
+      to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(block.first_cell),
+                from.begin() + static_cast<std::ptrdiff_t>(block.end_cell));
+    };
+    append(nodes_->x, cells.x);
+    append(nodes_->y, cells.y);
+    append(nodes_->z, cells.z);
+    append(nodes_->light, cells.light);
+    append(nodes_->square, cells.square);
+    for (std::size_t i = 0; i < kTableDensities; ++i) append(nodes_->second[i], cells.second[i]);
+    append(nodes_->product, cells.product);
+    append(nodes_->quadrant, cells.quadrant);
+  }
+
+  void add_texel(const LightBlock& block, int x, int y, double t, double area) {
+    const Direction centre = direction_from_square({(x + 0.5) / texels_.width, t});
+    const double height = kPi / texels_.height;
+    const double width = 2.0 * kPi * sin_theta(t) / texels_.width;
+    const double size = size_at(centre, 0.0);
+    const auto luminance = static_cast<double>(summary_->finest(x, y));
+    const int least = area * luminance > kBrightTexel * summary_->light ? kBrightParts : 1;
+    const auto parts = [size, least](double side) {
+      return std::clamp(static_cast<int>(std::ceil(side / size)), least, kMostParts);
+    };
+    const int rows = parts(height);
+    const int columns = parts(width);
+    const double mean_square = summary_->finest_square.extent().count() > 0
+                                   ? static_cast<double>(summary_->finest_square(x, y))
+                                   : luminance * luminance;
+    const std::size_t cell = cell_of_texel(block, luminance);
+    const double share = area * luminance / summary_->cells.light[cell];
+    const auto product = summary_->product_index.of(x, y);
+    const auto quadrant = summary_->quadrant_index.of(x, y);
+    for (int j = 0; j < rows; ++j) {
+      const double at = (y + (j + 0.5) / rows) / texels_.height;
+      const double part = sin_theta(at) / (sin_theta(t) * rows * columns);
+      for (int i = 0; i < columns; ++i) {
+        const Direction d =
+            rows * columns == 1
+                ? centre
+                : direction_from_square({(x + (i + 0.5) / columns) / texels_.width, at});
+        nodes_->x.push_back(d.x);
+        nodes_->y.push_back(d.y);
+        nodes_->z.push_back(d.z);
+        nodes_->light.push_back(part * area * luminance);
+        nodes_->square.push_back(part * area * mean_square);
+        for (std::size_t k = 0; k < kTableDensities; ++k) {
+          nodes_->second[k].push_back(part * share * summary_->cells.second[k][cell]);
+        }
+        nodes_->product.push_back(product);
+        nodes_->quadrant.push_back(quadrant);
+      }
+    }
+  }
+
+  /// The cell of a block that holds texels as bright as this.
+  std::size_t cell_of_texel(const LightBlock& block, double luminance) const {
+    const int octave = std::ilogb(luminance * kSphere / summary_->light);
+    std::size_t cell = block.first_cell;
+    while (cell + 1 < block.end_cell && summary_->cells.octave[cell] < octave) ++cell;
+    return cell;
+  }
+
+  const MapSummary* summary_;
+  const LobePlace* lobe_;
+  LightNodes* nodes_;
+  Extent texels_;
+};
+
+}  // namespace
+
+LobePlace lobe_of(const Material& material, const ShadingPoint& at) {
+  const double cosine = glm::dot(at.view, at.frame.normal);
+  // Tables of prefiltered maps have texels of up to a 256th of a turn.
+  const double margin = std::holds_alternative<ModifiedPhong>(material) ? kPi / 256.0 : 0.0;
+  return {2.0 * cosine * at.frame.normal - at.view, width_of(material, cosine), margin};
+}
+
+LightNodes nodes_for(const MapSummary& summary, const LobePlace& lobe, Direction normal,
+                     Direction also) {
+  LightNodes nodes;
+  Collector collector(summary, lobe, nodes);
+  for (const LightBlock& block : summary.blocks) {
+    const double reach = -std::sin(std::min(0.71 * block.width, 1.5));
+    if (glm::dot(block.centre, normal) > reach ||
+        (also != Direction{0.0, 0.0, 0.0} && glm::dot(block.centre, also) > reach)) {
+      collector.add(block);
+    }
+  }
+  return nodes;
+}
+
+}  // namespace lightproof
