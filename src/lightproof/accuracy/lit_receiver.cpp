@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <span>
 #include <utility>
 
 #include "lightproof/accuracy/exact_light.h"
@@ -20,36 +21,39 @@ using reference::MeanAndVariance;
 /// The moments at one point, by estimator.
 using MomentsAtPoint = std::map<std::string_view, MeanAndVariance>;
 
-void add_densities(const reference::LightMoments& light, MomentsAtPoint& moments) {
-  for (const EstimatorInfo& info : estimators()) {
-    if (!info.density) continue;
-    const reference::EstimatorMoments& of = light[*info.density];
-    moments[info.name] = {of.mean(), of.variance(), of.largest, of.fourth_central()};
+void add_densities(std::span<const EstimatorInfo* const> asked,
+                   const reference::LightMoments& light, MomentsAtPoint& moments) {
+  for (const EstimatorInfo* info : asked) {
+    if (!info->density) continue;
+    const reference::EstimatorMoments& of = light[*info->density];
+    moments[info->name] = {of.mean(), of.variance(), of.largest, of.fourth_central()};
   }
 }
 
-void add_combined(const reference::Kernel& kernel, const Grid<double>& luminance,
-                  MomentsAtPoint& moments) {
+void add_combined(std::span<const EstimatorInfo* const> asked, const reference::Kernel& kernel,
+                  const Grid<double>& luminance, MomentsAtPoint& moments) {
   std::vector<reference::CombinedSampling> samplings;
-  for (const EstimatorInfo& info : estimators()) {
-    if (info.combined) samplings.push_back(*info.combined);
+  for (const EstimatorInfo* info : asked) {
+    if (info->combined) samplings.push_back(*info->combined);
   }
+  if (samplings.empty()) return;
   const auto found = reference::combined_moments(kernel, {&luminance, 1}, samplings,
                                                  reference::CellRule::midpoint);
   auto next = found.begin();
-  for (const EstimatorInfo& info : estimators()) {
-    if (info.combined) moments[info.name] = (*next++)[0];
+  for (const EstimatorInfo* info : asked) {
+    if (info->combined) moments[info->name] = (*next++)[0];
   }
 }
 
-void add_lobes(const reference::Kernel& kernel, const Grid<double>& luminance,
-               const Material& material, const ShadingPoint& at, MomentsAtPoint& moments) {
+void add_lobes(std::span<const EstimatorInfo* const> asked, const reference::Kernel& kernel,
+               const Grid<double>& luminance, const Material& material, const ShadingPoint& at,
+               MomentsAtPoint& moments) {
   std::vector<std::string_view> names;
   std::vector<std::function<double(Direction)>> pdfs;
-  for (const EstimatorInfo& info : estimators()) {
-    if (info.pdf == nullptr || !info.serves(material)) continue;
-    names.push_back(info.name);
-    pdfs.emplace_back([pdf = info.pdf, &material, &at](Direction direction) {
+  for (const EstimatorInfo* info : asked) {
+    if (info->pdf == nullptr || !info->serves(material)) continue;
+    names.push_back(info->name);
+    pdfs.emplace_back([pdf = info->pdf, &material, &at](Direction direction) {
       return pdf(material, at, direction);
     });
   }
@@ -58,24 +62,33 @@ void add_lobes(const reference::Kernel& kernel, const Grid<double>& luminance,
   for (std::size_t i = 0; i < names.size(); ++i) moments[names[i]] = found[i][0];
 }
 
-std::vector<Pixel> pixels_of(const ReceiverInfo& receiver, const Scene& scene, int points) {
-  std::vector<Pixel> pixels;
-  for (int scale = 1; pixels.size() < static_cast<std::size_t>(points); ++scale) {
-    pixels = visible_pixels(receiver, scene, {4 * scale, 3 * scale});
-    if (pixels.size() == 1 && !receiver.content.sphere && !receiver.content.plane) break;
+/// Estimators that are asked for.
+std::vector<const EstimatorInfo*> asked_for(const EstimatorFilter& filter) {
+  std::vector<const EstimatorInfo*> asked;
+  for (const EstimatorInfo& info : estimators()) {
+    if (!filter || filter(info)) asked.push_back(&info);
   }
-  return pixels;
+  return asked;
 }
 
 }  // namespace
 
+std::vector<Pixel> receiver_points(const ReceiverInfo& receiver, const Scene& scene, int least) {
+  std::vector<Pixel> pixels;
+  const bool is_point = !receiver.content.sphere && !receiver.content.plane;
+  for (int scale = 1; pixels.size() < static_cast<std::size_t>(is_point ? 1 : least); ++scale) {
+    pixels = visible_pixels(receiver, scene, {4 * scale, 3 * scale});
+  }
+  return pixels;
+}
+
 LitReceiver::LitReceiver(const EnvironmentMap& map, const ReceiverInfo& receiver,
-                         NamedMaterial material, int points)
+                         NamedMaterial material, int points, const EstimatorFilter& filter)
     : map_(&map),
       receiver_(&receiver),
       material_(std::move(material)),
       scene_(receiver.content),
-      pixels_(pixels_of(receiver, scene_, points)) {
+      pixels_(receiver_points(receiver, scene_, points)) {
   const Grid<double> luminance = luminance_of(map);
   const auto light = exact_light({&luminance, 1}, receiver, scene_, material_.material, pixels_)[0];
   const auto count = static_cast<double>(pixels_.size());
@@ -87,13 +100,14 @@ LitReceiver::LitReceiver(const EnvironmentMap& map, const ReceiverInfo& receiver
     throw InputError(
         fmt::format("{}: no light of this map reaches the receiver '{}'", map.name, receiver.name));
   }
+  const std::vector<const EstimatorInfo*> asked = asked_for(filter);
   std::vector<MomentsAtPoint> moments(pixels_.size());
   parallel_for(pixels_.size(), [&](std::size_t i) {
     const ShadingPoint& at = pixels_[i].point;
     const auto kernel = kernel_at(receiver, scene_, material_.material, at);
-    add_densities(light[i], moments[i]);
-    add_combined(kernel, luminance, moments[i]);
-    add_lobes(kernel, luminance, material_.material, at, moments[i]);
+    add_densities(asked, light[i], moments[i]);
+    add_combined(asked, kernel, luminance, moments[i]);
+    add_lobes(asked, kernel, luminance, material_.material, at, moments[i]);
   });
   for (const MomentsAtPoint& at_point : moments) {
     for (const auto& [name, exact] : at_point) {

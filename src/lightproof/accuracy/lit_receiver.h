@@ -2,6 +2,7 @@
 // there.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,15 +29,22 @@ struct Spread {
   double fourth_central = 0.0;
 };
 
+/// The points of a receiver: the visible pixels of the smallest picture, 4 by 3, that shows `least`
+/// of them or more; the point receiver has its one.
+std::vector<Pixel> receiver_points(const ReceiverInfo& receiver, const Scene& scene, int least);
+
+/// Whether an estimator is asked for.
+using EstimatorFilter = std::function<bool(const EstimatorInfo&)>;
+
 /// The visible points of a receiver, of one material, and by quadrature the luminance that each
 /// reflects, with the variances of all estimators whose moments are known. Refers to the map, which
 /// must outlive it.
 class LitReceiver {
  public:
-  /// The points are the visible pixels of the smallest picture, 4 by 3, that shows `points` of them
-  /// or more; the point receiver has its one. Throws InputError if no light reaches any of them.
+  /// The points are receiver_points(). Variances are computed of the estimators that the filter
+  /// asks for, of all if it is empty. Throws InputError if no light reaches any point.
   LitReceiver(const EnvironmentMap& map, const ReceiverInfo& receiver, NamedMaterial material,
-              int points);
+              int points, const EstimatorFilter& filter = {});
 
   const EnvironmentMap& map() const { return *map_; }
   const ReceiverInfo& receiver() const { return *receiver_; }

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <tuple>
 #include <utility>
 
+#include "lightproof/accuracy/timing.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/moments.h"
 #include "lightproof/estimators/registry.h"
@@ -26,11 +25,6 @@ constexpr std::array kQualities = {
     AccuracyQuality{"default", 65536, 4, 48},
     AccuracyQuality{"paper", 65536, 32, 192},
 };
-
-/// Samples that a round spends at one point on each of the smaller numbers of samples, and the most
-/// estimates that it makes of them.
-constexpr std::uint64_t kSamplesOfARound = 256;
-constexpr std::uint64_t kMostEstimatesOfARound = 16;
 
 /// The largest map of which a product is tabulated at every point: two seconds or so for all.
 constexpr std::size_t kMostTabulatedTexels = std::size_t{1} << 21U;
@@ -59,28 +53,24 @@ struct RoundOfLevel {
 /// One round of an estimator: a level for each number of samples.
 using Round = std::vector<RoundOfLevel>;
 
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// The numbers of samples at which an estimator is measured.
-std::vector<std::uint64_t> levels_of(const EstimatorInfo& info, const AccuracyQuality& quality) {
+std::vector<std::uint64_t> levels_of(const EstimatorInfo& info, const AccuracyOptions& options) {
+  if (options.samples) return options.samples(info);
   if (info.ignores_budget) return {1};
   const std::uint64_t step = info.tabulates_each_point ? kTabulatedStep : kStep;
   std::vector<std::uint64_t> levels;
-  for (std::uint64_t n = 1; n * info.candidates <= quality.most_samples; n *= step) {
+  for (std::uint64_t n = 1; n * info.candidates <= options.quality.most_samples; n *= step) {
     if (n >= info.samples_per_estimate) levels.push_back(n);
   }
   return levels;
 }
 
 /// Estimates at each point that one round makes of a number of samples.
-std::uint64_t estimates_of_a_round(const EstimatorInfo& info, std::uint64_t samples) {
+std::uint64_t estimates_of_a_round(const EstimatorInfo& info, const AccuracyOptions& options,
+                                   std::uint64_t samples) {
   if (info.tabulates_each_point) return 1;
-  return std::clamp<std::uint64_t>(kSamplesOfARound / (samples * info.candidates), 1,
-                                   kMostEstimatesOfARound);
+  return std::clamp<std::uint64_t>(options.samples_of_a_round / (samples * info.candidates), 1,
+                                   options.most_estimates_of_a_round);
 }
 
 /// An estimator, ready for a scene, and how long it took to get there.
@@ -107,7 +97,8 @@ RoundOfLevel measure_level(const Course& course, const RandomStream& stream, std
                            std::uint64_t first) {
   const LitReceiver& lit = *course.lit;
   const std::size_t pixels = lit.pixels().size();
-  const std::uint64_t estimates = estimates_of_a_round(*course.contender->info, samples);
+  const std::uint64_t estimates =
+      estimates_of_a_round(*course.contender->info, *course.options, samples);
   std::vector<Rgb> found(pixels * estimates);
   const double begin = thread_seconds();
   for (std::uint64_t i = 0; i < estimates; ++i) {
@@ -134,9 +125,9 @@ Round measure_round(const Course& course, int round) {
   const EstimatorInfo& info = *course.contender->info;
   Round levels;
   std::uint64_t first = 0;
-  for (const std::uint64_t samples : levels_of(info, course.options->quality)) {
+  for (const std::uint64_t samples : levels_of(info, *course.options)) {
     levels.push_back(measure_level(course, stream, samples, first));
-    first += samples * estimates_of_a_round(info, samples);
+    first += samples * estimates_of_a_round(info, *course.options, samples);
   }
   return levels;
 }
@@ -222,7 +213,7 @@ AccuracyLine line_of(const Course& course, const Round& levels) {
   const EstimatorInfo& independent =
       info.at_independent_points.empty() ? info : estimator_by_name(info.at_independent_points);
   const std::optional<Spread> spread = course.lit->spread(independent);
-  const std::vector<std::uint64_t> samples = levels_of(info, course.options->quality);
+  const std::vector<std::uint64_t> samples = levels_of(info, *course.options);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     AccuracyPoint point = point_of(independent, levels[i], samples[i], spread);
     if (own) point.predicted = std::sqrt(own->variance / static_cast<double>(samples[i]));
@@ -243,15 +234,6 @@ std::string reason_to_leave_out(const EstimatorInfo& info, const EnvironmentMap&
                        extent.width, extent.height);
   }
   return {};
-}
-
-/// What `make` returns, and the time that it took.
-template <class Make>
-auto timed(const Make& make) {
-  const auto begin = std::chrono::steady_clock::now();
-  auto made = make();
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-  return std::pair(std::move(made), elapsed.count());
 }
 
 /// An estimator that is prepared for the map.
@@ -284,19 +266,23 @@ std::vector<Contender> bind_all(const LitReceiver& lit, std::span<const Prepared
   return bound;
 }
 
+/// What the filter asks for, and what draws the same at independent points.
+EstimatorFilter with_independent(const EstimatorFilter& filter) {
+  if (!filter) return filter;
+  return [&filter](const EstimatorInfo& info) {
+    return filter(info) || std::ranges::any_of(estimators(), [&](const EstimatorInfo& row) {
+             return row.at_independent_points == info.name && filter(row);
+           });
+  };
+}
+
 /// All scenes of a map.
 class Charts {
  public:
-  Charts(const EnvironmentMap& map, std::span<const AccuracyScene> scenes,
-         const AccuracyOptions& options, const Progress& progress)
-      : map_(&map), options_(&options) {
-    double done = 0.0;
-    for (const AccuracyScene& scene : scenes) {
-      if (progress) progress("exact light", done++ / static_cast<double>(scenes.size()));
-      lit_.push_back(std::make_unique<LitReceiver>(map, *scene.receiver, scene.material,
-                                                   options.quality.shading_points));
-      charts_.push_back(empty_chart(*lit_.back()));
-    }
+  Charts(const EnvironmentMap& map, std::span<const LitReceiver* const> lit,
+         const AccuracyOptions& options)
+      : map_(&map), options_(&options), lit_(lit.begin(), lit.end()) {
+    for (const LitReceiver* receiver : lit_) charts_.push_back(empty_chart(*receiver));
   }
 
   /// The estimators that some scene shows. What a scene does not show is put down there.
@@ -324,10 +310,10 @@ class Charts {
     const std::vector<Prepared> prepared = prepare_all(*map_, chosen);
     std::vector<std::vector<Contender>> contenders;
     std::vector<Course> courses;
-    for (const auto& lit : lit_) contenders.push_back(bind_all(*lit, prepared));
+    for (const LitReceiver* lit : lit_) contenders.push_back(bind_all(*lit, prepared));
     for (std::size_t i = 0; i < lit_.size(); ++i) {
       for (const Contender& contender : contenders[i]) {
-        courses.push_back({lit_[i].get(), &contender, options_});
+        courses.push_back({lit_[i], &contender, options_});
       }
     }
     std::vector<WorkCell<Round>> cells;
@@ -374,9 +360,28 @@ class Charts {
 
   const EnvironmentMap* map_;
   const AccuracyOptions* options_;
-  std::vector<std::unique_ptr<LitReceiver>> lit_;
+  std::vector<const LitReceiver*> lit_;
   std::vector<AccuracyChart> charts_;
 };
+
+std::vector<AccuracyChart> measure_all(const EnvironmentMap& map,
+                                       std::span<const LitReceiver* const> lit,
+                                       const AccuracyOptions& options, const Progress& progress,
+                                       const Communicator& communicator) {
+  Charts charts(map, lit, options);
+  const std::vector<const EstimatorInfo*> chosen = charts.choose();
+  const std::size_t together = std::max<std::size_t>(
+      1, kPreparedTexels / std::max<std::size_t>(1, map.radiance.extent().count()));
+  for (std::size_t first = 0; first < chosen.size(); first += together) {
+    const std::size_t count = std::min(together, chosen.size() - first);
+    const auto share = [&](std::size_t done) {
+      return static_cast<double>(done) / static_cast<double>(chosen.size());
+    };
+    charts.measure(std::span(chosen).subspan(first, count),
+                   part_of(progress, share(first), share(first + count)), communicator);
+  }
+  return charts.take();
+}
 
 }  // namespace
 
@@ -396,19 +401,24 @@ std::vector<AccuracyChart> measure_accuracy(const EnvironmentMap& map,
                                             const AccuracyOptions& options,
                                             const Progress& progress,
                                             const Communicator& communicator) {
-  Charts charts(map, scenes, options, part_of(progress, 0.0, 0.2));
-  const std::vector<const EstimatorInfo*> chosen = charts.choose();
-  const std::size_t together = std::max<std::size_t>(
-      1, kPreparedTexels / std::max<std::size_t>(1, map.radiance.extent().count()));
-  for (std::size_t first = 0; first < chosen.size(); first += together) {
-    const std::size_t count = std::min(together, chosen.size() - first);
-    const auto share = [&](std::size_t done) {
-      return 0.2 + 0.8 * static_cast<double>(done) / static_cast<double>(chosen.size());
-    };
-    charts.measure(std::span(chosen).subspan(first, count),
-                   part_of(progress, share(first), share(first + count)), communicator);
+  std::vector<std::unique_ptr<LitReceiver>> lit;
+  std::vector<const LitReceiver*> all;
+  for (const AccuracyScene& scene : scenes) {
+    if (progress)
+      progress("exact light",
+               0.2 * static_cast<double>(lit.size()) / static_cast<double>(scenes.size()));
+    lit.push_back(std::make_unique<LitReceiver>(map, *scene.receiver, scene.material,
+                                                options.quality.shading_points,
+                                                with_independent(options.select)));
+    all.push_back(lit.back().get());
   }
-  return charts.take();
+  return measure_all(map, all, options, part_of(progress, 0.2, 1.0), communicator);
+}
+
+AccuracyChart measure_accuracy(const LitReceiver& lit, const AccuracyOptions& options,
+                               const Progress& progress, const Communicator& communicator) {
+  const LitReceiver* one = &lit;
+  return measure_all(lit.map(), {&one, 1}, options, progress, communicator).front();
 }
 
 }  // namespace lightproof

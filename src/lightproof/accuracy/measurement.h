@@ -33,7 +33,14 @@ struct AccuracyOptions {
   AccuracyQuality quality = accuracy_qualities()[0];
   std::uint64_t seed = 1;
   /// Which estimators are charted; empty: all that serve the material.
-  std::function<bool(const EstimatorInfo&)> select = {};
+  EstimatorFilter select = {};
+  /// The numbers of samples at which an estimator is measured, ascending; empty: those of the
+  /// quality.
+  std::function<std::vector<std::uint64_t>(const EstimatorInfo&)> samples = {};
+  /// Samples that a round spends at one point on each of the smaller numbers of samples, and the
+  /// most estimates that it makes of them.
+  std::uint64_t samples_of_a_round = 256;
+  std::uint64_t most_estimates_of_a_round = 16;
 };
 
 /// A receiver and a material that are lit by the map.
@@ -53,5 +60,10 @@ std::vector<AccuracyChart> measure_accuracy(const EnvironmentMap& map,
                                             const AccuracyOptions& options,
                                             const Progress& progress = {},
                                             const Communicator& communicator = {});
+
+/// The chart of a receiver that is lit already.
+AccuracyChart measure_accuracy(const LitReceiver& lit, const AccuracyOptions& options,
+                               const Progress& progress = {},
+                               const Communicator& communicator = {});
 
 }  // namespace lightproof

@@ -1,0 +1,100 @@
+#include "lightproof/recommend/candidates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "lightproof/estimators/registry.h"
+
+namespace lightproof {
+namespace {
+
+/// What keeps an estimator from reaching the error; the nearest miss of a family is told.
+struct Obstacle {
+  double distance = std::numeric_limits<double>::infinity();  ///< how many times too much
+  std::string reason;
+};
+
+/// Two digits: "3.1 %".
+std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
+
+/// Why the estimator cannot be taken; nothing if it can.
+std::optional<Obstacle> obstacle_of(const MethodDemand& demand, const Candidate& candidate) {
+  const EstimatorInfo& info = *candidate.info;
+  if (info.ignores_occlusion && demand.is_occluded) {
+    return Obstacle{1e30, fmt::format("{} ignores what is in the way of light", info.name)};
+  }
+  const double floor =
+      candidate.error.law == ErrorLaw::constant ? candidate.error.at(1) : candidate.error.bias;
+  if (candidate.samples == 0) {
+    return Obstacle{floor / demand.error,
+                    fmt::format("the floor of {} is {}", info.name, percent(floor))};
+  }
+  const double directions = static_cast<double>(candidate.samples * info.candidates);
+  if (directions > static_cast<double>(kMostDirections)) {
+    return Obstacle{
+        directions / static_cast<double>(kMostDirections),
+        fmt::format("{} needs {:.2g} samples", info.name, static_cast<double>(candidate.samples))};
+  }
+  const double seconds = candidate.seconds(demand, candidate.samples);
+  if (seconds > demand.budget_seconds) {
+    return Obstacle{seconds / demand.budget_seconds,
+                    fmt::format("{} takes {:.2g} ms a shading point", info.name, 1e3 * seconds)};
+  }
+  if (demand.memory && candidate.cost.bytes > static_cast<double>(*demand.memory)) {
+    return Obstacle{
+        candidate.cost.bytes / static_cast<double>(std::max<std::size_t>(1, *demand.memory)),
+        fmt::format("{} takes {:.2g} MB", info.name, 1e-6 * candidate.cost.bytes)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> samples_for(const EstimatorInfo& info, const PredictedError& predicted,
+                                         double error) {
+  if (predicted.law == ErrorLaw::constant) {
+    if (predicted.at(1) > error) return std::nullopt;
+    return 1;
+  }
+  const double left = error * error - predicted.bias * predicted.bias;
+  if (!(left > 0.0)) return std::nullopt;
+  constexpr double kMost = 1e15;
+  const double step = static_cast<double>(info.samples_per_estimate);
+  const double exact = std::min(kMost, predicted.variance / left);
+  return static_cast<std::uint64_t>(step * std::max(1.0, std::ceil(exact / step * (1.0 - 1e-12))));
+}
+
+Candidates candidates_for(const MethodDemand& demand, const Prediction& prediction,
+                          const MethodCosts& costs, Extent map) {
+  Candidates all;
+  std::map<EstimatorFamily, Obstacle> obstacles;
+  std::vector<EstimatorFamily> reached;
+  for (const EstimatorPrediction& row : prediction.estimators) {
+    const EstimatorInfo& info = estimator_by_name(row.estimator);
+    auto cost = costs.of(row.estimator, map);
+    if (!row.error || !cost) continue;
+    Candidate candidate{&info, *row.error, *std::move(cost),
+                        samples_for(info, *row.error, demand.error).value_or(0)};
+    if (auto obstacle = obstacle_of(demand, candidate)) {
+      Obstacle& nearest = obstacles[info.family];
+      if (obstacle->distance < nearest.distance) nearest = *std::move(obstacle);
+      continue;
+    }
+    reached.push_back(info.family);
+    all.reaching.push_back(std::move(candidate));
+  }
+  std::ranges::stable_sort(all.reaching, {}, [&](const Candidate& candidate) {
+    return candidate.seconds(demand, candidate.samples);
+  });
+  for (const auto& [family, obstacle] : obstacles) {
+    if (std::ranges::find(reached, family) != reached.end()) continue;
+    all.unreached.push_back({std::string(to_string(family)), obstacle.reason});
+  }
+  return all;
+}
+
+}  // namespace lightproof

@@ -1,0 +1,59 @@
+// Methods that may reach an error: estimators with a number of samples, and what each takes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightproof/accuracy/method_costs.h"
+#include "lightproof/estimators/estimator.h"
+#include "lightproof/recommend/prediction.h"
+#include "lightproof/results/recommendation.h"
+
+namespace lightproof {
+
+/// The most directions that an estimate may draw.
+inline constexpr std::uint64_t kMostDirections = 65536;
+
+/// What is asked of a method, and what it may take.
+struct MethodDemand {
+  double error = 0.05;           ///< root mean square over the points, bias included, over the mean
+  double budget_seconds = 1e-3;  ///< a shading point, set-up shared out
+  std::optional<std::size_t> memory = {};      ///< beside the map itself, in bytes
+  std::uint64_t shading_points = 1920 * 1080;  ///< over which a set-up is shared out
+  bool is_occluded = false;  ///< whether something blocks light: what ignores that is no choice
+};
+
+/// An estimator at the number of samples at which it is predicted to reach the error.
+struct Candidate {
+  const EstimatorInfo* info;
+  PredictedError error;
+  MethodCost cost;
+  std::uint64_t samples;
+
+  /// Processor time of a shading point, with its part of the set-up.
+  double seconds(const MethodDemand& demand, std::uint64_t of_samples) const {
+    return cost.seconds_of(of_samples) +
+           cost.set_up_seconds / static_cast<double>(demand.shading_points);
+  }
+};
+
+/// All methods, those that are predicted to reach the error and, a family each, why the others are
+/// not.
+struct Candidates {
+  std::vector<Candidate> reaching;  ///< the cheapest first
+  std::vector<UnreachedFamily> unreached;
+};
+
+/// The number of samples at which an error is reached, a multiple of those that make an estimate;
+/// none if no number does.
+std::optional<std::uint64_t> samples_for(const EstimatorInfo& info, const PredictedError& predicted,
+                                         double error);
+
+/// What predictions and costs say of every estimator.
+Candidates candidates_for(const MethodDemand& demand, const Prediction& prediction,
+                          const MethodCosts& costs, Extent map);
+
+}  // namespace lightproof
