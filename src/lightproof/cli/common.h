@@ -90,6 +90,7 @@ void add_check(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_precompute(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_study(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_info(CLI::App& app, const CommandLine& line, int& exit_code);
+void add_recommend(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_history(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_list(CLI::App& app, const CommandLine& line, int& exit_code);
 

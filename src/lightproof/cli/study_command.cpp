@@ -4,12 +4,12 @@
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
 #include "common.h"
 #include "describe_run.h"
+#include "kept_measurements.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/text_escapes.h"
@@ -26,8 +26,6 @@
 namespace lightproof::cli {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr const char* kThisProgram = "/proc/self/exe";
 
 struct Options : CommonOptions {
   std::string output = "out";
@@ -59,18 +57,6 @@ std::optional<fs::path> benchmark_program(const Options& options) {
       "{}: the benchmark program is not there; give its results with --throughput FILE or leave "
       "them out with --no-throughput",
       program.string()));
-}
-
-/// Where measurements are kept, as in ci/lib.sh; empty if there is no place for them.
-fs::path cache_folder() {
-  const auto folder = [](const char* variable) {
-    const char* value = std::getenv(variable);
-    return value != nullptr ? fs::path(value) : fs::path();
-  };
-  if (const fs::path own = folder("LIGHTPROOF_CACHE"); !own.empty()) return own;
-  if (const fs::path all = folder("XDG_CACHE_HOME"); !all.empty()) return all / "lightproof";
-  const fs::path home = folder("HOME");
-  return home.empty() ? home : home / ".cache" / "lightproof";
 }
 
 /// Every receiver in every material.
@@ -121,7 +107,7 @@ int run(Options options) {
   std::vector<EnvironmentMap> maps = load_maps(options);
   check_folder(options.output, options.force, report_file_names(), options.command_line);
   const RunDescription description = describe_run(options, maps);
-  options.study.cache = {cache_folder(), kThisProgram, description.commit, options.measure_again};
+  options.study.cache = kept_measurements(description.commit, options.measure_again);
   StudyResult result = run_on(std::move(maps), options);
   if (!throughput.samplers.empty()) set_throughput(result, std::move(throughput));
   write_report(result, options.output, description, overwriting(options.force));

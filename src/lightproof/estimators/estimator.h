@@ -108,6 +108,8 @@ struct EstimatorInfo {
   /// Samples of the budget that make one of the independent estimates that are shown; budgets that
   /// are no multiple of it show none.
   std::uint64_t samples_per_estimate = 1;
+  /// By how much its table of the map is smaller than the map, along either side.
+  int table_reduction = 1;
   /// Directions that are drawn for each sample of the budget.
   std::uint64_t candidates = 1;
   /// Whether every shading point needs a set-up that takes as long as one of the map.

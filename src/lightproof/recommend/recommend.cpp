@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -14,6 +15,8 @@
 #include "lightproof/accuracy/measurement.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/measure.h"
+#include "lightproof/estimators/reduced_table.h"
+#include "lightproof/estimators/registry.h"
 #include "lightproof/recommend/map_summary.h"
 
 namespace lightproof {
@@ -26,22 +29,18 @@ constexpr int kPoints = 24;
 constexpr std::size_t kMostRun = 10;
 constexpr double kWorthATry = 1.6;
 
-/// The slope of error against samples that points in even order may have at best, where only an
-/// upper bound is predicted.
-constexpr double kBestSlope = 0.85;
-
 /// Candidates that are verified at the most.
 constexpr std::size_t kMostVerified = 3;
 
 /// Steps between numbers of samples that are run to find one.
-constexpr double kSearchStep = 1.5;
+constexpr double kSearchStep = 2.0;
 
 /// An error so much above the one that is asked for is missed; so often is it corrected.
 constexpr double kMissed = 1.02;
 constexpr int kMostAttempts = 4;
 
 /// Samples at one point in a round, and estimates at most.
-constexpr std::uint64_t kSamplesOfARound = 16384;
+constexpr std::uint64_t kSamplesOfARound = 4096;
 constexpr std::uint64_t kMostEstimatesOfARound = 64;
 
 /// Rounds of a search, and of the measurement of what was found.
@@ -52,29 +51,9 @@ constexpr int kFinalRounds = 12;
 constexpr double kOffErrors = 3.0;
 constexpr double kOffShare = 0.1;
 
-/// Whether the number of samples has to be found by trying.
-bool is_searched(const Candidate& candidate, const MethodDemand& demand) {
-  if (candidate.error.law == ErrorLaw::constant) return false;
-  return candidate.error.law == ErrorLaw::at_most || demand.is_occluded;
-}
-
-std::uint64_t in_steps(const EstimatorInfo& info, double samples) {
-  const double step = static_cast<double>(info.samples_per_estimate);
-  return static_cast<std::uint64_t>(step * std::max(1.0, std::ceil(samples / step - 1e-9)));
-}
-
-/// The fewest samples that the candidate may be expected to do with.
-std::uint64_t fewest_samples(const Candidate& candidate, const MethodDemand& demand) {
-  if (!is_searched(candidate, demand)) return candidate.samples;
-  const auto n = static_cast<double>(candidate.samples);
-  const double fewest =
-      candidate.error.law == ErrorLaw::at_most ? std::pow(n, 0.5 / kBestSlope) : 0.25 * n;
-  return in_steps(*candidate.info, fewest);
-}
-
 /// The numbers of samples at which a candidate is run.
 std::vector<std::uint64_t> search_samples(const Candidate& candidate, const MethodDemand& demand) {
-  if (!is_searched(candidate, demand)) return {candidate.samples};
+  if (!is_uncertain(candidate.error, demand)) return {candidate.samples};
   const double most =
       std::min(static_cast<double>(kMostDirections / candidate.info->candidates),
                static_cast<double>(candidate.samples) * (demand.is_occluded ? 4.0 : 1.0));
@@ -94,7 +73,13 @@ std::vector<Candidate> worth_a_try(const std::vector<Candidate>& all, const Meth
     return candidate.seconds(demand, fewest_samples(candidate, demand));
   };
   std::ranges::stable_sort(chosen, {}, hoped);
-  const double sure = all.front().seconds(demand, all.front().samples);
+  // What certainly does it, at the least.
+  double sure = std::numeric_limits<double>::infinity();
+  for (const Candidate& candidate : all) {
+    if (obstacle_to(demand, candidate, candidate.samples).empty()) {
+      sure = std::min(sure, candidate.seconds(demand, candidate.samples));
+    }
+  }
   const auto is_worth = [&](const Candidate& c) { return hoped(c) <= kWorthATry * sure; };
   const auto worth = static_cast<std::size_t>(std::ranges::count_if(chosen, is_worth));
   chosen.resize(std::min(chosen.size(), std::clamp<std::size_t>(worth, 2, kMostRun)));
@@ -151,7 +136,7 @@ std::vector<Candidate> found_by_trying(const LitReceiver& lit, const RecommendOp
                                        const std::vector<Candidate>& tried) {
   SamplesOf samples;
   for (const Candidate& candidate : tried) {
-    if (is_searched(candidate, options.demand)) {
+    if (is_uncertain(candidate.error, options.demand)) {
       samples[candidate.info->name] = search_samples(candidate, options.demand);
     }
   }
@@ -159,11 +144,12 @@ std::vector<Candidate> found_by_trying(const LitReceiver& lit, const RecommendOp
       samples.empty() ? MeasuredLines() : measure(lit, samples, kSearchRounds, options.seed);
   std::vector<Candidate> found;
   for (Candidate candidate : tried) {
-    if (is_searched(candidate, options.demand)) {
+    if (is_uncertain(candidate.error, options.demand)) {
       const auto at = crossing(*candidate.info, lines.at(std::string(candidate.info->name)),
                                options.demand.error);
       if (!at) continue;
       candidate.samples = *at;
+      if (!obstacle_to(options.demand, candidate, *at).empty()) continue;
     }
     found.push_back(std::move(candidate));
   }
@@ -193,7 +179,8 @@ std::vector<Verified> verified(const LitReceiver& lit, const RecommendOptions& o
     for (Candidate& candidate : candidates) {
       const AccuracyPoint& point = lines.at(std::string(candidate.info->name)).points.front();
       const double ratio = point.rmse / options.demand.error;
-      if (attempt < kMostAttempts && ratio > kMissed && is_searched(candidate, options.demand)) {
+      if (attempt < kMostAttempts && ratio > kMissed &&
+          is_uncertain(candidate.error, options.demand)) {
         candidate.samples =
             in_steps(*candidate.info, static_cast<double>(candidate.samples) * ratio * ratio);
         again.push_back(std::move(candidate));
@@ -209,13 +196,25 @@ std::vector<Verified> verified(const LitReceiver& lit, const RecommendOptions& o
   return all;
 }
 
-RecommendedMethod method_of(const Verified& verified) {
+/// The size of the table of the map that an estimator draws from.
+Extent table_of(const EstimatorInfo& info, Extent map) {
+  const EstimatorInfo& drawn =
+      info.at_independent_points.empty() ? info : estimator_by_name(info.at_independent_points);
+  const bool draws_from_map = drawn.family == EstimatorFamily::environment ||
+                              drawn.family == EstimatorFamily::mis ||
+                              drawn.family == EstimatorFamily::ris;
+  return draws_from_map ? reduced_extent(map, drawn.table_reduction) : Extent{0, 0};
+}
+
+RecommendedMethod method_of(const Verified& verified, Extent map) {
   const Candidate& candidate = verified.candidate;
   RecommendedMethod method;
   method.estimator = candidate.info->name;
   method.samples = candidate.samples;
   method.bytes = static_cast<std::size_t>(candidate.cost.bytes);
+  method.table = table_of(*candidate.info, map);
   method.predicted_error = candidate.error.at(candidate.samples);
+  method.is_upper_bound = candidate.error.law == ErrorLaw::at_most;
   if (verified.point.samples > 0) {
     method.measured_error = verified.point.rmse;
     method.measured_error_error = verified.point.rmse_error;
@@ -264,7 +263,7 @@ std::string reason_of(const Recommendation& recommendation, const Candidate& cho
       "the light fills {} of the sphere and the material's lobe {}", percent(light), percent(lobe));
   std::string reason;
   if (choice.error.law == ErrorLaw::constant) {
-    reason = fmt::format("one look-up is off by {} at every number of samples, and {}",
+    reason = fmt::format("its error is {} whatever the number of samples, and {}",
                          percent(choice.error.at(1)), widths);
   } else {
     reason = widths;
@@ -295,7 +294,7 @@ std::string warning_of(const Recommendation& recommendation, const Candidate& ch
       fmt::format("{}: no method reaches an error of {} on the receiver '{}' in '{}'", map.name,
                   percent(options.demand.error), options.receiver->name, options.material.name);
   for (const UnreachedFamily& family : unreached) {
-    text += fmt::format("\n  {}: {}", family.family, family.reason);
+    text += fmt::format("; {}: {}", family.family, family.reason);
   }
   throw InputError(text);
 }
@@ -320,6 +319,7 @@ Recommendation recommend(const EnvironmentMap& map, const RecommendOptions& opti
   const Prediction prediction = predict(summary, options.material.material, points);
   MethodDemand demand = options.demand;
   demand.is_occluded = options.receiver->occluded;
+  demand.will_be_tried = options.verify;
   RecommendOptions asked = options;
   asked.demand = demand;
   const Candidates all = candidates_for(demand, prediction, costs, map.radiance.extent());
@@ -338,8 +338,8 @@ Recommendation recommend(const EnvironmentMap& map, const RecommendOptions& opti
   } else {
     for (const Candidate& candidate : all.reaching) best.push_back({candidate, {}});
   }
-  recommendation.choice = method_of(best[0]);
-  if (best.size() > 1) recommendation.runner_up = method_of(best[1]);
+  recommendation.choice = method_of(best[0], map.radiance.extent());
+  if (best.size() > 1) recommendation.runner_up = method_of(best[1], map.radiance.extent());
   recommendation.reason =
       reason_of(recommendation, best[0].candidate, summary, options.material.material);
   recommendation.warning = warning_of(recommendation, best[0].candidate);

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "lightproof/core/grid.h"
+
 namespace lightproof {
 
 /// An estimator with a number of samples, what it is expected to do, and what it did.
@@ -15,8 +17,11 @@ struct RecommendedMethod {
   std::string estimator;      ///< name in the registry of estimators
   std::uint64_t samples = 0;  ///< of one shading point; 1 where their number is without meaning
   std::size_t bytes = 0;      ///< memory beside the map itself
+  /// Size of the table that directions are drawn from; 0 x 0 if there is none.
+  Extent table = {0, 0};
   /// Expected root mean square error over the receiver's pixels, bias included, over the mean.
   double predicted_error = 0.0;
+  bool is_upper_bound = false;  ///< whether the prediction is no more than one
   /// The same as measured; not a number if it was not.
   double measured_error = std::numeric_limits<double>::quiet_NaN();
   double measured_error_error = std::numeric_limits<double>::quiet_NaN();  ///< its standard error

@@ -1,0 +1,169 @@
+// lightproof recommend: the least that a scene needs.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <charconv>
+#include <cmath>
+#include <memory>
+
+#include "common.h"
+#include "describe_run.h"
+#include "kept_measurements.h"
+#include "lightproof/core/error.h"
+#include "lightproof/core/parallel.h"
+#include "lightproof/core/text_escapes.h"
+#include "lightproof/estimators/registry.h"
+#include "lightproof/recommend/recommend.h"
+#include "lightproof/report/recommendation_json.h"
+#include "outputs.h"
+#include "whole_number.h"
+
+namespace lightproof::cli {
+namespace {
+
+struct Options : CommonOptions {
+  std::string material;
+  std::string receiver = "sphere";
+  std::string error;
+  double budget_ms = 1.0;
+  std::uint64_t memory = 0;  ///< 0: as much as it takes
+  std::uint64_t shading_points = MethodDemand{}.shading_points;
+  bool no_verify = false;
+  bool measure_again = false;
+  std::string json;
+};
+
+/// "2%" or "0.02", above 0 and below 1000 %.
+double error_of(const std::string& text) {
+  const bool is_percent = !text.empty() && text.back() == '%';
+  const std::string_view number =
+      std::string_view(text).substr(0, text.size() - (is_percent ? 1 : 0));
+  double error = 0.0;
+  const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), error);
+  if (is_percent) error /= 100.0;
+  const bool is_number = status == std::errc() && end == number.data() + number.size();
+  if (!is_number || !(error > 0.0 && error < 10.0)) {
+    throw InputError(
+        fmt::format("--error: \"{}\" is no error above 0, as in 2% or 0.02", terminal_text(text)));
+  }
+  return error;
+}
+
+std::string percent(double share) {
+  if (share < 1e-5) return "below 0.001 %";
+  return share < 0.1 ? fmt::format("{:.2g} %", 100.0 * share)
+                     : fmt::format("{:.0f} %", 100.0 * share);
+}
+
+std::string samples_text(const RecommendedMethod& method) {
+  if (estimator_by_name(method.estimator).ignores_budget) return "";
+  return method.samples == 1 ? ", 1 sample" : fmt::format(", {} samples", method.samples);
+}
+
+/// One line: what, its errors, what it takes.
+std::string line_of(const RecommendedMethod& method) {
+  std::string errors =
+      fmt::format("error {}{} predicted", method.is_upper_bound ? "of at most " : "",
+                  percent(method.predicted_error));
+  if (std::isfinite(method.measured_error)) {
+    errors += fmt::format(", {} measured", percent(method.measured_error));
+  }
+  std::string table;
+  if (method.table.width > 0) {
+    table = fmt::format(", table of {}x{}", method.table.width, method.table.height);
+  }
+  return fmt::format("{}{}; {}; {:.2g} \u00b5s a shading point, set-up {:.2g} ms, {:.2g} MB{}",
+                     method.estimator, samples_text(method), errors, 1e3 * method.milliseconds,
+                     method.set_up_milliseconds, 1e-6 * static_cast<double>(method.bytes), table);
+}
+
+void print(const Recommendation& recommendation) {
+  fmt::print("{}: {}\n", recommendation.map, line_of(recommendation.choice));
+  if (recommendation.runner_up) fmt::print("runner-up: {}\n", line_of(*recommendation.runner_up));
+  fmt::print("reason: {}\n", recommendation.reason);
+  if (!recommendation.warning.empty()) fmt::print("warning: {}\n", recommendation.warning);
+}
+
+int run(const Options& options) {
+  const ThreadLimit threads(options.threads);
+  RecommendOptions asked = {.receiver = &receiver_by_name(options.receiver),
+                            .material = {options.material, material_of(options.material)},
+                            .demand = {.error = error_of(options.error),
+                                       .budget_seconds = 1e-3 * options.budget_ms,
+                                       .shading_points = options.shading_points},
+                            .verify = !options.no_verify,
+                            .seed = options.seed};
+  if (options.memory > 0) asked.demand.memory = options.memory;
+  const std::string outputs[] = {options.json};
+  const bool stdout_is_taken = check_outputs(outputs);
+  const std::vector<EnvironmentMap> maps = load_maps(options);
+  const RunDescription description = describe_run(options, maps);
+  const Progress progress = progress_of(options);
+  const MethodCosts costs =
+      kept_method_costs(asked.material.material, *asked.receiver,
+                        kept_measurements(description.commit, options.measure_again), progress)
+          .value;
+  const Recommendation recommendation = recommend(maps.front(), asked, costs, progress);
+  if (!stdout_is_taken) print(recommendation);
+  write_output(options.json, recommendation_json(recommendation, description));
+  return kPassed;
+}
+
+void add_demand(CLI::App& command, Options& options) {
+  command
+      .add_option("--material", options.material,
+                  "a name of `list materials`, phong:N with an exponent, or ggx:R with a roughness")
+      ->type_name("NAME")
+      ->required();
+  command
+      .add_option("--error", options.error,
+                  "the expected root mean square error over the receiver's pixels, bias included, "
+                  "over the mean of the reference: 2% or 0.02")
+      ->type_name("E")
+      ->required();
+  command
+      .add_option("--receiver", options.receiver,
+                  "what is lit: point, sphere, plane or sphere-on-plane")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command
+      .add_option("--budget-ms", options.budget_ms,
+                  "the most that a shading point may take, in milliseconds, its part of the set-up "
+                  "among it")
+      ->check(CLI::PositiveNumber)
+      ->type_name("T")
+      ->capture_default_str();
+  add_number(command, "--memory", options.memory, 1, std::uint64_t{1} << 50U,
+             fmt::format("the most bytes beside the map; {}", kWholeNumberForms));
+  add_number(command, "--shading-points", options.shading_points, 1, std::uint64_t{1} << 50U,
+             fmt::format("over which a set-up is shared out; {}", kWholeNumberForms));
+}
+
+}  // namespace
+
+void add_recommend(CLI::App& app, const CommandLine& line, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  options->command_line = line;
+  CLI::App* command = app.add_subcommand(
+      "recommend", "The cheapest method, number of samples and table that reach an error on a map");
+  command->add_option("MAP", options->maps, "environment map: a file, or a name of `list maps`")
+      ->required()
+      ->expected(1);
+  add_demand(*command, *options);
+  add_shared_options(*command, *options);
+  command->add_flag("--no-verify", options->no_verify, "predict only, run nothing");
+  command->add_flag("--measure-again", options->measure_again,
+                    "measure what estimators take on this machine anew");
+  add_output(*command, "--json", options->json, "write the recommendation as JSON; - is stdout");
+  command->footer(
+      "What is in the way of light is not predicted, but measured. What estimators take on this\n"
+      "machine is measured at the first call, some seconds, and kept. Exit codes: 0 done, 2 usage "
+      "or\n"
+      "input, or no method reaches the error: what stops each family is told; 70 internal error,\n"
+      "71 not enough memory, 128 + N ended by signal N.");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace lightproof::cli
