@@ -21,8 +21,8 @@ namespace lightproof {
 namespace {
 
 constexpr std::array kQualities = {
-    AccuracyQuality{"draft", 4096, 3, 24},
-    AccuracyQuality{"default", 65536, 4, 48},
+    AccuracyQuality{"draft", 4096, 3, kReceiverPoints},
+    AccuracyQuality{"default", 65536, 4, kReceiverPoints},
     AccuracyQuality{"paper", 65536, 32, 192},
 };
 

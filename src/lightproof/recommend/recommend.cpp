@@ -22,8 +22,6 @@
 namespace lightproof {
 namespace {
 
-constexpr int kPoints = 24;
-
 /// Candidates that are run at the most, and how much longer than the best one they may be expected
 /// to take.
 constexpr std::size_t kMostRun = 10;
@@ -93,7 +91,7 @@ using SamplesOf = std::map<std::string_view, std::vector<std::uint64_t>>;
 MeasuredLines measure(const LitReceiver& lit, const SamplesOf& samples, int rounds,
                       std::uint64_t seed) {
   const AccuracyOptions how = {
-      .quality = {"", kMostDirections, rounds, kPoints},
+      .quality = {"", kMostDirections, rounds, kReceiverPoints},
       .seed = seed,
       .select = [&](const EstimatorInfo& info) { return samples.contains(info.name); },
       .samples = [&](const EstimatorInfo& info) { return samples.at(info.name); },
@@ -311,7 +309,7 @@ Recommendation recommend(const EnvironmentMap& map, const RecommendOptions& opti
   recommendation.shading_points = options.demand.shading_points;
   const Scene scene(options.receiver->content);
   std::vector<ShadingPoint> points;
-  for (const Pixel& pixel : receiver_points(*options.receiver, scene, kPoints)) {
+  for (const Pixel& pixel : receiver_points(*options.receiver, scene, kReceiverPoints)) {
     points.push_back(pixel.point);
   }
   if (progress) progress("prediction", 0.0);
@@ -329,7 +327,8 @@ Recommendation recommend(const EnvironmentMap& map, const RecommendOptions& opti
   if (options.verify) {
     const std::vector<Candidate> tried = worth_a_try(all.reaching, demand);
     if (progress) progress("exact light", 0.1);
-    const LitReceiver lit(map, *options.receiver, options.material, kPoints, filter_of(tried));
+    const LitReceiver lit(map, *options.receiver, options.material, kReceiverPoints,
+                          filter_of(tried));
     if (progress) progress("verification", 0.5);
     std::vector<Candidate> found = found_by_trying(lit, asked, tried);
     if (found.empty()) refuse(map, options, all.unreached);

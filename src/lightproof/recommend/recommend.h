@@ -23,7 +23,8 @@ struct RecommendOptions {
   std::uint64_t seed = 1;  ///< of the verification
 };
 
-/// The cheapest method that reaches the error at the points of the receiver, at least 24 of them.
+/// The cheapest method that reaches the error at the points of the receiver, at least
+/// kReceiverPoints of them.
 /// Predicted from a summary of the map and the costs; if it is to be verified, the cheapest ones
 /// are run, the numbers of samples corrected by what was measured, and the cheapest of those that
 /// do reach the error is the choice. What is in the way of light is not predicted but measured.
