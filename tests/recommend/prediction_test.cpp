@@ -31,7 +31,9 @@ TEST(Prediction, Time) {
       for (int i = 0; i < 5; ++i) {
         auto t = std::chrono::steady_clock::now();
         p = predict(s, material, points);
-        best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count() * 1e3);
+        best = std::min(
+            best,
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count() * 1e3);
       }
       fmt::print("{} {} {:.1f} ms\n", name, m, best);
     }

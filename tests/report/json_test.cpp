@@ -126,6 +126,7 @@ TEST(StudyJson, HoldsEverythingButThePixels) {
                                                       "gate",
                                                       "convergence",
                                                       "accuracy",
+                                                      "recommendations",
                                                       "throughput",
                                                       "throughput_origin",
                                                       "directions_origin",

@@ -9,6 +9,7 @@
 #include "lightproof/report/json_number.h"
 #include "lightproof/report/measured_json.h"
 #include "lightproof/report/names.h"
+#include "lightproof/report/recommendation_json.h"
 
 namespace lightproof {
 namespace {
@@ -370,6 +371,7 @@ std::string study_json(const StudyResult& study, const RunDescription& run) {
                   {"split_sum", list_of(study.split_sum)},
                   {"convergence", list_of(study.convergence)},
                   {"accuracy", accuracy_json(study.accuracy)},
+                  {"recommendations", recommendations_json(study.recommendations)},
                   {"throughput", list_of(study.throughput)},
                   {"throughput_origin", study.throughput_origin},
                   {"directions_origin", study.directions_origin},

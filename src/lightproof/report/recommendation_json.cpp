@@ -28,28 +28,39 @@ Json json_of(const RecommendedMethod& method) {
           {"set_up_ms", number(method.set_up_milliseconds)}};
 }
 
-}  // namespace
-
-std::string recommendation_json(const Recommendation& recommendation, const RunDescription& run) {
+Json json_of(const Recommendation& recommendation) {
   Json unreached = Json::array();
   for (const UnreachedFamily& family : recommendation.unreached) {
     unreached.push_back({{"family", family.family}, {"reason", family.reason}});
   }
-  Json document = {{"format_version", kFormatVersion},
-                   {"version", run.version},
-                   {"command", run.command},
-                   {"map", recommendation.map},
-                   {"receiver", recommendation.receiver},
-                   {"material", recommendation.material},
-                   {"error", number(recommendation.error)},
-                   {"shading_points", recommendation.shading_points}};
-  document.update(json_of(recommendation.choice));
-  document["runner_up"] =
+  Json answer = {{"map", recommendation.map},
+                 {"receiver", recommendation.receiver},
+                 {"material", recommendation.material},
+                 {"error", number(recommendation.error)},
+                 {"shading_points", recommendation.shading_points}};
+  answer.update(json_of(recommendation.choice));
+  answer["runner_up"] =
       recommendation.runner_up ? json_of(*recommendation.runner_up) : Json(nullptr);
-  document["reason"] = recommendation.reason;
-  document["warning"] =
-      recommendation.warning.empty() ? Json(nullptr) : Json(recommendation.warning);
-  document["unreached"] = unreached;
+  answer["reason"] = recommendation.reason;
+  answer["warning"] = recommendation.warning.empty() ? Json(nullptr) : Json(recommendation.warning);
+  answer["unreached"] = unreached;
+  return answer;
+}
+
+}  // namespace
+
+Json recommendations_json(const std::vector<Recommendation>& recommendations) {
+  Json list = Json::array();
+  for (const Recommendation& recommendation : recommendations) {
+    list.push_back(json_of(recommendation));
+  }
+  return list;
+}
+
+std::string recommendation_json(const Recommendation& recommendation, const RunDescription& run) {
+  Json document = {
+      {"format_version", kFormatVersion}, {"version", run.version}, {"command", run.command}};
+  document.update(json_of(recommendation));
   return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

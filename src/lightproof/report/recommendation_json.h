@@ -1,6 +1,7 @@
 // A recommendation as JSON.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "lightproof/results/recommendation.h"
 
 namespace lightproof {
+
+/// The answers, without what made them.
+nlohmann::ordered_json recommendations_json(const std::vector<Recommendation>& recommendations);
 
 /// docs/schema/recommendation.schema.json describes it.
 std::string recommendation_json(const Recommendation& recommendation, const RunDescription& run);

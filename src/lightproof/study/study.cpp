@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <span>
 #include <string>
 
+#include "lightproof/accuracy/method_costs.h"
+#include "lightproof/core/error.h"
 #include "lightproof/core/machine.h"
 #include "lightproof/core/random.h"
 #include "lightproof/gate/direction_sampler.h"
 #include "lightproof/image/map_figures.h"
+#include "lightproof/recommend/recommend.h"
 #include "lightproof/samplers/binary_search.h"
 #include "lightproof/study/growth.h"
 #include "lightproof/study/kept_directions.h"
@@ -36,6 +40,47 @@ MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed) {
   }
   return record;
 }
+
+namespace {
+
+/// What is recommended in each scene; nothing where no method reaches the error.
+void recommend_methods(const EnvironmentMap& map, const StudyOptions& options,
+                       const Progress& progress, std::vector<Recommendation>& all) {
+  for (const AccuracyScene& scene : options.accuracy_scenes) {
+    const MethodCosts costs =
+        kept_method_costs(scene.material.material, *scene.receiver, options.cache, progress).value;
+    const RecommendOptions asked = {scene.receiver,
+                                    scene.material,
+                                    {.error = *options.recommended_error},
+                                    true,
+                                    options.accuracy.seed};
+    try {
+      all.push_back(recommend(map, asked, costs, progress));
+    } catch (const InputError&) {
+      continue;
+    }
+  }
+}
+
+void study_accuracy(std::span<const EnvironmentMap> maps, const StudyOptions& options,
+                    const Progress& progress, StudyResult& result) {
+  if (options.accuracy_scenes.empty()) return;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const auto part = [&](double from, double to) {
+      const auto count = static_cast<double>(maps.size());
+      const auto first = static_cast<double>(i);
+      return part_of(progress, (first + from) / count, (first + to) / count);
+    };
+    auto charts =
+        measure_accuracy(maps[i], options.accuracy_scenes, options.accuracy, part(0.0, 0.7));
+    std::move(charts.begin(), charts.end(), std::back_inserter(result.accuracy));
+    if (options.recommended_error) {
+      recommend_methods(maps[i], options, part(0.7, 1.0), result.recommendations);
+    }
+  }
+}
+
+}  // namespace
 
 void set_throughput(StudyResult& study, Throughput measured) {
   study.throughput = std::move(measured.samplers);
@@ -68,16 +113,7 @@ StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& opti
   result.gate = run_gate(test_cases_of(maps, all_samplers_under_test(), direction_samplers()),
                          options.gate, part_of(progress, 0.2, 0.5), {}, directions.value);
   result.convergence = study_convergence(maps, options.convergence, part_of(progress, 0.5, 0.75));
-  if (!options.accuracy_scenes.empty()) {
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-      const auto share = [&](std::size_t done) {
-        return 0.75 + 0.18 * static_cast<double>(done) / static_cast<double>(maps.size());
-      };
-      auto charts = measure_accuracy(maps[i], options.accuracy_scenes, options.accuracy,
-                                     part_of(progress, share(i), share(i + 1)));
-      std::move(charts.begin(), charts.end(), std::back_inserter(result.accuracy));
-    }
-  }
+  study_accuracy(maps, options, part_of(progress, 0.75, 0.93), result);
   result.renders = study_renders(maps, options.renders, part_of(progress, 0.93, 0.98));
   result.split_sum = study_split_sum(maps, {}, part_of(progress, 0.98, 1.0));
   return result;

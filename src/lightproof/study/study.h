@@ -22,9 +22,12 @@ struct StudyOptions {
   /// What is charted of speed against accuracy on every map; no scene: nothing.
   AccuracyOptions accuracy;
   std::vector<AccuracyScene> accuracy_scenes;
+  /// The error for which a method is recommended in each of these scenes; none: nothing is.
+  std::optional<double> recommended_error = 0.05;
   /// Where throughput is measured; none: it is left out.
   std::optional<ThroughputSource> throughput;
-  /// Where the gate's first stage of warps and materials is kept, which no map changes.
+  /// Where is kept what no map changes: the gate's first stage of warps and materials, and what
+  /// estimators take.
   MeasurementCache cache = {};
 };
 
