@@ -127,6 +127,7 @@ TEST(StudyJson, HoldsEverythingButThePixels) {
                                                       "convergence",
                                                       "accuracy",
                                                       "recommendations",
+                                                      "method_regimes",
                                                       "throughput",
                                                       "throughput_origin",
                                                       "directions_origin",

@@ -17,6 +17,7 @@
 #include "lightproof/self_test/kept_self_test.h"
 #include "lightproof/study/frame_study.h"
 #include "lightproof/study/level_costs.h"
+#include "lightproof/study/method_regimes.h"
 #include "lightproof/study/point_study.h"
 #include "lightproof/study/study.h"
 #include "lightproof/systems/comparisons.h"
@@ -79,6 +80,9 @@ StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
   result.published_forms = system_comparisons();
   const MeasurementCache& cache = options.study.cache;
   result.frames = study_frames();
+  if (!options.no_accuracy) {
+    result.method_regimes = kept_method_regimes(options.seed, cache, progress);
+  }
   result.points = kept_points(options.seed, cache, progress);
   if (!options.no_throughput) {
     result.level_costs =

@@ -78,4 +78,29 @@ std::string accuracy_csv(const std::vector<AccuracyChart>& charts) {
   return csv;
 }
 
+Json method_regimes_json(const MethodRegimes& regimes) {
+  Json list = Json::array();
+  for (const MethodRegime& r : regimes.regimes) {
+    list.push_back({{"roughness", number(r.roughness)},
+                    {"effective_fraction", number(r.effective_fraction)},
+                    {"estimator", r.estimator},
+                    {"family", r.family},
+                    {"seconds", number(r.seconds)},
+                    {"unbiased_estimator", r.unbiased_estimator},
+                    {"unbiased_seconds", number(r.unbiased_seconds)}});
+  }
+  return {{"error", number(regimes.error)}, {"origin", regimes.origin}, {"regimes", list}};
+}
+
+std::string method_regimes_csv(const MethodRegimes& regimes) {
+  std::string csv =
+      "roughness,effective_fraction,error,estimator,family,seconds,unbiased_estimator,"
+      "unbiased_seconds\n";
+  for (const MethodRegime& r : regimes.regimes) {
+    csv += csv_parts::row(r.roughness, r.effective_fraction, regimes.error, r.estimator, r.family,
+                          r.seconds, r.unbiased_estimator, r.unbiased_seconds);
+  }
+  return csv;
+}
+
 }  // namespace lightproof

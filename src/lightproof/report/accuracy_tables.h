@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lightproof/results/accuracy_chart.h"
+#include "lightproof/results/method_regime.h"
 
 namespace lightproof {
 
@@ -13,5 +14,10 @@ namespace lightproof {
 nlohmann::ordered_json accuracy_json(const std::vector<AccuracyChart>& charts);
 /// One row for each chart, estimator and number of samples.
 std::string accuracy_csv(const std::vector<AccuracyChart>& charts);
+
+/// The error, the origin, and a list of regimes.
+nlohmann::ordered_json method_regimes_json(const MethodRegimes& regimes);
+/// One row for each roughness and light.
+std::string method_regimes_csv(const MethodRegimes& regimes);
 
 }  // namespace lightproof

@@ -372,6 +372,7 @@ std::string study_json(const StudyResult& study, const RunDescription& run) {
                   {"convergence", list_of(study.convergence)},
                   {"accuracy", accuracy_json(study.accuracy)},
                   {"recommendations", recommendations_json(study.recommendations)},
+                  {"method_regimes", method_regimes_json(study.method_regimes)},
                   {"throughput", list_of(study.throughput)},
                   {"throughput_origin", study.throughput_origin},
                   {"directions_origin", study.directions_origin},

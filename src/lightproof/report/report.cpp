@@ -45,6 +45,7 @@ NamedTables tables_of(const StudyResult& study) {
   const SelfTestResult self_test = study.self_test.value_or(SelfTestResult{});
   return {{"gate.csv", gate_csv(study.gate)},
           {"accuracy.csv", accuracy_csv(study.accuracy)},
+          {"method-regimes.csv", method_regimes_csv(study.method_regimes)},
           {"convergence.csv", convergence_csv(study.convergence)},
           {"variance.csv", variance_csv(study.convergence)},
           {"throughput.csv", throughput_csv(study.throughput)},

@@ -13,6 +13,7 @@
 #include "lightproof/results/growth_fit.h"
 #include "lightproof/results/level_cost.h"
 #include "lightproof/results/map_record.h"
+#include "lightproof/results/method_regime.h"
 #include "lightproof/results/point_study.h"
 #include "lightproof/results/published_comparison.h"
 #include "lightproof/results/published_picture.h"
@@ -36,6 +37,7 @@ struct StudyResult {
   std::vector<ConvergenceRecord> convergence;
   std::vector<AccuracyChart> accuracy;
   std::vector<Recommendation> recommendations;
+  MethodRegimes method_regimes = {};
   std::vector<ThroughputRecord> throughput;
   std::string throughput_origin;  ///< when, where and of what the throughput was measured
   CacheSizes caches;              ///< caches of the machine that measured the throughput
