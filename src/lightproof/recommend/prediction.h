@@ -17,17 +17,19 @@ namespace lightproof {
 
 /// How an error follows from the number of samples.
 enum class ErrorLaw {
-  independent,  ///< the variance over the number of samples
-  at_most,      ///< no more than that, as a rule: samples that are more even than random ones
-  constant,     ///< the same of any number: one look-up, or lights that were made beforehand
+  independent,       ///< the variance over the number of samples
+  at_most,           ///< no more than that, as a rule: samples that are more even than random ones
+  constant,          ///< the same of any number: one look-up, or lights that were made beforehand
+  constant_at_most,  ///< no more than that, as a rule: a table that few even samples have filled
 };
 
 /// The error of an estimator, as the root of a mean square over shading points, bias included,
 /// divided by the mean of the exact radiance over these.
 struct PredictedError {
   ErrorLaw law = ErrorLaw::independent;
-  double variance = 0.0;  ///< of one sample, or of one estimate if the law is constant; squared
-  double bias = 0.0;      ///< root mean square over the points
+  /// Of one sample, or of one estimate if the law is constant, relative to the square of the mean.
+  double variance = 0.0;
+  double bias = 0.0;  ///< root mean square over the points
 
   /// The error of an estimate by so many samples, at least 1.
   double at(std::uint64_t samples) const;
