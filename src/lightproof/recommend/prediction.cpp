@@ -560,7 +560,7 @@ class Predictor {
     const Combined sums = combine(there, compensated(*summary_, 0.0), Heuristic::balance);
     const double variance = variance_of(sums, there, true) / kOutgoingTableSamples;
     errors.emplace("outgoing table",
-                   ErrorAt{ErrorLaw::constant_at_most, variance, there.mean - light.mean});
+                   ErrorAt{ErrorLaw::constant, variance, there.mean - light.mean});
   }
 
   const MapSummary* summary_;
@@ -590,8 +590,7 @@ std::string reason_for(std::string_view name) {
 }  // namespace
 
 double PredictedError::at(std::uint64_t samples) const {
-  const bool by_samples = law == ErrorLaw::independent || law == ErrorLaw::at_most;
-  const double count = by_samples ? static_cast<double>(samples) : 1.0;
+  const double count = law == ErrorLaw::constant ? 1.0 : static_cast<double>(samples);
   return std::sqrt(bias * bias + variance / count);
 }
 

@@ -17,10 +17,9 @@ namespace lightproof {
 
 /// How an error follows from the number of samples.
 enum class ErrorLaw {
-  independent,       ///< the variance over the number of samples
-  at_most,           ///< no more than that, as a rule: samples that are more even than random ones
-  constant,          ///< the same of any number: one look-up, or lights that were made beforehand
-  constant_at_most,  ///< no more than that, as a rule: a table that few even samples have filled
+  independent,  ///< the variance over the number of samples
+  at_most,      ///< no more than that, as a rule: samples that are more even than random ones
+  constant,     ///< the same of any number: one look-up, or lights that were made beforehand
 };
 
 /// The error of an estimator, as the root of a mean square over shading points, bias included,
@@ -28,6 +27,8 @@ enum class ErrorLaw {
 struct PredictedError {
   ErrorLaw law = ErrorLaw::independent;
   /// Of one sample, or of one estimate if the law is constant, relative to the square of the mean.
+  /// That of the outgoing table is what its filling by random points would leave, a bound: its
+  /// points are more even.
   double variance = 0.0;
   double bias = 0.0;  ///< root mean square over the points
 
