@@ -24,8 +24,9 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-const Words kStudy = {"study",           "constant",       "--size",     "32x16", "-n", "65536",
-                      "--no-throughput", "--no-self-test", "--progress", "0",     "-o", "report"};
+const Words kStudy = {
+    "study",          "constant",     "--size",     "32x16", "-n", "65536", "--no-throughput",
+    "--no-self-test", "--no-regimes", "--progress", "0",     "-o", "report"};
 constexpr auto kLimit = std::chrono::seconds(1000);
 
 /// A disk of 64 kB, on which an earlier report lies; then what is on it.

@@ -40,6 +40,7 @@ struct Options : CommonOptions {
   std::vector<std::string> receivers = {"sphere", "sphere-on-plane"};
   std::string quality = "draft";
   bool no_accuracy = false;
+  bool no_regimes = false;
   StudyOptions study;
 };
 
@@ -80,7 +81,7 @@ StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
   result.published_forms = system_comparisons();
   const MeasurementCache& cache = options.study.cache;
   result.frames = study_frames();
-  if (!options.no_accuracy) {
+  if (!options.no_accuracy && !options.no_regimes) {
     result.method_regimes = kept_method_regimes(options.seed, cache, progress);
   }
   result.points = kept_points(options.seed, cache, progress);
@@ -167,6 +168,9 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
       ->excludes(material)
       ->excludes(receiver)
       ->excludes(quality);
+  command->add_flag("--no-regimes", options->no_regimes,
+                    "leave out which method wins where, over the width of light and lobe: a minute "
+                    "at the first study");
   command->add_flag("--no-self-test", options->no_self_test,
                     "leave out the test of the gate itself (mutants, calibration, power)");
   command->footer(

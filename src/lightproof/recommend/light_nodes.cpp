@@ -43,15 +43,22 @@ class Collector {
       : summary_(&summary), lobe_(&lobe), nodes_(&nodes), texels_(summary.finest.extent()) {}
 
   void add(const LightBlock& block) {
-    if (!is_bright(block) && block.width <= size_at(block.centre, 0.71 * block.width)) {
-      return add_cells(block);
-    }
-    const double area_factor = 1.0 / texels_.height;
-    for (int y = block.y0; y < block.y1; ++y) {
-      const double area = texel_solid_angle(texels_, y);
-      const double t = (y + 0.5) * area_factor;
-      for (int x = block.x0; x < block.x1; ++x) {
-        if (summary_->finest(x, y) > 0.0F) add_texel(block, x, y, t, area);
+    const bool bright = is_bright(block);
+    const double size = size_at(block.centre, 0.71 * block.width);
+    if (!bright && block.width <= size) return add_cells(block);
+    // Groups of texels of about this size; the parts of single ones see to it themselves.
+    const double height = kPi / texels_.height;
+    const double t = 0.5 * (block.y0 + block.y1) / texels_.height;
+    const double width = 2.0 * kPi * sin_theta(t) / texels_.width;
+    const int rows = bright ? 1 : std::max(1, static_cast<int>(size / height));
+    const int columns = bright ? 1 : std::max(1, static_cast<int>(size / width));
+    for (int y = block.y0; y < block.y1; y += rows) {
+      for (int x = block.x0; x < block.x1; x += columns) {
+        if (rows * columns == 1) {
+          add_texel(block, x, y);
+        } else {
+          add_group(block, {x, std::min(x + columns, block.x1), y, std::min(y + rows, block.y1)});
+        }
       }
     }
   }
@@ -81,6 +88,7 @@ class Collector {
     append(nodes_->x, cells.x);
     append(nodes_->y, cells.y);
     append(nodes_->z, cells.z);
+    append(nodes_->solid_angle, cells.solid_angle);
     append(nodes_->light, cells.light);
     append(nodes_->square, cells.square);
     for (std::size_t i = 0; i < kTableDensities; ++i) append(nodes_->second[i], cells.second[i]);
@@ -88,7 +96,53 @@ class Collector {
     append(nodes_->quadrant, cells.quadrant);
   }
 
-  void add_texel(const LightBlock& block, int x, int y, double t, double area) {
+  /// Columns x0 … x1 - 1 and rows y0 … y1 - 1.
+  struct Group {
+    int x0, x1;
+    int y0, y1;
+  };
+
+  double mean_square_of(int x, int y) const {
+    const auto luminance = static_cast<double>(summary_->finest(x, y));
+    return summary_->finest_square.extent().count() > 0
+               ? static_cast<double>(summary_->finest_square(x, y))
+               : luminance * luminance;
+  }
+
+  /// Texels as one node, where their light is.
+  void add_group(const LightBlock& block, const Group& group) {
+    double solid_angle = 0.0;
+    double light = 0.0;
+    double square = 0.0;
+    std::array<double, kTableDensities> second = {};
+    double s = 0.0;
+    double t = 0.0;
+    for (int y = group.y0; y < group.y1; ++y) {
+      const double area = texel_solid_angle(texels_, y);
+      for (int x = group.x0; x < group.x1; ++x) {
+        const auto luminance = static_cast<double>(summary_->finest(x, y));
+        solid_angle += area;
+        if (!(luminance > 0.0)) continue;
+        light += area * luminance;
+        square += area * mean_square_of(x, y);
+        s += area * luminance * (x + 0.5);
+        t += area * luminance * (y + 0.5);
+        const std::size_t cell = cell_of_texel(block, luminance);
+        const double share = area * luminance / summary_->cells.light[cell];
+        for (std::size_t k = 0; k < kTableDensities; ++k) {
+          second[k] += share * summary_->cells.second[k][cell];
+        }
+      }
+    }
+    const double column = light > 0.0 ? s / light : 0.5 * (group.x0 + group.x1);
+    const double row = light > 0.0 ? t / light : 0.5 * (group.y0 + group.y1);
+    push(direction_from_square({column / texels_.width, row / texels_.height}), solid_angle, light,
+         square, second, static_cast<int>(column), static_cast<int>(row));
+  }
+
+  void add_texel(const LightBlock& block, int x, int y) {
+    const double t = (y + 0.5) / texels_.height;
+    const double area = texel_solid_angle(texels_, y);
     const Direction centre = direction_from_square({(x + 0.5) / texels_.width, t});
     const double height = kPi / texels_.height;
     const double width = 2.0 * kPi * sin_theta(t) / texels_.width;
@@ -96,43 +150,52 @@ class Collector {
     const auto luminance = static_cast<double>(summary_->finest(x, y));
     const int least = area * luminance > kBrightTexel * summary_->light ? kBrightParts : 1;
     const auto parts = [size, least](double side) {
-      return std::clamp(static_cast<int>(std::ceil(side / size)), least, kMostParts);
+      return static_cast<int>(std::clamp(std::ceil(side / size), 1.0 * least, 1.0 * kMostParts));
     };
     const int rows = parts(height);
     const int columns = parts(width);
-    const double mean_square = summary_->finest_square.extent().count() > 0
-                                   ? static_cast<double>(summary_->finest_square(x, y))
-                                   : luminance * luminance;
-    const std::size_t cell = cell_of_texel(block, luminance);
-    const double share = area * luminance / summary_->cells.light[cell];
-    const auto product = summary_->product_index.of(x, y);
-    const auto quadrant = summary_->quadrant_index.of(x, y);
+    const double mean_square = mean_square_of(x, y);
+    std::array<double, kTableDensities> second = {};
+    if (luminance > 0.0) {
+      const std::size_t cell = cell_of_texel(block, luminance);
+      for (std::size_t k = 0; k < kTableDensities; ++k) {
+        second[k] =
+            area * luminance / summary_->cells.light[cell] * summary_->cells.second[k][cell];
+      }
+    }
     for (int j = 0; j < rows; ++j) {
       const double at = (y + (j + 0.5) / rows) / texels_.height;
       const double part = sin_theta(at) / (sin_theta(t) * rows * columns);
+      std::array<double, kTableDensities> of_part;
+      for (std::size_t k = 0; k < kTableDensities; ++k) of_part[k] = part * second[k];
       for (int i = 0; i < columns; ++i) {
         const Direction d =
             rows * columns == 1
                 ? centre
                 : direction_from_square({(x + (i + 0.5) / columns) / texels_.width, at});
-        nodes_->x.push_back(d.x);
-        nodes_->y.push_back(d.y);
-        nodes_->z.push_back(d.z);
-        nodes_->light.push_back(part * area * luminance);
-        nodes_->square.push_back(part * area * mean_square);
-        for (std::size_t k = 0; k < kTableDensities; ++k) {
-          nodes_->second[k].push_back(part * share * summary_->cells.second[k][cell]);
-        }
-        nodes_->product.push_back(product);
-        nodes_->quadrant.push_back(quadrant);
+        push(d, part * area, part * area * luminance, part * area * mean_square, of_part, x, y);
       }
     }
+  }
+
+  void push(Direction d, double solid_angle, double light, double square,
+            const std::array<double, kTableDensities>& second, int x, int y) {
+    nodes_->x.push_back(d.x);
+    nodes_->y.push_back(d.y);
+    nodes_->z.push_back(d.z);
+    nodes_->solid_angle.push_back(solid_angle);
+    nodes_->light.push_back(light);
+    nodes_->square.push_back(square);
+    for (std::size_t k = 0; k < kTableDensities; ++k) nodes_->second[k].push_back(second[k]);
+    nodes_->product.push_back(summary_->product_index.of(x, y));
+    nodes_->quadrant.push_back(summary_->quadrant_index.of(x, y));
   }
 
   /// The cell of a block that holds texels as bright as this.
   std::size_t cell_of_texel(const LightBlock& block, double luminance) const {
     const int octave = std::ilogb(luminance * kSphere / summary_->light);
     std::size_t cell = block.first_cell;
+    if (!(summary_->cells.light[cell] > 0.0)) ++cell;
     while (cell + 1 < block.end_cell && summary_->cells.octave[cell] < octave) ++cell;
     return cell;
   }

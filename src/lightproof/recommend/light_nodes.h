@@ -25,6 +25,7 @@ struct LightNodes {
   std::vector<double> x;
   std::vector<double> y;
   std::vector<double> z;
+  std::vector<double> solid_angle;
   std::vector<double> light;   ///< ∫ L
   std::vector<double> square;  ///< ∫ L^2
   std::array<std::vector<double>, kTableDensities> second;
@@ -37,7 +38,7 @@ struct LightNodes {
 };
 
 /// All nodes of a map in blocks that reach above the horizon of this normal, or of `also` if that
-/// is not 0. A node is at most a third as large as the lobe is wide, or as it is far from the
+/// is not 0. A node is at most a fifth as large as the lobe is wide, or as it is far from the
 /// lobe's axis; as nothing more than the summary's finest grid is known, light is even inside of
 /// its texels.
 LightNodes nodes_for(const MapSummary& summary, const LobePlace& lobe, Direction normal,

@@ -18,7 +18,8 @@ namespace {
 /// Octaves from the mean over the sphere that are told apart.
 constexpr int kFaintest = -12;
 constexpr int kBrightest = 19;
-constexpr std::size_t kOctaves = kBrightest - kFaintest + 1;
+constexpr int kDark = kFaintest - 1;
+constexpr std::size_t kOctaves = kBrightest - kDark + 1;
 /// A fainter octave with less than this share of its block's light joins the next one.
 constexpr double kLeastShare = 0.02;
 
@@ -129,12 +130,14 @@ double added_variance(const BlockSums& sums, double whole) {
 
 /// One octave of one block while it is summed up.
 struct Cell {
+  double solid_angle = 0.0;
   double light = 0.0;
   double square = 0.0;
-  glm::dvec3 moment = glm::dvec3(0.0);  ///< ∫ L omega
+  glm::dvec3 moment = glm::dvec3(0.0);  ///< ∫ L omega, of a dark one ∫ omega
   std::array<double, kTableDensities> second = {};
 
   void add(const Cell& other) {
+    solid_angle += other.solid_angle;
     light += other.light;
     square += other.square;
     moment += other.moment;
@@ -151,6 +154,7 @@ struct BlockRow {
 };
 
 int octave_of(double luminance, double mean) {
+  if (!(luminance > 0.0)) return kDark;
   return std::clamp(std::ilogb(luminance / mean), kFaintest, kBrightest);
 }
 
@@ -234,7 +238,6 @@ class Cutter {
     }
     for (int x = 0; x < extent_.width; ++x) {
       const double luminance = static_cast<double>(summary_->finest(x, y));
-      if (!(luminance > 0.0)) continue;
       const double light = area * luminance;
       const double square = summary_->finest_square.extent().count() > 0
                                 ? area * static_cast<double>(summary_->finest_square(x, y))
@@ -243,11 +246,13 @@ class Cutter {
       made.light_above_mean += std::max(0.0, light - mean_ * area);
       const int block = x * most_.width / extent_.width / joined;
       Cell& cell = cells[static_cast<std::size_t>(block)]
-                        [static_cast<std::size_t>(octave_of(luminance, mean_) - kFaintest)];
+                        [static_cast<std::size_t>(octave_of(luminance, mean_) - kDark)];
+      cell.solid_angle += area;
       cell.light += light;
       cell.square += square;
       const auto column = static_cast<std::size_t>(x);
-      cell.moment += light * glm::dvec3(sine * cosine_[column], sine * sine_[column], height);
+      cell.moment += (light > 0.0 ? light : area) *
+                     glm::dvec3(sine * cosine_[column], sine * sine_[column], height);
       cell.second[0] += a * light;
       cell.second[1] += c * light;
       for (std::size_t i = 0; i < inverse.size(); ++i) {
@@ -265,13 +270,14 @@ class Cutter {
       all += octaves[i].light;
       if (octaves[i].light > 0.0) brightest = i;
     }
+    if (octaves[0].solid_angle > 0.0) push(octaves[0], kDark, cells);
     if (!(all > 0.0)) return;
     Cell joined;
-    for (std::size_t i = 0; i <= brightest; ++i) {
+    for (std::size_t i = 1; i <= brightest; ++i) {
       joined.add(octaves[i]);
       if (i < brightest && joined.light < kLeastShare * all) continue;
       if (!(octaves[i].light > 0.0)) continue;
-      push(joined, static_cast<int>(i) + kFaintest, cells);
+      push(joined, static_cast<int>(i) + kDark, cells);
       joined = Cell{};
     }
   }
@@ -281,6 +287,7 @@ class Cutter {
     cells.x.push_back(to.x);
     cells.y.push_back(to.y);
     cells.z.push_back(to.z);
+    cells.solid_angle.push_back(cell.solid_angle);
     cells.light.push_back(cell.light);
     cells.square.push_back(cell.square);
     for (std::size_t i = 0; i < kTableDensities; ++i) cells.second[i].push_back(cell.second[i]);
@@ -306,6 +313,7 @@ void append(LightCells& to, const LightCells& from) {
   append(to.x, from.x);
   append(to.y, from.y);
   append(to.z, from.z);
+  append(to.solid_angle, from.solid_angle);
   append(to.light, from.light);
   append(to.square, from.square);
   for (std::size_t i = 0; i < kTableDensities; ++i) append(to.second[i], from.second[i]);
@@ -321,7 +329,6 @@ void set_cells(const EnvironmentMap& map, MapSummary& summary) {
     const std::size_t before = summary.cells.size();
     append(summary.cells, row.cells);
     for (LightBlock block : row.blocks) {
-      if (block.first_cell == block.end_cell) continue;
       block.first_cell += before;
       block.end_cell += before;
       summary.blocks.push_back(block);

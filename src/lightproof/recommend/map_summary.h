@@ -30,12 +30,14 @@ inline constexpr std::size_t kTableDensities = 6;
 inline constexpr std::array<int, 4> kReductions = {2, 4, 8, 16};
 
 /// Light of one octave of luminance in one block each; all of one size, block by block, the
-/// faintest octave first. Octaves are those of the mean over the sphere, so that its half and
-/// itself, which MIS compensation takes off, are edges of them.
+/// faintest octave first, before it what is dark of the block. Octaves are those of the mean over
+/// the sphere, so that its half and itself, which MIS compensation takes off, are edges of them.
 struct LightCells {
-  std::vector<double> x;  ///< unit vector: the mean direction of the cell's light
+  std::vector<double>
+      x;  ///< unit vector: the mean direction of the cell's light, of a dark one of itself
   std::vector<double> y;
   std::vector<double> z;
+  std::vector<double> solid_angle;
   std::vector<double> light;                                ///< ∫ L over the cell
   std::vector<double> square;                               ///< ∫ L^2
   std::array<std::vector<double>, kTableDensities> second;  ///< ∫ L^2 / p, by TableDensity

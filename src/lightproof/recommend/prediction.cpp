@@ -41,6 +41,9 @@ struct ScatteredLight {
   std::vector<double> k;    ///< f_r (n·l)+
   std::vector<double> pdf;  ///< of the material's lobes
   double mean = 0.0;        ///< I = ∫ L k
+  /// ∫ of the material's density, which is 1 but for the error of the nodes. With it in the place
+  /// of 1, that error stays out of the variance where L k over the density is even.
+  double lobes = 0.0;
 };
 
 ScatteredLight scattered(const MapSummary& summary, const Material& material,
@@ -50,7 +53,10 @@ ScatteredLight scattered(const MapSummary& summary, const Material& material,
   light.k.resize(light.nodes.size());
   light.pdf.resize(light.nodes.size());
   scatterings(material, at, light.nodes.directions(), {light.k, light.pdf});
-  for (std::size_t i = 0; i < light.k.size(); ++i) light.mean += light.k[i] * light.nodes.light[i];
+  for (std::size_t i = 0; i < light.k.size(); ++i) {
+    light.mean += light.k[i] * light.nodes.light[i];
+    light.lobes += light.pdf[i] * light.nodes.solid_angle[i];
+  }
   return light;
 }
 
@@ -83,7 +89,7 @@ Combined combine(const ScatteredLight& light, const Compensated& density, Heuris
   const LightNodes& nodes = light.nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const double k = light.k[i];
-    if (!(k > 0.0)) continue;
+    if (!(k > 0.0) || !(nodes.light[i] > 0.0)) continue;
     const double p = light.pdf[i];
     const double q = density.pdf(nodes.square[i] / nodes.light[i]);
     if (heuristic == Heuristic::balance) {
@@ -101,10 +107,14 @@ Combined combine(const ScatteredLight& light, const Compensated& density, Heuris
 
 /// The variance of one sample by the one-sample estimator; of the multi-sample one, of a sample of
 /// an even number.
-double variance_of(const Combined& sums, double mean, bool is_one_sample) {
-  if (is_one_sample) return std::max(0.0, 2.0 * sums.squares - mean * mean);
-  const double of_map = mean - sums.of_lobes;
-  return std::max(0.0, 2.0 * (sums.squares - sums.of_lobes * sums.of_lobes - of_map * of_map));
+double variance_of(const Combined& sums, const ScatteredLight& light, bool is_one_sample) {
+  const double excess = light.lobes - 1.0;
+  if (is_one_sample) {
+    return std::max(0.0, 2.0 * sums.squares - light.mean * light.mean * (1.0 - 0.5 * excess));
+  }
+  const double of_map = light.mean - sums.of_lobes;
+  return std::max(
+      0.0, 2.0 * (sums.squares - sums.of_lobes * sums.of_lobes * (1.0 - excess) - of_map * of_map));
 }
 
 /// A texel of a grid and its share of a bilinear look-up.
@@ -278,8 +288,11 @@ class Predictor {
     }
   }
 
-  static void one_sample(std::string_view name, double square, double mean, ErrorsAt& errors) {
-    errors.emplace(name, ErrorAt{ErrorLaw::independent, std::max(0.0, square - mean * mean), 0.0});
+  /// From E[X^2]; `whole` is the integral of the density over the nodes.
+  static void one_sample(std::string_view name, double square, double mean, ErrorsAt& errors,
+                         double whole = 1.0) {
+    const double variance = std::max(0.0, square - mean * mean * (2.0 - whole));
+    errors.emplace(name, ErrorAt{ErrorLaw::independent, variance, 0.0});
   }
 
   void add_lobes(const ScatteredLight& light, const ShadingPoint& at, ErrorsAt& errors) const {
@@ -288,44 +301,49 @@ class Predictor {
     double plain = 0.0;
     double by_cosine = 0.0;
     double by_material = 0.0;
+    double cosines = 0.0;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const double cosine = n.x * nodes.x[i] + n.y * nodes.y[i] + n.z * nodes.z[i];
+      if (cosine > 0.0) cosines += cosine * nodes.solid_angle[i];
       const double k = light.k[i];
       if (!(k > 0.0)) continue;
       const double square = nodes.square[i] * k * k;
       plain += square;
-      by_cosine += square / (n.x * nodes.x[i] + n.y * nodes.y[i] + n.z * nodes.z[i]);
+      by_cosine += square / cosine;
       if (light.pdf[i] > 0.0) by_material += square / light.pdf[i];
     }
     one_sample("uniform", kSphere * plain, light.mean, errors);
     one_sample("hemisphere", 0.5 * kSphere * plain, light.mean, errors);
-    one_sample("cosine", kPi * by_cosine, light.mean, errors);
-    one_sample("brdf", by_material, light.mean, errors);
+    one_sample("cosine", kPi * by_cosine, light.mean, errors, cosines / kPi);
+    one_sample("brdf", by_material, light.mean, errors, light.lobes);
     const auto* ggx = std::get_if<Ggx>(&material_);
     if (ggx == nullptr) return;
-    const double normals = by_normals(*ggx, MicrofacetSampling::normals, light, at, by_material);
-    const double visible =
-        by_normals(*ggx, MicrofacetSampling::visible_normals, light, at, by_material);
-    const double bounded =
-        by_normals(*ggx, MicrofacetSampling::bounded_caps, light, at, by_material);
-    one_sample("ggx normals", normals, light.mean, errors);
-    one_sample("ggx visible normals", visible, light.mean, errors);
-    one_sample("ggx spherical caps", visible, light.mean, errors);
-    one_sample("ggx bounded caps", bounded, light.mean, errors);
+    add_normals("ggx normals", *ggx, MicrofacetSampling::normals, light, at, errors);
+    add_normals("ggx visible normals", *ggx, MicrofacetSampling::visible_normals, light, at,
+                errors);
+    add_normals("ggx bounded caps", *ggx, MicrofacetSampling::bounded_caps, light, at, errors);
+    errors.emplace("ggx spherical caps", errors.find("ggx visible normals")->second);
   }
 
-  /// E[X^2] with GGX's normals drawn in one way.
-  static double by_normals(Ggx ggx, MicrofacetSampling sampling, const ScatteredLight& light,
-                           const ShadingPoint& at, double by_material) {
-    if (ggx.sampling == sampling) return by_material;
-    ggx.sampling = sampling;
-    std::vector<double> k(light.nodes.size());
-    std::vector<double> pdf(light.nodes.size());
-    scatterings(ggx, at, light.nodes.directions(), {k, pdf});
-    double sum = 0.0;
-    for (std::size_t i = 0; i < k.size(); ++i) {
-      if (pdf[i] > 0.0) sum += light.nodes.square[i] * k[i] * k[i] / pdf[i];
+  /// GGX with its normals drawn in one way.
+  static void add_normals(std::string_view name, Ggx ggx, MicrofacetSampling sampling,
+                          const ScatteredLight& light, const ShadingPoint& at, ErrorsAt& errors) {
+    if (ggx.sampling == sampling) {
+      errors.emplace(name, errors.find("brdf")->second);
+      return;
     }
-    return sum;
+    ggx.sampling = sampling;
+    const LightNodes& nodes = light.nodes;
+    std::vector<double> k(nodes.size());
+    std::vector<double> pdf(nodes.size());
+    scatterings(ggx, at, nodes.directions(), {k, pdf});
+    double square = 0.0;
+    double whole = 0.0;
+    for (std::size_t i = 0; i < k.size(); ++i) {
+      whole += pdf[i] * nodes.solid_angle[i];
+      if (pdf[i] > 0.0) square += nodes.square[i] * k[i] * k[i] / pdf[i];
+    }
+    one_sample(name, square, light.mean, errors, whole);
   }
 
   void add_tables(const ScatteredLight& light, ErrorsAt& errors) const {
@@ -362,7 +380,7 @@ class Predictor {
             combine(light, compensated(*summary_, sampling.compensation), sampling.heuristic);
         found = known.emplace(key, sums).first;
       }
-      return variance_of(found->second, light.mean, sampling.is_one_sample);
+      return variance_of(found->second, light, sampling.is_one_sample);
     };
     for (const EstimatorInfo& info : estimators()) {
       if (!info.combined) continue;
@@ -540,7 +558,7 @@ class Predictor {
     const ScatteredLight there =
         scattered(*summary_, material_, entry, lobe_of(material_, entry), Direction(0.0));
     const Combined sums = combine(there, compensated(*summary_, 0.0), Heuristic::balance);
-    const double variance = variance_of(sums, there.mean, true) / kOutgoingTableSamples;
+    const double variance = variance_of(sums, there, true) / kOutgoingTableSamples;
     errors.emplace("outgoing table",
                    ErrorAt{ErrorLaw::constant, variance, there.mean - light.mean});
   }

@@ -26,8 +26,11 @@ enum class ErrorLaw {
 /// divided by the mean of the exact radiance over these.
 struct PredictedError {
   ErrorLaw law = ErrorLaw::independent;
-  double variance = 0.0;  ///< of one sample, or of one estimate if the law is constant; squared
-  double bias = 0.0;      ///< root mean square over the points
+  /// Of one sample, or of one estimate if the law is constant, relative to the square of the mean.
+  /// That of the outgoing table is what its filling by random points would leave, a bound: its
+  /// points are more even.
+  double variance = 0.0;
+  double bias = 0.0;  ///< root mean square over the points
 
   /// The error of an estimate by so many samples, at least 1.
   double at(std::uint64_t samples) const;
