@@ -13,6 +13,7 @@ void register_build_benchmarks();
 void register_render_benchmarks();
 void register_histogram_benchmarks();
 void register_count_benchmarks();
+void register_error_benchmarks();
 void register_irradiance_benchmarks();
 void register_prefilter_benchmarks();
 

@@ -54,6 +54,22 @@ count_session() {
   add_session "$1"
 }
 
+# error_session SESSION: errors of both, where they have benchmarks error/…: one process of each, since
+# they depend on seeds alone.
+error_session() {
+  local side
+  rm -f "$folder"/{base,head}-*.json
+  for side in base head; do
+    local -n command=${side}_command
+    "${command[@]}" --benchmark_list_tests 2>/dev/null | grep -q '^error/' || continue
+    run_once "$side" 0 '^error/' || return
+  done
+  if [[ -f $folder/head-0.json && -f $folder/base-0.json ]]; then
+    node ci/perf.mjs adopt "$folder/head-0.json" "$folder/base-0.json" || return
+  fi
+  add_session "$1"
+}
+
 # exactly NAMES…: a filter of Google Benchmark that fits these names and no other.
 exactly() {
   local names

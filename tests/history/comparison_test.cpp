@@ -74,6 +74,17 @@ TEST(Compare, TakesInstructionsAtTheirWord) {
   EXPECT_EQ(verdict_on(counts(1000.0, 1005.0)), RowVerdict::same);
 }
 
+TEST(Compare, TakesErrorsAtTheirWord) {
+  const auto errors = [](double base, double head) {
+    return std::vector<BenchmarkRun>{
+        synthetic_run("base", "s", 0, {{"error/brdf", Metric::error, 0, base}}),
+        synthetic_run("head", "s", 1, {{"error/brdf", Metric::error, 0, head}})};
+  };
+  EXPECT_EQ(verdict_on(errors(0.1, 0.10001)), RowVerdict::regressed);
+  EXPECT_EQ(verdict_on(errors(0.1, 0.1 + 1e-9)), RowVerdict::same);
+  EXPECT_EQ(verdict_on(errors(0.1, 0.09)), RowVerdict::faster);
+}
+
 // Repetitions of one process agree with each other: taken for independent, 3 processes would do.
 TEST(Compare, CountsAProcessOnce) {
   std::vector<BenchmarkRun> runs;

@@ -89,6 +89,28 @@ TEST_F(GoogleBenchmark, TakesInstructionsInPlaceOfTime) {
   EXPECT_EQ(run.measurements[0].value, 12345.0);
 }
 
+TEST_F(GoogleBenchmark, TakesAnErrorInPlaceOfTime) {
+  Json json = document();
+  json["benchmarks"][0]["error"] = 0.125;
+  const BenchmarkRun run = read(json);
+  ASSERT_EQ(run.measurements.size(), 1U);
+  EXPECT_EQ(run.measurements[0].benchmark, "kernel/1");
+  EXPECT_EQ(run.measurements[0].metric, Metric::error);
+  EXPECT_EQ(run.measurements[0].value, 0.125);
+}
+
+TEST_F(GoogleBenchmark, KeepsErrorsBesideTheTime) {
+  Json json = document();
+  json["benchmarks"][0]["rms_error"] = 0.5;
+  json["benchmarks"][0]["largest_error"] = 0.0;
+  const BenchmarkRun run = read(json);
+  ASSERT_EQ(run.measurements.size(), 2U);
+  EXPECT_EQ(run.measurements[0].benchmark, "kernel/1:rms_error");
+  EXPECT_EQ(run.measurements[0].metric, Metric::error);
+  EXPECT_EQ(run.measurements[0].value, 0.5);
+  EXPECT_EQ(run.measurements[1].metric, Metric::nanoseconds);
+}
+
 TEST_F(GoogleBenchmark, LeavesOutAggregates) {
   Json json = document();
   json["benchmarks"].push_back(json["benchmarks"][0]);

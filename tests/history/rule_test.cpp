@@ -155,6 +155,9 @@ TEST(RuleOfInstructions, IsAHardLimit) {
   EXPECT_EQ(judge(Metric::instructions, base, Values{1011.0}, {}).change, Change::slower);
   EXPECT_EQ(judge(Metric::instructions, base, Values{980.0}, {}).change, Change::faster);
   EXPECT_FALSE(judge(Metric::instructions, base, base, {}).log10_p.has_value());
+  EXPECT_EQ(judge(Metric::error, base, Values{1000.0 * (1.0 + 5e-7)}, {}).change, Change::none);
+  EXPECT_EQ(judge(Metric::error, base, Values{1000.0 * (1.0 + 2e-6)}, {}).change, Change::slower);
+  EXPECT_EQ(judge(Metric::error, base, Values{990.0}, {}).change, Change::faster);
 }
 
 // 1 / C(14, 7) = 1/3432 < .001 < 1 / C(12, 6) = 1/924.

@@ -163,8 +163,34 @@ TEST_F(History, RefusesTheDatabaseOfAnotherProgram) {
 
 TEST_F(History, RefusesAnotherVersion) {
   fill(1);
-  execute("PRAGMA journal_mode = DELETE; PRAGMA user_version = 2");
-  expect_refused("of version 2; this program reads version 1");
+  execute("PRAGMA journal_mode = DELETE; PRAGMA user_version = 3");
+  expect_refused("of version 3; this program reads versions 1 to 2");
+}
+
+TEST_F(History, OfTheFirstVersionIsReadAndBroughtUpToDate) {
+  fill(2);
+  // As version 1 was made: its measurements knew no errors.
+  execute(
+      "DROP VIEW history; ALTER TABLE measurements RENAME TO latest;"
+      "CREATE TABLE measurements (run INTEGER NOT NULL REFERENCES runs (id), benchmark TEXT NOT "
+      "NULL,"
+      " metric TEXT NOT NULL CHECK (metric IN ('ns', 'instructions')), repetition INTEGER NOT NULL,"
+      " value REAL NOT NULL CHECK (value > 0), PRIMARY KEY (run, benchmark, metric, repetition))"
+      " WITHOUT ROWID;"
+      "INSERT INTO measurements SELECT * FROM latest; DROP TABLE latest;"
+      "CREATE VIEW history AS SELECT value FROM measurements;"
+      "PRAGMA user_version = 1");
+  EXPECT_EQ(HistoryStore::open_to_read(file()).runs().size(), 2U);
+  BenchmarkRun run = some_run(2);
+  run.measurements.push_back({"kernel", Metric::error, 0, 0.25});
+  EXPECT_EQ(HistoryStore::open_to_write(file()).add(run), 3);
+  const std::vector<BenchmarkRun> runs = HistoryStore::open_to_read(file()).runs();
+  ASSERT_EQ(runs.size(), 3U);
+  const auto has_error = [](const Measurement& m) {
+    return m.metric == Metric::error && m.value == 0.25;
+  };
+  EXPECT_TRUE(std::ranges::any_of(runs[2].measurements, has_error));
+  EXPECT_TRUE(std::ranges::none_of(runs[1].measurements, has_error));
 }
 
 std::string values_of(const std::vector<BenchmarkRun>& runs) {

@@ -142,8 +142,10 @@ void register_compare(CLI::App& history, const CommandLine& line, int& exit_code
   command->footer(
       "A benchmark has regressed if two sessions in a row find it slower: by a one-sided\n"
       "Mann-Whitney test at .001 and by more than 5 % and three times the A/A noise; or if it\n"
-      "executes over 1 % more instructions. Slower in one session alone it is suspected: measure\n"
-      "both commits again, as another session. Exit codes: 0 nothing regressed (though some may "
+      "executes over 1 % more instructions, or if one of its errors has grown. Slower in one "
+      "session\n"
+      "alone it is suspected: measure both commits again, as another session. Exit codes: 0 "
+      "nothing regressed (though some may "
       "be\nsuspected), 1 regressed, 2 usage or input, 70 internal error, 71 not enough memory.");
   command->callback([options, &exit_code] { exit_code = compare_commits(*options); });
 }

@@ -11,6 +11,7 @@
 #include "common.h"
 #include "describe_run.h"
 #include "kept_measurements.h"
+#include "lightproof/accuracy/method_costs.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/text_escapes.h"

@@ -166,7 +166,7 @@ std::vector<double> values_in(const Runs& runs, const Key& key) {
 
 void require_enough(const Session& session, const Key& key, std::size_t base, std::size_t head,
                     const RegressionRule& rule) {
-  if (key.first == Metric::instructions || enough_runs(base, head, rule)) return;
+  if (is_exact(key.first) || enough_runs(base, head, rule)) return;
   throw InputError(fmt::format(
       "session {}: {} was run {} times on {} and {} times on {}: too few for a p-value of {}; {} "
       "runs of each are the least",
@@ -179,8 +179,7 @@ RowVerdict verdict_of(const ComparisonRow& row) {
   if (now == Change::faster) return RowVerdict::faster;
   const bool before = row.earlier && row.earlier->change == Change::slower;
   if (now == Change::none) return before ? RowVerdict::unconfirmed : RowVerdict::same;
-  return before || row.metric == Metric::instructions ? RowVerdict::regressed
-                                                      : RowVerdict::suspected;
+  return before || is_exact(row.metric) ? RowVerdict::regressed : RowVerdict::suspected;
 }
 
 ComparisonRow row_of(const std::vector<Session>& sessions, const Key& key,

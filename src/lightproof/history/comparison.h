@@ -3,7 +3,7 @@
 // A benchmark has regressed if the rule finds it slower in the two latest sessions that measured
 // both commits: the second one is the confirming re-run. Slower in the latest alone, it is
 // suspected. Two false alarms in a row at alpha = .001 come once in a million comparisons.
-// Instruction counts need no confirmation.
+// Instruction counts and errors need no confirmation.
 #pragma once
 
 #include <optional>

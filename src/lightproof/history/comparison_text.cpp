@@ -100,8 +100,10 @@ std::string rule_text(const Comparison& comparison) {
   const RegressionRule& rule = comparison.rule;
   return fmt::format(
       "Slower: one-sided Mann-Whitney p <= {} and a median beyond the limit, the larger of +{} % "
-      "and {} times the A/A noise, in two sessions; instructions: beyond +{} %.",
-      rule.alpha, 100.0 * rule.least_effect, rule.noise_factor, 100.0 * rule.instruction_effect);
+      "and {} times the A/A noise, in two sessions; instructions: beyond +{} %; errors: beyond "
+      "rounding, +{} %.",
+      rule.alpha, 100.0 * rule.least_effect, rule.noise_factor, 100.0 * rule.instruction_effect,
+      100.0 * rule.error_effect);
 }
 
 std::string setting_text(const Comparison& comparison) {

@@ -16,7 +16,15 @@
 namespace lightproof {
 
 const char* to_string(Metric metric) {
-  return metric == Metric::nanoseconds ? "ns" : "instructions";
+  switch (metric) {
+    case Metric::nanoseconds:
+      return "ns";
+    case Metric::instructions:
+      return "instructions";
+    case Metric::error:
+      return "error";
+  }
+  return "";
 }
 
 namespace {
@@ -98,10 +106,12 @@ Measurement measurement_of(const Json& entry, const std::string& place) {
                                  entry.value("error_message", "no reason is given")));
   }
   Measurement measurement{name, Metric::nanoseconds, entry.value("repetition_index", 0), 0.0};
-  if (entry.contains("instructions")) {
-    measurement.metric = Metric::instructions;
+  for (const Metric metric : {Metric::instructions, Metric::error}) {
+    const char* counter = to_string(metric);
+    if (!entry.contains(counter)) continue;
+    measurement.metric = metric;
     measurement.value =
-        positive(member<double>(entry, "instructions", place), place + ".instructions");
+        positive(member<double>(entry, counter, place), fmt::format("{}.{}", place, counter));
     return measurement;
   }
   const bool wall = name.ends_with("/real_time") || name.ends_with("/manual_time");
@@ -110,6 +120,23 @@ Measurement measurement_of(const Json& entry, const std::string& place) {
   measurement.value =
       unit * positive(member<double>(entry, key, place), fmt::format("{}.{}", place, key));
   return measurement;
+}
+
+/// Counters whose names end in "_error" are errors of what was measured, beside its time: of
+/// "build/table", "build/table:worst_error". What is exact, 0, cannot become worse by a ratio, and
+/// is left out.
+std::vector<Measurement> errors_beside(const Json& entry, const Measurement& time,
+                                       const std::string& place) {
+  std::vector<Measurement> errors;
+  for (const auto& [key, value] : entry.items()) {
+    if (!key.ends_with("_error")) continue;
+    const std::string at = fmt::format("{}.{}", place, key);
+    const double error = as<double>(value, at);
+    if (error == 0.0) continue;
+    errors.push_back({fmt::format("{}:{}", time.benchmark, key), Metric::error, time.repetition,
+                      positive(error, at)});
+  }
+  return errors;
 }
 
 std::vector<Measurement> measurements_of(const Json& benchmarks) {
@@ -124,6 +151,8 @@ std::vector<Measurement> measurements_of(const Json& benchmarks) {
       throw InputError(fmt::format("{}: repetition {} of {} is there twice", place, one.repetition,
                                    one.benchmark));
     }
+    for (Measurement& error : errors_beside(benchmarks[i], one, place))
+      all.push_back(std::move(error));
     all.push_back(std::move(one));
   }
   if (all.empty()) throw InputError("benchmarks: holds no measurement");

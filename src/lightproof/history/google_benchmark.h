@@ -15,8 +15,9 @@ namespace lightproof {
 ///
 /// Values are CPU times, because waiting for a core is no property of the code; wall-clock times
 /// where the benchmark's name ends in /real_time or /manual_time. A benchmark with a counter called
-/// "instructions" gives that count instead: its time is that of an emulator. Aggregates are left
-/// out. Throws InputError, with the file, the place and the reason.
+/// "instructions" gives that count instead: its time is that of an emulator; one with a counter
+/// called "error" gives that. Counters whose names end in "_error" are kept beside the time.
+/// Aggregates are left out. Throws InputError, with the file, the place and the reason.
 BenchmarkRun read_google_benchmark(const std::filesystem::path& file,
                                    const std::string& commit = "");
 

@@ -35,8 +35,8 @@ Judgement judge(Metric metric, std::span<const double> base, std::span<const dou
   result.base = median({base.begin(), base.end()});
   result.head = median({head.begin(), head.end()});
   result.ratio = result.head / result.base;
-  if (metric == Metric::instructions) {
-    result.limit = 1.0 + rule.instruction_effect;
+  if (is_exact(metric)) {
+    result.limit = 1.0 + (metric == Metric::error ? rule.error_effect : rule.instruction_effect);
     result.change = change_of(result, -HUGE_VAL, -HUGE_VAL, rule.alpha);
     return result;
   }

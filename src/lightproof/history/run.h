@@ -11,9 +11,13 @@ namespace lightproof {
 enum class Metric {
   nanoseconds,   ///< CPU time of one iteration
   instructions,  ///< instructions that a kernel of fixed work executes
+  error,         ///< how far a result is off, which depends on seeds alone
 };
 
-/// The unit of a metric: "ns", "instructions".
+/// Whether a metric has the same value every time, so that there is nothing to test.
+constexpr bool is_exact(Metric metric) { return metric != Metric::nanoseconds; }
+
+/// The unit of a metric: "ns", "instructions", "error".
 const char* to_string(Metric metric);
 
 /// One value of one repetition.

@@ -19,7 +19,9 @@ namespace {
 
 /// "LPRF": marks the file as ours (PRAGMA application_id).
 constexpr std::uint32_t kApplication = 0x4c505246;
-constexpr std::uint32_t kVersion = 1;
+/// Version 1 had no errors. It is read as it is, and becomes this one before it is written to.
+constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kOldestVersion = 1;
 constexpr std::string_view kMagic{"SQLite format 3\0", 16};
 
 /// The view is what a person would query.
@@ -34,10 +36,12 @@ CREATE TABLE runs (
   "commit" TEXT NOT NULL,
   digest   INTEGER NOT NULL UNIQUE,
   checksum INTEGER NOT NULL);
+)";
+constexpr const char* kMeasurements = R"(
 CREATE TABLE measurements (
   run        INTEGER NOT NULL REFERENCES runs (id),
   benchmark  TEXT NOT NULL,
-  metric     TEXT NOT NULL CHECK (metric IN ('ns', 'instructions')),
+  metric     TEXT NOT NULL CHECK (metric IN ('ns', 'instructions', 'error')),
   repetition INTEGER NOT NULL,
   value      REAL NOT NULL CHECK (value > 0),
   PRIMARY KEY (run, benchmark, metric, repetition)) WITHOUT ROWID;
@@ -80,10 +84,10 @@ void require_history(const fs::path& file) {
     refuse(file, "is no performance history: an SQLite database of another program");
   }
   const std::uint32_t version = big_endian(header, 60);
-  if (version != kVersion) {
-    refuse(file, fmt::format("is a performance history of version {}; this program reads version "
-                             "{}",
-                             version, kVersion));
+  if (version < kOldestVersion || version > kVersion) {
+    refuse(file, fmt::format("is a performance history of version {}; this program reads versions "
+                             "{} to {}",
+                             version, kOldestVersion, kVersion));
   }
 }
 
@@ -99,12 +103,33 @@ void make_history(const fs::path& file) {
   sqlite::Database database(file, sqlite::Mode::create);
   sqlite::Transaction transaction(database);
   database.execute(kSchema);
+  database.execute(kMeasurements);
   database.execute(
       fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplication, kVersion)
           .c_str());
   transaction.commit();
   // Kept in the file: every later connection has it.
   database.execute("PRAGMA journal_mode = WAL");
+}
+
+/// The version as the database has it: the file's first bytes may lag behind its log.
+std::int64_t version_of(sqlite::Database& database) {
+  sqlite::Statement version(database, "PRAGMA user_version");
+  return version.step() ? version.integer(0) : 0;
+}
+
+/// Makes the latest version of an earlier one, all at once.
+void bring_up_to_date(sqlite::Database& database) {
+  if (version_of(database) == kVersion) return;
+  sqlite::Transaction transaction(database);
+  // Another process may have been faster.
+  if (version_of(database) != kVersion) {
+    database.execute("DROP VIEW history; ALTER TABLE measurements RENAME TO earlier");
+    database.execute(kMeasurements);
+    database.execute("INSERT INTO measurements SELECT * FROM earlier; DROP TABLE earlier");
+    database.execute(fmt::format("PRAGMA user_version = {}", kVersion).c_str());
+  }
+  transaction.commit();
 }
 
 /// Makes an empty history under another name and links it: whoever comes first wins, and nobody
@@ -143,6 +168,13 @@ std::int64_t checksum_of(const BenchmarkRun& run) {
   return static_cast<std::int64_t>(hash_text(text));
 }
 
+Metric metric_of(std::string_view unit) {
+  for (const Metric metric : {Metric::instructions, Metric::error}) {
+    if (unit == to_string(metric)) return metric;
+  }
+  return Metric::nanoseconds;
+}
+
 /// One pass over all pages.
 void require_intact(const fs::path& file, sqlite::Database& database) {
   sqlite::Statement check(database, "PRAGMA integrity_check(1)");
@@ -166,6 +198,7 @@ HistoryStore::HistoryStore(fs::path file, bool writable) : file_(std::move(file)
     connection_->database.execute(writable ? "PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON"
                                            : "PRAGMA query_only = ON");
     require_intact(file_, connection_->database);
+    if (writable) bring_up_to_date(connection_->database);
   } catch (const sqlite::Error& error) {
     refuse(file_, "cannot be used", error);
   }
@@ -233,8 +266,7 @@ std::vector<BenchmarkRun> HistoryStore::runs() const {
                         static_cast<std::uint64_t>(row.integer(7)),
                         {}});
       }
-      const Metric metric =
-          row.text(10) == "instructions" ? Metric::instructions : Metric::nanoseconds;
+      const Metric metric = metric_of(row.text(10));
       runs.back().measurements.push_back(
           {row.text(9), metric, static_cast<int>(row.integer(11)), row.real(12)});
     }

@@ -49,8 +49,10 @@ TrendPoint point_of(const CommitValues& commit) {
   return {commit.commit, median(std::move(medians)), runs};
 }
 
-std::vector<ChangePoint> steps_of(std::span<const double> values) {
-  const double limit = 1.0 + RegressionRule{}.instruction_effect;
+std::vector<ChangePoint> steps_of(std::span<const double> values, Metric metric) {
+  const RegressionRule rule;
+  const double limit =
+      1.0 + (metric == Metric::error ? rule.error_effect : rule.instruction_effect);
   std::vector<ChangePoint> steps;
   for (std::size_t i = 1; i < values.size(); ++i) {
     const double ratio = values[i] / values[i - 1];
@@ -65,7 +67,7 @@ std::vector<TrendLine> trend_lines(std::span<const BenchmarkRun> runs, const Cha
   Lines by_key;
   for (const BenchmarkRun& run : runs) add(by_key, run);
   std::vector<TrendLine> lines;
-  std::vector<std::vector<double>> times;  // empty for instructions
+  std::vector<std::vector<double>> times;  // empty of an exact metric
   for (const auto& [key, commits] : by_key) {
     const auto& [machine, compiler, flags, metric, benchmark] = key;
     TrendLine line{machine, compiler, flags, benchmark, metric, {}, {}};
@@ -74,8 +76,8 @@ std::vector<TrendLine> trend_lines(std::span<const BenchmarkRun> runs, const Cha
       line.points.push_back(point_of(commit));
       values.push_back(line.points.back().value);
     }
-    if (metric == Metric::instructions) {
-      line.changes = steps_of(values);
+    if (is_exact(metric)) {
+      line.changes = steps_of(values, metric);
       values.clear();
     }
     lines.push_back(std::move(line));
@@ -83,7 +85,7 @@ std::vector<TrendLine> trend_lines(std::span<const BenchmarkRun> runs, const Cha
   }
   std::vector<std::vector<ChangePoint>> changes = change_points(times, rule);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (lines[i].metric == Metric::nanoseconds) lines[i].changes = std::move(changes[i]);
+    if (!is_exact(lines[i].metric)) lines[i].changes = std::move(changes[i]);
   }
   return lines;
 }

@@ -31,9 +31,9 @@ struct TrendLine {
 /// The lines of all benchmarks, and their changes. Changes of times are found by change_points(),
 /// of all lines together, with a commit as one value: what runs of one session share, the state of
 /// the machine, would pass for a change if runs were the values. That the machine's state lasts
-/// from session to session is reckoned with. Instruction counts change where a commit differs from
-/// the one before by more than the limit of the regression rule. Runs come in the order of their
-/// start.
+/// from session to session is reckoned with. Instruction counts and errors change where a commit
+/// differs from the one before by more than the limit of the regression rule. Runs come in the
+/// order of their start.
 std::vector<TrendLine> trend_lines(std::span<const BenchmarkRun> runs, const ChangeRule& rule = {});
 
 }  // namespace lightproof

@@ -70,7 +70,7 @@ Json value_axis(const TrendLine& line, const std::string& field) {
   const std::vector<double> values = values_of(line);
   const double middle = median(values);
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  Json y = quantity(field, line.metric == Metric::nanoseconds ? "ns" : "instructions", "linear");
+  Json y = quantity(field, to_string(line.metric), "linear");
   y["scale"]["domain"] = {rounded(std::min(*low, (1.0 - kLeastHalfRange) * middle)),
                           rounded(std::max(*high, (1.0 + kLeastHalfRange) * middle))};
   y["axis"] = {{"tickCount", 4}, {"format", ",.4~r"}};

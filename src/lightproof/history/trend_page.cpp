@@ -103,8 +103,9 @@ std::string figure_of(const TrendLine& line, std::size_t number) {
 }
 
 std::string section_heading(const TrendLine& line) {
-  return fmt::format("<h2>{}</h2>\n",
-                     line.metric == Metric::nanoseconds ? "Time" : "Instructions") +
+  return fmt::format("<h2>{}</h2>\n", line.metric == Metric::nanoseconds ? "Time"
+                                      : line.metric == Metric::error     ? "Error"
+                                                                         : "Instructions") +
          paragraph(fmt::format("{}; {}; {}", line.machine, line.compiler, line.flags), "note");
 }
 
