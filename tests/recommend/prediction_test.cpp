@@ -58,20 +58,6 @@ Grid<double> divided(const Grid<double>& cells, int parts) {
   return finer;
 }
 
-/// The density of a reduced table.
-std::function<double(Direction)> reduced_density(const EnvironmentMap& map, int factor) {
-  const auto sums = std::make_shared<const BlockSums>(
-      block_sums(map, reduced_extent(map.radiance.extent(), factor)));
-  const double whole = block_sums(map, {1, 1}).light(0, 0);
-  return [sums, whole](Direction d) {
-    const SquarePoint at = square_from_direction(d);
-    const Extent extent = sums->light.extent();
-    const int y = cell_of(at.t, extent.height);
-    return sums->light(cell_of(at.s, extent.width), y) /
-           (sums->solid_angle[static_cast<std::size_t>(y)] * whole);
-  };
-}
-
 /// Sums over points: the mean, and variances by estimators' names.
 struct Exact {
   double mean = 0.0;
@@ -113,7 +99,7 @@ std::vector<Exact> exact_of(const Stage& stage, const Material& material,
       add(map, "cosine", cosine[map].variance);
       for (const int factor : {2, 8}) {
         const auto reduced = reference::density_moments(kernel, std::span(&luminances[map], 1),
-                                                        reduced_density(maps[map], factor));
+                                                        reduced_table_pdf(maps[map], factor));
         add(map, fmt::format("environment B alias 1/{}", factor), reduced.front().variance);
       }
     }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/samplers/alias.h"
@@ -120,6 +121,22 @@ PreparedSource reduced_table_source(const EnvironmentMap& map, int factor) {
             };
           },
           table->table_bytes()};
+}
+
+std::function<double(Direction)> reduced_table_pdf(const EnvironmentMap& map, int factor) {
+  BlockSums sums = block_sums(map, reduced_extent(map.radiance.extent(), factor));
+  Grid<double> densities = std::move(sums.light);
+  double whole = 0.0;
+  for (const double light : densities.values()) whole += light;
+  for (int y = 0; y < densities.extent().height; ++y) {
+    const double area = sums.solid_angle[static_cast<std::size_t>(y)];
+    for (double& density : densities.row(y)) density = whole > 0.0 ? density / area / whole : 0.0;
+  }
+  return [densities = std::make_shared<const Grid<double>>(std::move(densities))](Direction d) {
+    const SquarePoint at = square_from_direction(d);
+    const Extent extent = densities->extent();
+    return (*densities)(cell_of(at.s, extent.width), cell_of(at.t, extent.height));
+  };
 }
 
 double reduced_table_variance(const EnvironmentMap& map, int factor) {

@@ -38,6 +38,16 @@ constexpr std::string_view kR2 = "R2";
 constexpr std::string_view kSobol = "sobol";
 constexpr std::string_view kStratified = "stratified";
 
+template <int kFactor>
+std::function<double(Direction)> pdf_of_reduced(const EnvironmentMap& map) {
+  return reduced_table_pdf(map, kFactor);
+}
+
+template <MassForm kForm>
+std::function<double(Direction)> pdf_of_rounded(const EnvironmentMap& map) {
+  return rounded_table_pdf(map, kForm);
+}
+
 template <const std::string_view& kPointSet>
 PreparedEstimator from_map_at(const EnvironmentMap& map) {
   return prepare_point_set(map, MapDensity{DensitySpace::solid_angle}, kPointSet);
@@ -198,24 +208,28 @@ constexpr std::array kEstimators = {
                   .description = "the map by an alias table of the means of 2 x 2 texels",
                   .source = "Walker 1974; the light is that of the texel",
                   .family = EstimatorFamily::environment,
+                  .map_pdf = pdf_of_reduced<2>,
                   .table_reduction = 2,
                   .prepare = from_reduced_table<2>},
     EstimatorInfo{.name = "environment B alias 1/4",
                   .description = "the map by an alias table of the means of 4 x 4 texels",
                   .source = "Walker 1974; the light is that of the texel",
                   .family = EstimatorFamily::environment,
+                  .map_pdf = pdf_of_reduced<4>,
                   .table_reduction = 4,
                   .prepare = from_reduced_table<4>},
     EstimatorInfo{.name = "environment B alias 1/8",
                   .description = "the map by an alias table of the means of 8 x 8 texels",
                   .source = "Walker 1974; the light is that of the texel",
                   .family = EstimatorFamily::environment,
+                  .map_pdf = pdf_of_reduced<8>,
                   .table_reduction = 8,
                   .prepare = from_reduced_table<8>},
     EstimatorInfo{.name = "environment B alias 1/16",
                   .description = "the map by an alias table of the means of 16 x 16 texels",
                   .source = "Walker 1974; the light is that of the texel",
                   .family = EstimatorFamily::environment,
+                  .map_pdf = pdf_of_reduced<16>,
                   .table_reduction = 16,
                   .prepare = from_reduced_table<16>},
     EstimatorInfo{.name = "environment B half",
@@ -223,12 +237,14 @@ constexpr std::array kEstimators = {
                                  "relative to the brightest of its row",
                   .source = "cumulative sums over runs of 32 texels",
                   .family = EstimatorFamily::environment,
+                  .map_pdf = pdf_of_rounded<MassForm::half>,
                   .prepare = from_rounded_table<MassForm::half>},
     EstimatorInfo{.name = "environment B 8-bit",
                   .description = "as environment B, each texel's mass rounded to 8 bits, a small "
                                  "float relative to the brightest of its row",
                   .source = "cumulative sums over runs of 32 texels",
                   .family = EstimatorFamily::environment,
+                  .map_pdf = pdf_of_rounded<MassForm::byte>,
                   .prepare = from_rounded_table<MassForm::byte>},
     EstimatorInfo{
         .name = "product table",

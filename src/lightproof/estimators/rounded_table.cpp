@@ -155,6 +155,15 @@ PreparedSource rounded_table_source(const EnvironmentMap& map, MassForm form) {
           table->bytes()};
 }
 
+std::function<double(Direction)> rounded_table_pdf(const EnvironmentMap& map, MassForm form) {
+  const auto table = std::make_shared<const RoundedTable>(map, form);
+  return [table, extent = map.radiance.extent()](Direction d) {
+    const SquarePoint at = square_from_direction(d);
+    const int y = cell_of(at.t, extent.height);
+    return table->mass(cell_of(at.s, extent.width), y) / texel_solid_angle(extent, y);
+  };
+}
+
 double rounded_table_variance(const EnvironmentMap& map, MassForm form) {
   const Extent extent = map.radiance.extent();
   const SmallFloat small = float_of(form);
