@@ -18,32 +18,36 @@ std::vector<SquarePoint> strata_points() {
   return points;
 }
 
+namespace {
+
+/// The variance of the values in a square of so many cells along either side.
+double variance_in(std::span<const double> values, int x0, int y0, int side) {
+  const auto sum = [&](const auto& term) {
+    double all = 0.0;
+    for (int y = y0; y < y0 + side; ++y) {
+      for (int x = x0; x < x0 + side; ++x) {
+        all += term(values[static_cast<std::size_t>(y * kStrataSide + x)]);
+      }
+    }
+    return all;
+  };
+  const double count = static_cast<double>(side) * side;
+  const double mean = sum([](double value) { return value; }) / count;
+  return sum([mean](double value) { return (value - mean) * (value - mean); }) / (count - 1.0);
+}
+
+}  // namespace
+
 StrataVariances variances_inside(std::span<const double> values) {
   StrataVariances variances = {};
   for (std::size_t grid = 0; grid < kStrataGrids; ++grid) {
     const int strata = 1 << grid;
     const int side = kStrataSide / strata;
-    const double count = static_cast<double>(side) * side;
-    double sum = 0.0;
     for (int j = 0; j < strata; ++j) {
       for (int i = 0; i < strata; ++i) {
-        double mean = 0.0;
-        double square = 0.0;
-        for (int y = j * side; y < (j + 1) * side; ++y) {
-          for (int x = i * side; x < (i + 1) * side; ++x) {
-            mean += values[static_cast<std::size_t>(y * kStrataSide + x)] / count;
-          }
-        }
-        for (int y = j * side; y < (j + 1) * side; ++y) {
-          for (int x = i * side; x < (i + 1) * side; ++x) {
-            const double off = values[static_cast<std::size_t>(y * kStrataSide + x)] - mean;
-            square += off * off;
-          }
-        }
-        sum += square / (count - 1.0);
+        variances[grid] += variance_in(values, i * side, j * side, side) / (strata * strata);
       }
     }
-    variances[grid] = sum / (static_cast<double>(strata) * strata);
   }
   return variances;
 }
