@@ -80,10 +80,7 @@ TEST(MapSummary, CellsHoldAllLightOfAnySize) {
     EXPECT_NEAR(sum_of(summary.cells.solid_angle), kSphere, 1e-9);
     EXPECT_NEAR(sum_of(summary.product_light.values()) / summary.light, 1.0, 1e-6);
     EXPECT_NEAR(summary.quadtree_light.front().values().front() / summary.light, 1.0, 1e-6);
-    EXPECT_NEAR(summary.quadtree_area.back().values().size() > 0
-                    ? sum_of(summary.quadtree_area.back().values())
-                    : 0.0,
-                kSphere, 1e-9);
+    EXPECT_NEAR(sum_of(summary.quadtree_area.back().values()), kSphere, 1e-9);
     for (std::size_t i = 0; i < summary.cells.size(); ++i) {
       const Direction d = {summary.cells.x[i], summary.cells.y[i], summary.cells.z[i]};
       ASSERT_NEAR(glm::length(d), 1.0, 1e-12);

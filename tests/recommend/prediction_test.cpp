@@ -259,6 +259,59 @@ TEST(Prediction, OfBiasedEstimatorsIsTheirError) {
   }
 }
 
+/// The root mean square error of estimates of so many samples, relative to the mean; and how well
+/// that is known, from estimates at each point that are taken for normal.
+Measured measured_error_of_sets(const Stage& stage, const EnvironmentMap& map,
+                                const Material& material, std::string_view name, double mean,
+                                std::uint64_t samples) {
+  constexpr std::size_t kEstimates = 512;
+  const BoundEstimator bound = estimator_by_name(name).prepare(map).bind(stage.scene, material);
+  double variance = 0.0;
+  for (std::size_t i = 0; i < stage.points.size(); ++i) {
+    const RandomStream stream(fmt::format("sets/{}/{}", name, i), 1);
+    Moments moments;
+    for (std::size_t j = 0; j < kEstimates; ++j) {
+      const Rgb rgb = bound.integrate(stage.points[i], stream, {j * samples, samples}, {});
+      moments.add(luminance_of(rgb, map.weights));
+    }
+    variance += moments.variance() / stage.count();
+  }
+  const double error = std::sqrt(variance) / mean;
+  return {error, error / std::sqrt(2.0 * kEstimates)};
+}
+
+// Strata have the variance inside them; the other sets no more, as a rule.
+TEST(Prediction, OfPointSetsIsThatInsideOfStrata) {
+  const Stage stage;
+  for (const std::string_view map_name : {"gradient", "checker"}) {
+    const EnvironmentMap map = make_synthetic_map(map_name, {256, 128});
+    for (const std::string_view material_name : {"lambert", "ggx:0.5"}) {
+      const Material material = material_of(material_name);
+      const Prediction prediction = predict(summarise(map), material, stage.points);
+      for (const std::string_view base : {"environment B", "brdf"}) {
+        for (const std::string_view set : {" stratified", " hammersley", " R2", " sobol"}) {
+          const std::string name = std::string(base) + std::string(set);
+          const EstimatorPrediction* row = prediction.find(name);
+          ASSERT_TRUE(row != nullptr && row->error) << name;
+          if (map_name == "gradient") {
+            EXPECT_LT(row->error->variance_of(64), 0.6 * row->error->variance) << name;
+          }
+          for (const std::uint64_t samples : {16U, 256U}) {
+            const Measured measured =
+                measured_error_of_sets(stage, map, material, name, prediction.mean, samples);
+            const double predicted = row->error->at(samples);
+            const std::string label =
+                fmt::format("{} {} {} {}", map_name, material_name, name, samples);
+            EXPECT_LT(measured.error, 1.15 * predicted + 6.0 * measured.uncertainty) << label;
+            if (set != " stratified") continue;
+            EXPECT_GT(measured.error, 0.85 * predicted - 6.0 * measured.uncertainty) << label;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(Prediction, HasARowForEveryEstimatorWithAReasonIfThereIsNone) {
   const Stage stage;
   const MapSummary summary = summarise(make_synthetic_map("sun-sky", {64, 32}));

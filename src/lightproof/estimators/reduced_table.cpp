@@ -44,6 +44,14 @@ double band(double from, double to) {
 struct RowSums {
   explicit RowSums(std::size_t blocks) : light(blocks), square(blocks) {}
 
+  void add(double luminance, std::span<const Part> parts) {
+    for (const Part& part : parts) {
+      const auto block = static_cast<std::size_t>(part.block);
+      light[block] += (part.to - part.from) * luminance;
+      square[block] += (part.to - part.from) * luminance * luminance;
+    }
+  }
+
   std::vector<double> light;
   std::vector<double> square;
 };
@@ -88,12 +96,8 @@ BlockSums block_sums(const EnvironmentMap& map, Extent blocks) {
       if (!(to > from)) continue;
       RowSums of_row(static_cast<std::size_t>(blocks.width));
       for (int x = 0; x < extent.width; ++x) {
-        const double luminance = luminance_of(map.radiance(x, y), map.weights);
-        for (const Part& part : columns[static_cast<std::size_t>(x)]) {
-          const auto to_block = static_cast<std::size_t>(part.block);
-          of_row.light[to_block] += (part.to - part.from) * luminance;
-          of_row.square[to_block] += (part.to - part.from) * luminance * luminance;
-        }
+        of_row.add(luminance_of(map.radiance(x, y), map.weights),
+                   columns[static_cast<std::size_t>(x)]);
       }
       const double area = band(from / extent.height, to / extent.height) / extent.width;
       for (int x = 0; x < blocks.width; ++x) {

@@ -140,6 +140,14 @@ std::size_t RoundedTable::bytes() const {
          (rows_.size() + runs_.size()) * sizeof(double) + positions_.bytes();
 }
 
+namespace {
+
+void draw_from(const RoundedTable& table, const BatchPoints& points, LightSamples& samples) {
+  draw_each(points, samples, [&](SquarePoint u) { return table.sample(u); });
+}
+
+}  // namespace
+
 PreparedSource rounded_table_source(const EnvironmentMap& map, MassForm form) {
   const auto table = std::make_shared<const RoundedTable>(map, form);
   return {&map,
@@ -147,7 +155,7 @@ PreparedSource rounded_table_source(const EnvironmentMap& map, MassForm form) {
             return [table, material](const ShadingPoint& at) -> DrawSamples {
               return [&table = *table, &material, &at](const BatchPoints& points,
                                                        LightSamples& samples) {
-                draw_each(points, samples, [&](SquarePoint u) { return table.sample(u); });
+                draw_from(table, points, samples);
                 samples.reflect(material, at);
               };
             };

@@ -136,8 +136,8 @@ class Collector {
     }
     const double column = light > 0.0 ? s / light : 0.5 * (group.x0 + group.x1);
     const double row = light > 0.0 ? t / light : 0.5 * (group.y0 + group.y1);
-    push(direction_from_square({column / texels_.width, row / texels_.height}), solid_angle, light,
-         square, second, static_cast<int>(column), static_cast<int>(row));
+    push(direction_from_square({column / texels_.width, row / texels_.height}),
+         static_cast<int>(column), static_cast<int>(row), {solid_angle, light, square, second});
   }
 
   void add_texel(const LightBlock& block, int x, int y) {
@@ -173,20 +173,28 @@ class Collector {
             rows * columns == 1
                 ? centre
                 : direction_from_square({(x + (i + 0.5) / columns) / texels_.width, at});
-        push(d, part * area, part * area * luminance, part * area * mean_square, of_part, x, y);
+        push(d, x, y, {part * area, part * area * luminance, part * area * mean_square, of_part});
       }
     }
   }
 
-  void push(Direction d, double solid_angle, double light, double square,
-            const std::array<double, kTableDensities>& second, int x, int y) {
+  /// What is summed up of a node.
+  struct Sums {
+    double solid_angle;
+    double light;
+    double square;
+    std::array<double, kTableDensities> second;
+  };
+
+  /// A node at a direction in a texel.
+  void push(Direction d, int x, int y, const Sums& sums) {
     nodes_->x.push_back(d.x);
     nodes_->y.push_back(d.y);
     nodes_->z.push_back(d.z);
-    nodes_->solid_angle.push_back(solid_angle);
-    nodes_->light.push_back(light);
-    nodes_->square.push_back(square);
-    for (std::size_t k = 0; k < kTableDensities; ++k) nodes_->second[k].push_back(second[k]);
+    nodes_->solid_angle.push_back(sums.solid_angle);
+    nodes_->light.push_back(sums.light);
+    nodes_->square.push_back(sums.square);
+    for (std::size_t k = 0; k < kTableDensities; ++k) nodes_->second[k].push_back(sums.second[k]);
     nodes_->product.push_back(summary_->product_index.of(x, y));
     nodes_->quadrant.push_back(summary_->quadrant_index.of(x, y));
   }

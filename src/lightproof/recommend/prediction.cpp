@@ -6,6 +6,7 @@
 #include <map>
 
 #include "lightproof/core/parallel.h"
+#include "lightproof/estimators/cell_cdf.h"
 #include "lightproof/estimators/diffuse_tables.h"
 #include "lightproof/estimators/hierarchical_product.h"
 #include "lightproof/estimators/outgoing_table.h"
@@ -17,7 +18,9 @@
 #include "lightproof/prefilter/specular_chain.h"
 #include "lightproof/prefilter/spherical_harmonics.h"
 #include "lightproof/recommend/light_nodes.h"
+#include "lightproof/samplers/sampler.h"
 #include "lightproof/warp/lat_long.h"
+#include "lightproof/warp/sphere_batch.h"
 
 namespace lightproof {
 namespace {
@@ -25,11 +28,16 @@ namespace {
 using reference::CombinedSampling;
 using reference::Heuristic;
 
+/// How estimators are named that draw at points of a set.
+constexpr std::array<std::string_view, 4> kPointSets = {" stratified", " hammersley", " R2",
+                                                        " sobol"};
+
 /// Of an estimator at one point: the variance of a sample, and the bias.
 struct ErrorAt {
   ErrorLaw law;
   double variance;
   double bias;
+  StrataVariances inside = {};
 };
 
 /// By the estimator's name.
@@ -230,6 +238,7 @@ class Predictor {
         product_nodes_(cell_size(nodes_of(summary)), 0.5, nodes_of(summary)),
         quadrant_centres_(quadrant_size(summary), 0.5, summary.quadtree_light.back().extent()) {
     if (const auto* ggx = std::get_if<Ggx>(&material)) set_chain(*ggx);
+    set_strata();
   }
 
   /// The errors of all estimators at a point, and the exact radiance.
@@ -246,6 +255,7 @@ class Predictor {
     add_lights(light, at, errors);
     add_look_ups(light, at, lobe, errors);
     add_outgoing(light, at, errors);
+    add_strata(at, errors);
     return light.mean;
   }
 
@@ -494,6 +504,73 @@ class Predictor {
     return scales;
   }
 
+  /// Where a monotone table of the map has the points of strata: rows by t, columns by s.
+  void set_strata() {
+    const std::vector<SquarePoint> points = strata_points();
+    const Grid<float>& map = summary_->finest;
+    const auto [width, height] = map.extent();
+    std::vector<double> rows;
+    double sum = 0.0;
+    for (int y = 0; y < height; ++y) {
+      double row = 0.0;
+      for (const float luminance : map.row(y)) row += static_cast<double>(luminance);
+      rows.push_back(sum += row * texel_solid_angle(map.extent(), y));
+    }
+    std::vector<double> columns(static_cast<std::size_t>(width));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      strata_s_[i] = points[i].s;
+      strata_t_[i] = points[i].t;
+      const FoundCell row = find_cell(rows, 0.0, points[i].t);
+      if (i % kStrataSide == 0) {
+        double before = 0.0;
+        for (int x = 0; x < width; ++x) {
+          columns[static_cast<std::size_t>(x)] = before +=
+              static_cast<double>(map(x, static_cast<int>(row.index)));
+        }
+      }
+      const FoundCell column = find_cell(columns, 0.0, points[i].s);
+      const Direction d =
+          direction_from_square({(static_cast<double>(column.index) + column.rest) / width,
+                                 (static_cast<double>(row.index) + row.rest) / height});
+      map_x_[i] = d.x;
+      map_y_[i] = d.y;
+      map_z_[i] = d.z;
+    }
+  }
+
+  /// Point sets that are no worse than strata, by the map's table and by the material's lobes.
+  void add_strata(const ShadingPoint& at, ErrorsAt& errors) const {
+    std::vector<double> values(kStrataPoints);
+    reflected_cosines(material_, at, {map_x_, map_y_, map_z_}, values);
+    for (double& value : values) value *= summary_->light;
+    add_sets("environment B", variances_inside(values), errors);
+
+    std::vector<double> x(kStrataPoints);
+    std::vector<double> y(kStrataPoints);
+    std::vector<double> z(kStrataPoints);
+    std::vector<double> pdf(kStrataPoints);
+    sample_material(material_, at, strata_s_, strata_t_, {x, y, z, pdf, values});
+    std::vector<double> s(kStrataPoints);
+    std::vector<double> t(kStrataPoints);
+    approximate_positions(x, y, z, {s, t});
+    const Extent extent = summary_->finest.extent();
+    for (std::size_t i = 0; i < kStrataPoints; ++i) {
+      const auto luminance = static_cast<double>(
+          summary_->finest(cell_of(s[i], extent.width), cell_of(t[i], extent.height)));
+      values[i] = pdf[i] > 0.0 ? values[i] * luminance / pdf[i] : 0.0;
+    }
+    add_sets("brdf", variances_inside(values), errors);
+  }
+
+  static void add_sets(const std::string& base, const StrataVariances& inside, ErrorsAt& errors) {
+    ErrorAt error = errors.find(base)->second;
+    error.law = ErrorLaw::at_most;
+    error.inside = inside;
+    for (const std::string_view set : kPointSets) {
+      errors.emplace(base + std::string(set), error);
+    }
+  }
+
   static void biased(std::string_view name, double estimate, const ScatteredLight& light,
                      ErrorsAt& errors) {
     errors.emplace(name, ErrorAt{ErrorLaw::constant, 0.0, estimate - light.mean});
@@ -568,11 +645,16 @@ class Predictor {
   TexelDirections product_nodes_;
   TexelDirections quadrant_centres_;
   std::vector<Level> chain_;
+  std::vector<double> strata_s_ = std::vector<double>(kStrataPoints);
+  std::vector<double> strata_t_ = std::vector<double>(kStrataPoints);
+  std::vector<double> map_x_ = std::vector<double>(kStrataPoints);
+  std::vector<double> map_y_ = std::vector<double>(kStrataPoints);
+  std::vector<double> map_z_ = std::vector<double>(kStrataPoints);
 };
 
 /// The estimator that draws from the same density at random points; empty if it is none of points.
 std::string_view without_points(std::string_view name) {
-  for (const std::string_view set : {" stratified", " hammersley", " R2", " sobol"}) {
+  for (const std::string_view set : kPointSets) {
     if (name.ends_with(set)) return name.substr(0, name.size() - set.size());
   }
   return {};
@@ -589,9 +671,15 @@ std::string reason_for(std::string_view name) {
 
 }  // namespace
 
+double PredictedError::variance_of(std::uint64_t samples) const {
+  if (!(inside.front() > 0.0)) return variance;
+  const double missed = std::max(0.0, variance - inside.front());
+  return std::min(variance, missed + inside[strata_grid_of(samples)]);
+}
+
 double PredictedError::at(std::uint64_t samples) const {
   const double count = law == ErrorLaw::constant ? 1.0 : static_cast<double>(samples);
-  return std::sqrt(bias * bias + variance / count);
+  return std::sqrt(bias * bias + variance_of(samples) / count);
 }
 
 const EstimatorPrediction* Prediction::find(std::string_view estimator) const {
@@ -615,7 +703,8 @@ Prediction predict(const MapSummary& summary, const Material& material,
     if (!info.serves(material)) continue;
     EstimatorPrediction row = {info.name, {}, {}};
     const std::string_view base = without_points(info.name);
-    const std::string_view known = base.empty() ? info.name : base;
+    const bool has_own = base.empty() || (!errors.empty() && errors.front().contains(info.name));
+    const std::string_view known = has_own ? info.name : base;
     if (!(prediction.mean > 0.0)) {
       row.reason = "no light is reflected";
     } else if (!errors.front().contains(known)) {
@@ -627,7 +716,9 @@ Prediction predict(const MapSummary& summary, const Material& material,
         sum.law = base.empty() ? error.law : ErrorLaw::at_most;
         sum.variance += error.variance;
         sum.bias += error.bias * error.bias;
+        for (std::size_t i = 0; i < kStrataGrids; ++i) sum.inside[i] += error.inside[i];
       }
+      for (double& inside : sum.inside) inside /= count * prediction.mean * prediction.mean;
       sum.variance /= count * prediction.mean * prediction.mean;
       sum.bias = std::sqrt(sum.bias / count) / prediction.mean;
       row.error = sum;

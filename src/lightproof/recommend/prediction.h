@@ -12,6 +12,7 @@
 
 #include "lightproof/materials/material.h"
 #include "lightproof/recommend/map_summary.h"
+#include "lightproof/recommend/strata.h"
 
 namespace lightproof {
 
@@ -31,7 +32,13 @@ struct PredictedError {
   /// points are more even.
   double variance = 0.0;
   double bias = 0.0;  ///< root mean square over the points
+  /// Of point sets that keep strata of the square apart, the variance inside these, as it is known
+  /// from few points: what these did not find of the variance of one sample is not reduced. All 0
+  /// of others.
+  StrataVariances inside = {};
 
+  /// What each of so many samples adds to the variance of their mean, times their number.
+  double variance_of(std::uint64_t samples) const;
   /// The error of an estimate by so many samples, at least 1.
   double at(std::uint64_t samples) const;
 };
