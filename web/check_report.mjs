@@ -116,6 +116,17 @@ async function inspectChoices(page, figure) {
   return problems;
 }
 
+/** Opens the closed block that a chart stands in, and waits until it is drawn there. */
+async function unfold(page, figure, problems) {
+  await figure.evaluate((chart) => {
+    const closed = chart.closest("details:not([open])");
+    if (closed) closed.open = true;
+  });
+  await page
+    .waitForFunction((chart) => chart.dataset.drawn, figure, { timeout: drawingTimeout })
+    .catch(() => problems.push("a folded chart was not drawn in time"));
+}
+
 async function inspectPage(context, url, view, folder) {
   const problems = [];
   const page = await context.newPage();
@@ -143,6 +154,7 @@ async function inspectPage(context, url, view, folder) {
   problems.push(...(await page.evaluate(inspect, leastSections)));
   await page.screenshot({ path: join(folder, `${view.name}.png`), fullPage: true });
   for (const figure of await page.$$("figure.chart")) {
+    await unfold(page, figure, problems);
     problems.push(...(await figure.evaluate(inspectChart)));
     problems.push(...(await inspectChoices(page, figure)));
   }

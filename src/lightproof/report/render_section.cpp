@@ -17,8 +17,8 @@ namespace {
 
 using Scene = std::vector<const RenderRecord*>;
 
-std::string seconds_text(double seconds) {
-  return seconds > 0.0 ? format_number(seconds) + " s" : "time not measured";
+std::string time_text(double seconds) {
+  return seconds > 0.0 ? seconds_text(seconds) : "time not measured";
 }
 
 std::string estimator_figure(const RenderRecord& r, double scale, double range) {
@@ -29,7 +29,7 @@ std::string estimator_figure(const RenderRecord& r, double scale, double range) 
       image_html(
           diverging_picture(r.error, range),
           fmt::format("Signed error of {}, from blue (too dark) to red (too bright)", r.estimator)),
-      escaped(r.estimator), format_number(r.rmse), seconds_text(r.seconds),
+      escaped(r.estimator), format_number(r.rmse), time_text(r.seconds),
       counted(r.samples, "sample"));
 }
 

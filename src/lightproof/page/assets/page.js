@@ -19,6 +19,20 @@
     return spec;
   }
 
+  // Shows the title and the blocks of what a chart's lists have chosen.
+  function follow(figure) {
+    const lists = [...figure.querySelectorAll(".controls select")];
+    if (lists.length === 0) return;
+    const key = lists.map((list) => list.value).join(" | ");
+    const titles = figure.querySelector("script.titles");
+    const title = titles && JSON.parse(titles.textContent)[key];
+    const heading = figure.querySelector("figcaption > :first-child");
+    if (title && heading.textContent !== title) heading.textContent = title;
+    for (const block of figure.querySelectorAll("[data-choice]")) {
+      block.hidden = block.dataset.choice !== key;
+    }
+  }
+
   async function draw(figure) {
     const target = figure.querySelector(".drawing");
     const small = figure.classList.contains("small");
@@ -32,6 +46,8 @@
         downloadFileName: figure.id,
         tooltip: { theme: "light" },
       });
+      figure.querySelector(".controls").addEventListener("change", () => follow(figure));
+      follow(figure);
       figure.dataset.drawn = "yes";
     } catch (error) {
       figure.dataset.drawn = "no";
@@ -46,7 +62,14 @@
       document.body.classList.toggle("hide-samples", !samples.checked);
     });
   }
-  Promise.all([...document.querySelectorAll("figure.chart")].map(draw)).then(() => {
+  // A chart in a closed block has no width yet: it is drawn when the block opens.
+  function drawWhenOpen(figure) {
+    const closed = figure.closest("details:not([open])");
+    if (!closed) return draw(figure);
+    closed.addEventListener("toggle", () => draw(figure), { once: true });
+    return undefined;
+  }
+  Promise.all([...document.querySelectorAll("figure.chart")].map(drawWhenOpen)).then(() => {
     document.documentElement.dataset.charts = "done";
   });
 })();

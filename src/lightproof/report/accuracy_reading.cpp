@@ -1,0 +1,130 @@
+#include "lightproof/report/accuracy_reading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace lightproof {
+namespace {
+
+constexpr double kMeasured = 0.5;  // standard error over the error
+
+bool is_known(double error) { return std::isfinite(error) && error > 0.0; }
+
+std::vector<LinePlace> known_places(const AccuracyLine& line) {
+  std::vector<LinePlace> places;
+  for (const AccuracyPoint& point : line.points) {
+    const double error = known_error(point);
+    if (!is_known(error) || !(point.seconds > 0.0)) continue;
+    places.push_back({static_cast<double>(point.samples), point.seconds, error});
+  }
+  return places;
+}
+
+double between(double a, double b, double share) {
+  return std::exp(std::lerp(std::log(a), std::log(b), share));
+}
+
+LinePlace between(const LinePlace& a, const LinePlace& b, double share) {
+  return {between(a.samples, b.samples, share), between(a.seconds, b.seconds, share),
+          between(a.error, b.error, share)};
+}
+
+/// How far `value` lies on the way from a to b, by their logarithms.
+double share_of_way(double a, double b, double value) {
+  return a == b ? 0.0 : std::log(value / a) / std::log(b / a);
+}
+
+bool is_on(const std::vector<const AccuracyLine*>& lines, const AccuracyLine& line) {
+  return std::find(lines.begin(), lines.end(), &line) != lines.end();
+}
+
+}  // namespace
+
+bool is_measured(const AccuracyPoint& point) { return point.rmse_error <= kMeasured * point.rmse; }
+
+double known_error(const AccuracyPoint& point) {
+  return is_measured(point) ? point.rmse : point.predicted;
+}
+
+std::optional<LinePlace> at_time(const AccuracyLine& line, double seconds) {
+  const std::vector<LinePlace> places = known_places(line);
+  if (places.empty() || places.front().seconds > seconds) return std::nullopt;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    if (places[i].seconds < seconds) continue;
+    const LinePlace& before = places[i - 1];
+    return between(before, places[i], share_of_way(before.seconds, places[i].seconds, seconds));
+  }
+  const bool stays = line.is_biased || places.back().seconds == seconds;
+  return stays ? std::optional(places.back()) : std::nullopt;
+}
+
+std::optional<LinePlace> at_error(const AccuracyLine& line, double error) {
+  const std::vector<LinePlace> places = known_places(line);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].error > error) continue;
+    if (i == 0) return places[i];
+    const LinePlace& before = places[i - 1];
+    return between(before, places[i], share_of_way(before.error, places[i].error, error));
+  }
+  return std::nullopt;
+}
+
+double efficiency(const AccuracyLine& line) {
+  const std::vector<LinePlace> places = known_places(line);
+  if (places.empty()) return std::nan("");
+  const LinePlace& last = places.back();
+  return 1.0 / (last.error * last.error * last.seconds);
+}
+
+std::vector<ChartPoint> pareto_front(const AccuracyChart& chart) {
+  std::vector<ChartPoint> points;
+  for (const AccuracyLine& line : chart.lines) {
+    for (const AccuracyPoint& point : line.points) {
+      if (is_known(known_error(point))) points.push_back({&line, &point});
+    }
+  }
+  const auto costs = [](const ChartPoint& p) {
+    return std::pair(p.point->seconds, known_error(*p.point));
+  };
+  std::stable_sort(points.begin(), points.end(),
+                   [&](const ChartPoint& a, const ChartPoint& b) { return costs(a) < costs(b); });
+  std::vector<ChartPoint> front;
+  for (const ChartPoint& p : points) {
+    if (front.empty() || known_error(*p.point) < known_error(*front.back().point)) {
+      front.push_back(p);
+    }
+  }
+  return front;
+}
+
+std::optional<FastestLine> fastest_to(const AccuracyChart& chart, double error) {
+  std::optional<FastestLine> fastest;
+  for (const AccuracyLine& line : chart.lines) {
+    const std::optional<LinePlace> place = at_error(line, error);
+    if (!place || (fastest && fastest->place.seconds <= place->seconds)) continue;
+    fastest = {&line, *place};
+  }
+  return fastest;
+}
+
+std::vector<const AccuracyLine*> leading_lines(const AccuracyChart& chart) {
+  std::vector<const AccuracyLine*> leading;
+  for (const ChartPoint& p : pareto_front(chart)) {
+    if (!is_on(leading, *p.line)) leading.push_back(p.line);
+  }
+  const std::vector<const AccuracyLine*> front = leading;
+  for (const AccuracyLine& line : chart.lines) {
+    const auto rival = std::find_if(leading.begin(), leading.end(), [&](const AccuracyLine* other) {
+      return other->family == line.family;
+    });
+    if (rival == leading.end()) {
+      leading.push_back(&line);
+    } else if (!is_on(front, **rival) && efficiency(line) > efficiency(**rival)) {
+      *rival = &line;
+    }
+  }
+  return leading;
+}
+
+}  // namespace lightproof

@@ -1,0 +1,62 @@
+// What can be read off a chart of speed against accuracy: errors at equal time, times and samples
+// to an error, and what nothing beats.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lightproof/results/accuracy_chart.h"
+
+namespace lightproof {
+
+/// Whether the error was measured: its standard error is at most half of it. Where it is more, the
+/// error is carried by rare estimates, few or none of which were seen.
+bool is_measured(const AccuracyPoint& point);
+
+/// The measured error, or the predicted one where it was not measured; not a number if neither is
+/// known.
+double known_error(const AccuracyPoint& point);
+
+/// A place on a line, which may lie between two of its points.
+struct LinePlace {
+  double samples = 0.0;
+  double seconds = 0.0;
+  double error = 0.0;
+};
+
+/// What a line reaches in so many seconds, by straight lines between the logarithms of its points;
+/// a biased one stays at its last point with more. None if its first estimate takes longer, or if
+/// it was not measured for so long.
+std::optional<LinePlace> at_time(const AccuracyLine& line, double seconds);
+
+/// Where a line first reaches an error, in the same way. None if it does not within its points.
+std::optional<LinePlace> at_error(const AccuracyLine& line, double error);
+
+/// 1 / (error^2 x seconds) at the last point whose error is known: of an unbiased line the same at
+/// all of its points, but for what an estimate takes that does not depend on its samples. Not a
+/// number if no error is known, or if the error is 0.
+double efficiency(const AccuracyLine& line);
+
+/// A point and the line that it belongs to, both of a chart, which must outlive it.
+struct ChartPoint {
+  const AccuracyLine* line;
+  const AccuracyPoint* point;
+};
+
+/// The points that no other beats in time and in error, the fastest first.
+std::vector<ChartPoint> pareto_front(const AccuracyChart& chart);
+
+/// The line that reaches an error first, and where.
+struct FastestLine {
+  const AccuracyLine* line;
+  LinePlace place;
+};
+
+/// None if no line reaches it.
+std::optional<FastestLine> fastest_to(const AccuracyChart& chart, double error);
+
+/// The lines that stand for all: those on the front, and of each family without one there the most
+/// efficient.
+std::vector<const AccuracyLine*> leading_lines(const AccuracyChart& chart);
+
+}  // namespace lightproof
