@@ -44,6 +44,12 @@ function inspect(leastSections) {
 
 /** Runs inside the page: one chart. */
 function inspectChart(figure) {
+  /** Where marks may stand: in the figure, or in what it scrolls to. */
+  function outlineOf(figure) {
+    const { left, right } = figure.getBoundingClientRect();
+    const drawing = figure.querySelector(".drawing");
+    return { left, right: right + drawing.scrollWidth - drawing.clientWidth };
+  }
   const name = `chart ${figure.id}`;
   if (figure.dataset.drawn !== "yes") return [`${name}: not drawn`];
   const svg = figure.querySelector(".drawing svg.marks");
@@ -59,7 +65,7 @@ function inspectChart(figure) {
     return box.width + box.height > 0.5;
   });
   if (visible.length === 0) problems.push(`${name}: no marks`);
-  const outline = figure.getBoundingClientRect();
+  const outline = outlineOf(figure);
   for (const shape of visible) {
     const box = shape.getBoundingClientRect();
     if (box.right > outline.right + 2 || box.left < outline.left - 2) {

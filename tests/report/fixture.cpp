@@ -350,15 +350,16 @@ std::vector<AccuracyChart> accuracy() {
 /// What `lightproof recommend` would say of the first two maps.
 std::vector<Recommendation> recommendations() {
   std::vector<Recommendation> all(2);
-  all[0] = {.map = kMaps[0],
-            .receiver = "sphere",
-            .material = "ggx:0.3",
-            .error = 0.05,
-            .shading_points = 307200,
-            .choice = {"environment B alias", 64, 3163136, 0.048, 0.049, 0.002, 0.012, 8.1},
-            .runner_up = RecommendedMethod{"mis balance", 81, 3163136, 0.05},
-            .reason = "Small lights rule this map, and the material is rough.",
-            .unreached = {{"precomputed", "its floor is 8 %"}}};
+  Recommendation& first = all[0];
+  first.map = kMaps[0];
+  first.receiver = "sphere";
+  first.material = "ggx:0.3";
+  first.error = 0.05;
+  first.shading_points = 307200;
+  first.choice = {"environment B alias", 64, 3163136, 0.048, 0.049, 0.002, 0.012, 8.1};
+  first.runner_up = RecommendedMethod{"mis balance", 81, 3163136, 0.05};
+  first.reason = "Small lights rule this map, and the material is rough.";
+  first.unreached = {{"precomputed", "its floor is 8 %"}};
   all[1] = all[0];
   all[1].map = kMaps[7];
   all[1].runner_up.reset();

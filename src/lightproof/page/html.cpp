@@ -158,8 +158,11 @@ std::string chart_figure(const Chart& chart, std::string_view extra_html, bool s
       "<div class=\"controls\"></div>\n<div class=\"drawing\" role=\"group\" "
       "aria-label=\"{4}\"></div>\n"
       "<script type=\"application/json\">{5}</script>\n",
-      small ? " small" : "", escaped(chart.id), heading, escaped(chart.title),
-      escaped(chart.description), script_safe_json(chart.spec));
+      small           ? " small"
+      : chart.is_wide ? " wide"
+                      : "",
+      escaped(chart.id), heading, escaped(chart.title), escaped(chart.description),
+      script_safe_json(chart.spec));
   if (!chart.titles.empty()) html += titles_html(chart.titles);
   if (!chart.note.empty()) html += paragraph(chart.note, "note");
   return html + std::string(extra_html) + "</figure>\n";

@@ -76,6 +76,8 @@ struct Chart {
   std::string spec;         ///< Vega-Lite JSON
   /// Titles that take the place of `title` as the reader chooses; may be empty.
   std::vector<ChartTitle> titles = {};
+  /// Whether it has so many columns that a narrow window scrolls it sideways.
+  bool is_wide = false;
 };
 
 /// A part of a chart's figure that is shown only while its lists have chosen `key`.

@@ -26,15 +26,11 @@ Cell time_cell(double seconds) { return {seconds_text(seconds), "number", ""}; }
 
 Cell percent_cell(double fraction) { return {percent(fraction), "number", ""}; }
 
-Cell count_cell(double count) {
-  return {with_thousands(static_cast<std::uint64_t>(std::ceil(count))), "number", ""};
-}
-
 /// Samples have no meaning to an estimator of one point.
 Cell samples_cell(const AccuracyLine& line, const std::optional<LinePlace>& place) {
   if (!place) return none_cell("not reached within what was measured");
   if (line.points.size() == 1) return {"look-up", "number", "its budget is without meaning"};
-  return count_cell(place->samples);
+  return {with_thousands(whole_samples(*place)), "number", ""};
 }
 
 double time_to(const AccuracyLine& line, double error) {

@@ -15,7 +15,7 @@ constexpr double kLowError = 0.01;
 constexpr std::string_view kSimplest = "uniform";
 
 std::string samples_text(const FastestLine& fastest) {
-  const auto samples = static_cast<std::uint64_t>(std::ceil(fastest.place.samples));
+  const auto samples = whole_samples(fastest.place);
   if (fastest.line->points.size() == 1) return fastest.line->estimator;
   return fmt::format("{}, {}", fastest.line->estimator, counted(samples, "sample"));
 }

@@ -20,7 +20,8 @@ constexpr std::string_view kHowToRead =
     "then (root mean square error over the points, bias included, over the mean). Left and low is "
     "good. Falling lines are unbiased: more samples, less error. A single mark is a look-up that "
     "takes what it takes; the dotted line is its floor, the error that no budget takes away. Rings "
-    "on the broad grey line: nothing is both faster and more exact (the Pareto front). In colour: "
+    "on the broad grey line: nothing is both faster and more exact by more than a tenth (the "
+    "Pareto front). In colour: "
     "those, and the most efficient of every other family; the rest is grey until its family is "
     "clicked in the legend. Point at a mark for its name, samples, time and error. Bars: two "
     "standard errors on either side. Errors below 0.01 % and above 1000 % are drawn on the edge.";

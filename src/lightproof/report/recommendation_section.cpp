@@ -74,7 +74,7 @@ std::string measured_table(const std::vector<AccuracyChart>& charts) {
     const std::optional<FastestLine> fastest = fastest_to(chart, kUsualError);
     if (!fastest) continue;
     const AccuracyLine& line = *fastest->line;
-    const auto samples = static_cast<std::uint64_t>(std::ceil(fastest->place.samples));
+    const auto samples = whole_samples(fastest->place);
     const std::string take =
         line.points.size() == 1
             ? fmt::format("{}, {} error", line.estimator, percent(fastest->place.error))

@@ -2,14 +2,19 @@
 "use strict";
 (() => {
   const narrow = 640;
+  const scrolled = 640; // of the plot of a chart that is wider than the page
 
-  // On a narrow page legends have one column, the kinds of line go below the chart, and labels that
-  // would stand upright are left to the tooltips and the table.
-  function fitted(spec, width) {
+  // On a narrow page legends have one column and the kinds of line go below the chart; a chart with
+  // many columns keeps its width, and is scrolled.
+  function fitted(spec, width, isWide) {
     if (width >= narrow) return spec;
+    if (isWide) {
+      spec.width = scrolled;
+      spec.autosize = { type: "pad", contains: "padding" };
+      return spec;
+    }
     spec.config.legend.columns = 1;
     for (const layer of spec.layer) {
-      if (layer.encoding.x?.axis?.labelAngle) layer.encoding.x.axis.labels = false;
       for (const [name, channel] of Object.entries(layer.encoding)) {
         if (!channel.legend) continue;
         channel.legend.columns = 1;
@@ -38,7 +43,7 @@
     const small = figure.classList.contains("small");
     try {
       const spec = JSON.parse(figure.querySelector("script").textContent);
-      await vegaEmbed(target, fitted(spec, target.clientWidth), {
+      await vegaEmbed(target, fitted(spec, target.clientWidth, figure.classList.contains("wide")), {
         mode: "vega-lite",
         bind: figure.querySelector(".controls"),
         renderer: "svg",

@@ -1,0 +1,213 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "fixture.h"
+#include "lightproof/report/accuracy_blocks.h"
+#include "lightproof/report/accuracy_charts.h"
+#include "lightproof/report/accuracy_findings.h"
+#include "lightproof/report/accuracy_reading.h"
+#include "lightproof/report/sections.h"
+
+namespace lightproof {
+namespace {
+
+using nlohmann::json;
+
+/// Error 1 / sqrt(N), a microsecond a sample, at N = 1, 4, 16, 64.
+AccuracyLine falling(const char* name, const char* family, double scale = 1.0) {
+  AccuracyLine line;
+  line.estimator = name;
+  line.family = family;
+  for (const std::uint64_t samples : {1, 4, 16, 64}) {
+    const auto n = static_cast<double>(samples);
+    const double error = scale / std::sqrt(n);
+    line.points.push_back({samples, 1e-6 * n, error, 0.02 * error});
+  }
+  return line;
+}
+
+AccuracyLine look_up(const char* name, double seconds, double error) {
+  AccuracyLine line;
+  line.estimator = name;
+  line.family = "precomputed";
+  line.is_biased = true;
+  line.floor = error;
+  line.points = {{1, seconds, error, 0.0}};
+  return line;
+}
+
+AccuracyChart chart_of(std::vector<AccuracyLine> lines) {
+  AccuracyChart chart;
+  chart.map = "map";
+  chart.receiver = "sphere";
+  chart.material = "lambert";
+  chart.shading_points = 24;
+  chart.quality = "draft";
+  chart.lines = std::move(lines);
+  return chart;
+}
+
+std::vector<std::string> names_of(const std::vector<const AccuracyLine*>& lines) {
+  std::vector<std::string> names;
+  for (const AccuracyLine* line : lines) names.push_back(line->estimator);
+  return names;
+}
+
+TEST(AccuracyReading, GoesStraightBetweenLogarithms) {
+  const AccuracyLine line = falling("a", "lobes");
+  const auto place = at_error(line, 1.0 / std::sqrt(8.0));
+  ASSERT_TRUE(place);
+  EXPECT_NEAR(place->samples, 8.0, 1e-9);
+  EXPECT_NEAR(place->seconds, 8e-6, 1e-15);
+  const auto later = at_time(line, 32e-6);
+  ASSERT_TRUE(later);
+  EXPECT_NEAR(later->error, 1.0 / std::sqrt(32.0), 1e-12);
+}
+
+TEST(AccuracyReading, DoesNotGoBeyondWhatWasMeasured) {
+  const AccuracyLine line = falling("a", "lobes");
+  EXPECT_FALSE(at_error(line, 0.1));
+  EXPECT_FALSE(at_time(line, 65e-6));
+  EXPECT_FALSE(at_time(line, 0.9e-6));
+  EXPECT_EQ(at_error(line, 3.0)->samples, 1.0);
+}
+
+TEST(AccuracyReading, StaysAtTheErrorOfALookUpHoweverLongItMayTake) {
+  const AccuracyLine line = look_up("a", 1e-7, 0.08);
+  EXPECT_EQ(at_time(line, 1.0)->error, 0.08);
+  EXPECT_FALSE(at_error(line, 0.05));
+}
+
+TEST(AccuracyReading, TakesThePredictionWhereRareHitsWereMissed) {
+  AccuracyPoint point{4, 1e-6, 0.3, 0.16, 2.0};
+  EXPECT_FALSE(is_measured(point));
+  EXPECT_EQ(known_error(point), 2.0);
+  point.predicted = std::nan("");
+  EXPECT_TRUE(std::isnan(known_error(point)));
+  point.rmse_error = 0.15;
+  EXPECT_TRUE(is_measured(point));
+  EXPECT_EQ(known_error(point), 0.3);
+}
+
+TEST(AccuracyReading, HasTheSameEfficiencyAllAlongALine) {
+  AccuracyLine line = falling("a", "lobes");
+  EXPECT_NEAR(efficiency(line), 1e6, 1e-3);
+  line.points.resize(2);
+  EXPECT_NEAR(efficiency(line), 1e6, 1e-3);
+}
+
+TEST(AccuracyFront, LeavesOutWhatIsSlowerAndHardlyBetter) {
+  const AccuracyChart chart =
+      chart_of({falling("a", "lobes"), falling("b", "MIS", 0.95), look_up("c", 1e-7, 0.3)});
+  std::vector<std::pair<std::string, std::uint64_t>> front;
+  for (const ChartPoint& p : pareto_front(chart)) {
+    front.emplace_back(p.line->estimator, p.point->samples);
+  }
+  EXPECT_EQ(front, (std::vector<std::pair<std::string, std::uint64_t>>{
+                       {"c", 1}, {"b", 16}, {"b", 64}}));
+}
+
+TEST(LeadingLines, AreTheFrontAndTheBestOfEveryOtherFamily) {
+  const AccuracyChart chart =
+      chart_of({falling("worse", "lobes", 3.0), falling("better", "lobes", 2.0),
+                falling("best", "MIS"), falling("second", "MIS", 1.5), look_up("c", 1e-7, 0.3)});
+  std::vector<std::string> names = names_of(leading_lines(chart));
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"best", "better", "c"}));
+}
+
+TEST(AccuracyFinding, NamesTheFastestToEachErrorAndTheHandicapOfUniform) {
+  EXPECT_EQ(accuracy_finding(chart_of({falling("uniform", "uniform", 0.2),
+                                       falling("b", "MIS", 0.02), look_up("c", 1e-7, 0.04)})),
+            "5\u00a0% error takes 100\u00a0ns (c), 1\u00a0% error takes 4\u00a0\u00b5s (b, 4 "
+            "samples); to 5\u00a0% uniform sampling takes 160 times as long");
+  EXPECT_EQ(accuracy_finding(chart_of({falling("uniform", "uniform", 9.0)})),
+            "5\u00a0% error is reached by none");
+}
+
+TEST(AccuracyCaveats, SayWhatIsPredictedAndWhatIgnoresOcclusion) {
+  AccuracyChart chart = chart_of({falling("a", "lobes")});
+  EXPECT_EQ(accuracy_caveats(chart), "1 estimator, 24 shading points, quality draft.");
+  chart.lines[0].points[0].rmse_error = 0.6;
+  chart.is_occluded = true;
+  const std::string text = accuracy_caveats(chart);
+  EXPECT_NE(text.find("At 1 point the error is carried by rare hits"), std::string::npos) << text;
+  EXPECT_NE(text.find("blocks the light"), std::string::npos) << text;
+}
+
+TEST(SlopeFinding, SetsTheAliasTableAgainstTheMonotoneOne) {
+  AccuracyLine monotone = falling("environment B sobol", "point sets");
+  AccuracyLine alias = falling("environment B alias sobol", "point sets");
+  monotone.slope = -0.8;
+  alias.slope = -0.5;
+  monotone.slope_error = alias.slope_error = 0.01;
+  EXPECT_EQ(slope_finding(chart_of({monotone, alias})),
+            "Error falls as N to the power of: sobol points \u22120.800 \u00b1 0.010 by the "
+            "monotone table, \u22120.500 \u00b1 0.010 by the alias table");
+}
+
+TEST(AccuracyChartSpec, MarksWhatLeadsAndDashesWhatWasNotMeasured) {
+  AccuracyLine rare = falling("uniform", "uniform", 30.0);
+  for (AccuracyPoint& point : rare.points) point.predicted = 1.1 * point.rmse;
+  rare.points[0].rmse_error = rare.points[0].rmse;
+  const json spec = json::parse(accuracy_chart({chart_of(
+      {rare, falling("a", "MIS"), falling("b", "MIS", 2.0), look_up("c", 1e-7, 0.3)})}));
+  json of_rare;
+  json of_b;
+  for (const json& row : spec["data"]["values"]) {
+    if (row.value("series", "") == "uniform") of_rare.push_back(row);
+    if (row.value("series", "") == "b") of_b.push_back(row);
+  }
+  ASSERT_EQ(of_rare.size(), 4U);
+  EXPECT_TRUE(of_rare[0]["rmse"].is_null());
+  EXPECT_EQ(of_rare[0]["predicted"], 10.0) << "drawn on the edge";
+  EXPECT_FALSE(of_rare[1]["predicted"].is_null()) << "the dashed line reaches the measured one";
+  EXPECT_TRUE(of_rare[2]["predicted"].is_null());
+  EXPECT_TRUE(of_rare[0]["leads"]);
+  EXPECT_FALSE(of_b[0]["leads"]);
+}
+
+TEST(AccuracyChartSpec, OffersEveryMapReceiverAndMaterial) {
+  const std::vector<AccuracyChart> charts = testing::synthetic_study().accuracy;
+  const json spec = json::parse(accuracy_chart(charts));
+  ASSERT_EQ(spec["params"].size(), 3U);
+  EXPECT_EQ(spec["params"][0]["bind"]["options"].size(), 8U);
+  EXPECT_EQ(spec["params"][1]["value"], "sphere") << "the receiver that nothing occludes";
+}
+
+TEST(PlaceChoice, OffersWholePlacesWhereCombinationsAreMissing) {
+  const std::vector<Place> places = {{"a", "x"}, {"a", "y"}, {"b", "x"}};
+  const PlaceChoice choice({{"map", "Map"}, {"scene", "Scene"}}, places, places[2]);
+  const json params = choice.params();
+  ASSERT_EQ(params.size(), 1U);
+  EXPECT_EQ(params[0]["value"], "b, x");
+  EXPECT_EQ(choice.key(places[1]), "a, y");
+  const PlaceChoice full({{"map", "Map"}, {"scene", "Scene"}},
+                         {{"a", "x"}, {"a", "y"}, {"b", "x"}, {"b", "y"}}, {"b", "y"});
+  EXPECT_EQ(full.params().size(), 2U);
+  EXPECT_EQ(full.key({"a", "y"}), "a | y");
+}
+
+TEST(AccuracyTables, NameWhatWasLeftOutAndWhy) {
+  const std::string html = accuracy_tables_html(testing::synthetic_study().accuracy[0]);
+  EXPECT_NE(html.find("1 estimator left out, and why"), std::string::npos);
+  EXPECT_NE(html.find("it does not serve this material"), std::string::npos);
+}
+
+TEST(RecommendationSection, HasARowForEachMapOrWhatWasMeasured) {
+  StudyResult study = testing::synthetic_study();
+  const std::string recommended = recommendation_section(study);
+  EXPECT_NE(recommended.find("environment B alias, 64 samples, 5\u00a0% error"), std::string::npos);
+  EXPECT_NE(recommended.find("its floor is 8 %"), std::string::npos);
+  study.recommendations.clear();
+  const std::string measured = recommendation_section(study);
+  EXPECT_NE(measured.find("as it was measured here"), std::string::npos);
+  study.accuracy.clear();
+  EXPECT_EQ(recommendation_section(study), "");
+}
+
+}  // namespace
+}  // namespace lightproof
