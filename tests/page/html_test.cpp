@@ -47,11 +47,11 @@ TEST(ChartFigure, HoldsTitlesAndBlocksForTheScriptThatFollowsTheLists) {
   const std::string html =
       chart_figure({"id", "first", "", "", "{}", {{"a | </script>", "first"}, {"b", "<second>"}}},
                    choice_block("a | \"x\"", "<p>1</p>"));
-  EXPECT_NE(html.find(R"(class="titles">{"a | \u003c/script>":"first","b":"\u003csecond>"}</script>)"),
-            std::string::npos)
+  EXPECT_NE(
+      html.find(R"(class="titles">{"a | \u003c/script>":"first","b":"\u003csecond>"}</script>)"),
+      std::string::npos)
       << html;
-  EXPECT_NE(html.find("<div data-choice=\"a | &quot;x&quot;\">\n<p>1</p></div>"),
-            std::string::npos)
+  EXPECT_NE(html.find("<div data-choice=\"a | &quot;x&quot;\">\n<p>1</p></div>"), std::string::npos)
       << html;
 }
 

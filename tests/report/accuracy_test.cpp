@@ -106,8 +106,14 @@ TEST(AccuracyFront, LeavesOutWhatIsSlowerAndHardlyBetter) {
   for (const ChartPoint& p : pareto_front(chart)) {
     front.emplace_back(p.line->estimator, p.point->samples);
   }
-  EXPECT_EQ(front, (std::vector<std::pair<std::string, std::uint64_t>>{
-                       {"c", 1}, {"b", 16}, {"b", 64}}));
+  EXPECT_EQ(front,
+            (std::vector<std::pair<std::string, std::uint64_t>>{{"c", 1}, {"b", 16}, {"b", 64}}));
+}
+
+TEST(AccuracyFront, IsNamedFromFastToExact) {
+  EXPECT_EQ(front_sentence(chart_of({falling("a", "lobes"), look_up("c", 1e-7, 0.3)})),
+            "On the front, from fast to exact: c (100\u00a0ns, 30\u00a0%); a "
+            "(16\u00a0\u00b5s, 25\u00a0%).");
 }
 
 TEST(LeadingLines, AreTheFrontAndTheBestOfEveryOtherFamily) {
@@ -153,8 +159,8 @@ TEST(AccuracyChartSpec, MarksWhatLeadsAndDashesWhatWasNotMeasured) {
   AccuracyLine rare = falling("uniform", "uniform", 30.0);
   for (AccuracyPoint& point : rare.points) point.predicted = 1.1 * point.rmse;
   rare.points[0].rmse_error = rare.points[0].rmse;
-  const json spec = json::parse(accuracy_chart({chart_of(
-      {rare, falling("a", "MIS"), falling("b", "MIS", 2.0), look_up("c", 1e-7, 0.3)})}));
+  const json spec = json::parse(accuracy_chart(
+      {chart_of({rare, falling("a", "MIS"), falling("b", "MIS", 2.0), look_up("c", 1e-7, 0.3)})}));
   json of_rare;
   json of_b;
   for (const json& row : spec["data"]["values"]) {

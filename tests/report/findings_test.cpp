@@ -332,7 +332,8 @@ TEST(RenderFinding, ComparesBestAndWorst) {
   RenderRecord timed = good;
   timed.point_seconds = 1.6e-5;
   EXPECT_EQ(render_finding({&timed}),
-            "In about 16\u00a0\u00b5s a pixel environment B has the smallest error, 2\u00a0% of the mean");
+            "In about 16\u00a0\u00b5s a pixel environment B has the smallest error, 2\u00a0% of "
+            "the mean");
   RenderRecord elsewhere = bad;
   elsewhere.map = "night";
   EXPECT_EQ(renders_finding({bad, good, elsewhere}),

@@ -49,6 +49,14 @@ std::vector<SeriesStyle> family_styles(const std::vector<AccuracyChart>& charts)
   return styles;
 }
 
+/// All layers share one legend, so all say the same of it.
+Json family_encoding(const std::vector<SeriesStyle>& styles, std::string SeriesStyle::*property) {
+  Json encoding =
+      series(styles, property, {{"title", "families (click to show one)"}, {"columns", 5}});
+  encoding["field"] = "family";
+  return encoding;
+}
+
 Json drawn(double error) {
   if (!drawable(error)) return nullptr;
   return rounded(std::clamp(error, kLeastDrawn, kMostDrawn));
@@ -135,7 +143,8 @@ Json opacity(double lit, double unlit) {
 
 Json time_axis(const LogRange& range) {
   Json x = quantity("seconds", "time of one shading point, without set-up (log)", "log");
-  x["axis"] = log_axis(range.low, range.high, "format(datum.value, '~s') + 's'");
+  x["axis"] = log_axis(range.low, range.high,
+                       "replace(format(datum.value, '~s'), regexp('([0-9.]+)'), '$1 ') + 's'");
   x["scale"]["nice"] = false;
   x["scale"]["padding"] = 12;
   return x;
@@ -223,11 +232,8 @@ Json front_rings() {
 
 /// The marks that are pointed at and, in the legend, clicked.
 Json dots(const std::vector<SeriesStyle>& styles) {
-  const Json legend = {{"title", "family (click to show all of it, click again to leave)"},
-                       {"columns", 5}};
-  Json colour = series(styles, &SeriesStyle::colour, legend);
-  Json shape = series(styles, &SeriesStyle::shape, legend);
-  colour["field"] = shape["field"] = "family";
+  const Json colour = family_encoding(styles, &SeriesStyle::colour);
+  const Json shape = family_encoding(styles, &SeriesStyle::shape);
   return {{"transform", only("rmse")},
           {"params",
            {{{"name", "family"},
@@ -275,9 +281,7 @@ std::string accuracy_chart(const std::vector<AccuracyChart>& charts) {
     }
   }
   const std::vector<SeriesStyle> styles = family_styles(charts);
-  Json colour = series(styles, &SeriesStyle::colour, nullptr);
-  colour["field"] = "family";
-  colour.erase("legend");
+  const Json colour = family_encoding(styles, &SeriesStyle::colour);
   Json chart = base_chart(460);
   chart["params"] = choice.params();
   chart["transform"] = {choice.filter()};

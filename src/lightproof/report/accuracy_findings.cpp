@@ -75,6 +75,18 @@ std::string accuracy_finding(const AccuracyChart& chart) {
   return text + handicap_of_uniform(chart);
 }
 
+std::string front_sentence(const AccuracyChart& chart) {
+  std::string text;
+  std::vector<const AccuracyLine*> named;
+  for (const ChartPoint& p : pareto_front(chart)) {
+    if (std::find(named.begin(), named.end(), p.line) != named.end()) continue;
+    named.push_back(p.line);
+    text += fmt::format("{}{} ({}, {})", text.empty() ? "" : "; ", p.line->estimator,
+                        seconds_text(p.point->seconds), percent(known_error(*p.point)));
+  }
+  return text.empty() ? "" : fmt::format("On the front, from fast to exact: {}.", text);
+}
+
 std::string accuracy_caveats(const AccuracyChart& chart) {
   std::string text = fmt::format(
       "{}, {}, quality {}.", counted(chart.lines.size(), "estimator"),

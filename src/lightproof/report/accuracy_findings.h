@@ -14,6 +14,9 @@ inline constexpr double kUsualError = 0.05;
 /// Which estimator reaches 5 % and 1 % first, when, and how much longer uniform sampling takes.
 std::string accuracy_finding(const AccuracyChart& chart);
 
+/// What is on the Pareto front, from fast to exact, each estimator once.
+std::string front_sentence(const AccuracyChart& chart);
+
 /// How many estimators are charted, how many errors could not be measured, and what is off because
 /// it ignores what blocks the light.
 std::string accuracy_caveats(const AccuracyChart& chart);

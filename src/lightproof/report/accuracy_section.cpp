@@ -41,9 +41,10 @@ std::string blocks_of(const std::vector<AccuracyChart>& charts) {
   std::string html;
   for (const AccuracyChart& chart : charts) {
     html += choice_block(choice.key(place_of(chart)),
-                         paragraph(fmt::format("{}, {}, {}: {}", chart.map, chart.receiver,
-                                               chart.material, accuracy_caveats(chart)),
-                                   "note") +
+                         paragraph(front_sentence(chart)) +
+                             paragraph(fmt::format("{}, {}, {}: {}", chart.map, chart.receiver,
+                                                   chart.material, accuracy_caveats(chart)),
+                                       "note") +
                              accuracy_tables_html(chart));
   }
   return html;

@@ -16,7 +16,7 @@
     spec.config.legend.columns = 1;
     for (const layer of spec.layer) {
       for (const [name, channel] of Object.entries(layer.encoding)) {
-        if (!channel.legend) continue;
+        if (!channel?.legend) continue;
         channel.legend.columns = 1;
         if (name === "strokeDash") channel.legend.orient = "bottom";
       }
