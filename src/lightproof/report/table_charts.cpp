@@ -53,7 +53,7 @@ Json dots(const std::vector<SeriesStyle>& styles) {
   Json size = {{"field", "accuracy"},
                {"type", "ordinal"},
                {"scale", {{"domain", {kExact, kClose, kOff}}, {"range", {50, 130, 260}}}}};
-  size["legend"] = {{"title", "worst texel's relative error"}, {"columns", 3}};
+  size["legend"] = {{"title", "worst texel's error"}, {"columns", 3}};
   return {{"mark", {{"type", "point"}, {"filled", true}, {"opacity", 1}}},
           {"encoding",
            {{"color", series(styles, &SeriesStyle::colour, legend)},
