@@ -8,121 +8,21 @@
 #include "lightproof/report/accuracy_blocks.h"
 #include "lightproof/report/accuracy_charts.h"
 #include "lightproof/report/accuracy_findings.h"
-#include "lightproof/report/accuracy_reading.h"
 #include "lightproof/report/sections.h"
+#include "tests/results/accuracy_lines.h"
 
 namespace lightproof {
 namespace {
 
 using nlohmann::json;
+using testing::chart_of;
+using testing::falling;
+using testing::look_up;
 
-/// Error 1 / sqrt(N), a microsecond a sample, at N = 1, 4, 16, 64.
-AccuracyLine falling(const char* name, const char* family, double scale = 1.0) {
-  AccuracyLine line;
-  line.estimator = name;
-  line.family = family;
-  for (const std::uint64_t samples : {1, 4, 16, 64}) {
-    const auto n = static_cast<double>(samples);
-    const double error = scale / std::sqrt(n);
-    line.points.push_back({samples, 1e-6 * n, error, 0.02 * error});
-  }
-  return line;
-}
-
-AccuracyLine look_up(const char* name, double seconds, double error) {
-  AccuracyLine line;
-  line.estimator = name;
-  line.family = "precomputed";
-  line.is_biased = true;
-  line.floor = error;
-  line.points = {{1, seconds, error, 0.0}};
-  return line;
-}
-
-AccuracyChart chart_of(std::vector<AccuracyLine> lines) {
-  AccuracyChart chart;
-  chart.map = "map";
-  chart.receiver = "sphere";
-  chart.material = "lambert";
-  chart.shading_points = 24;
-  chart.quality = "draft";
-  chart.lines = std::move(lines);
-  return chart;
-}
-
-std::vector<std::string> names_of(const std::vector<const AccuracyLine*>& lines) {
-  std::vector<std::string> names;
-  for (const AccuracyLine* line : lines) names.push_back(line->estimator);
-  return names;
-}
-
-TEST(AccuracyReading, GoesStraightBetweenLogarithms) {
-  const AccuracyLine line = falling("a", "lobes");
-  const auto place = at_error(line, 1.0 / std::sqrt(8.0));
-  ASSERT_TRUE(place);
-  EXPECT_NEAR(place->samples, 8.0, 1e-9);
-  EXPECT_NEAR(place->seconds, 8e-6, 1e-15);
-  const auto later = at_time(line, 32e-6);
-  ASSERT_TRUE(later);
-  EXPECT_NEAR(later->error, 1.0 / std::sqrt(32.0), 1e-12);
-}
-
-TEST(AccuracyReading, DoesNotGoBeyondWhatWasMeasured) {
-  const AccuracyLine line = falling("a", "lobes");
-  EXPECT_FALSE(at_error(line, 0.1));
-  EXPECT_FALSE(at_time(line, 65e-6));
-  EXPECT_FALSE(at_time(line, 0.9e-6));
-  EXPECT_EQ(at_error(line, 3.0)->samples, 1.0);
-}
-
-TEST(AccuracyReading, StaysAtTheErrorOfALookUpHoweverLongItMayTake) {
-  const AccuracyLine line = look_up("a", 1e-7, 0.08);
-  EXPECT_EQ(at_time(line, 1.0)->error, 0.08);
-  EXPECT_FALSE(at_error(line, 0.05));
-}
-
-TEST(AccuracyReading, TakesThePredictionWhereRareHitsWereMissed) {
-  AccuracyPoint point{4, 1e-6, 0.3, 0.16, 2.0};
-  EXPECT_FALSE(is_measured(point));
-  EXPECT_EQ(known_error(point), 2.0);
-  point.predicted = std::nan("");
-  EXPECT_TRUE(std::isnan(known_error(point)));
-  point.rmse_error = 0.15;
-  EXPECT_TRUE(is_measured(point));
-  EXPECT_EQ(known_error(point), 0.3);
-}
-
-TEST(AccuracyReading, HasTheSameEfficiencyAllAlongALine) {
-  AccuracyLine line = falling("a", "lobes");
-  EXPECT_NEAR(efficiency(line), 1e6, 1e-3);
-  line.points.resize(2);
-  EXPECT_NEAR(efficiency(line), 1e6, 1e-3);
-}
-
-TEST(AccuracyFront, LeavesOutWhatIsSlowerAndHardlyBetter) {
-  const AccuracyChart chart =
-      chart_of({falling("a", "lobes"), falling("b", "MIS", 0.95), look_up("c", 1e-7, 0.3)});
-  std::vector<std::pair<std::string, std::uint64_t>> front;
-  for (const ChartPoint& p : pareto_front(chart)) {
-    front.emplace_back(p.line->estimator, p.point->samples);
-  }
-  EXPECT_EQ(front,
-            (std::vector<std::pair<std::string, std::uint64_t>>{{"c", 1}, {"b", 16}, {"b", 64}}));
-}
-
-TEST(AccuracyFront, IsNamedFromFastToExact) {
+TEST(FrontSentence, GoesFromFastToExact) {
   EXPECT_EQ(front_sentence(chart_of({falling("a", "lobes"), look_up("c", 1e-7, 0.3)})),
             "On the front, from fast to exact: c (100\u00a0ns, 30\u00a0%); a "
             "(16\u00a0\u00b5s, 25\u00a0%).");
-}
-
-TEST(LeadingLines, AreTheFrontAndTheBestOfEveryOtherFamily) {
-  const AccuracyChart chart =
-      chart_of({falling("worse", "lobes", 3.0), falling("better", "lobes", 2.0),
-                falling("best", "MIS"), falling("second", "MIS", 1.5), look_up("c", 1e-7, 0.3)});
-  std::vector<std::string> names = names_of(leading_lines(chart));
-  std::sort(names.begin(), names.end());
-  EXPECT_EQ(names, (std::vector<std::string>{"best", "better", "c"}));
 }
 
 TEST(AccuracyFinding, NamesTheFastestToEachErrorAndTheHandicapOfUniform) {
@@ -197,6 +97,18 @@ TEST(PlaceChoice, OffersWholePlacesWhereCombinationsAreMissing) {
   EXPECT_EQ(full.key({"a", "y"}), "a | y");
 }
 
+TEST(RegimeChart, ShowsTheFastestAndTheFastestWithoutBias) {
+  const MethodRegimes regimes = testing::synthetic_study().method_regimes;
+  EXPECT_EQ(regime_finding(regimes),
+            "Fastest to 5\u00a0% error over 6 pairs of light and roughness: split-sum in 3, "
+            "environment B in 3");
+  const json rows = json::parse(regime_chart(regimes))["data"]["values"];
+  ASSERT_EQ(rows.size(), 12U);
+  EXPECT_EQ(rows[0]["series"], "split-sum");
+  EXPECT_EQ(rows[6]["series"], "brdf");
+  EXPECT_EQ(rows[7]["series"], "none");
+}
+
 TEST(AccuracyTables, NameWhatWasLeftOutAndWhy) {
   const std::string html = accuracy_tables_html(testing::synthetic_study().accuracy[0]);
   EXPECT_NE(html.find("1 estimator left out, and why"), std::string::npos);
@@ -208,6 +120,7 @@ TEST(RecommendationSection, HasARowForEachMapOrWhatWasMeasured) {
   const std::string recommended = recommendation_section(study);
   EXPECT_NE(recommended.find("environment B alias, 64 samples, 5\u00a0% error"), std::string::npos);
   EXPECT_NE(recommended.find("its floor is 8 %"), std::string::npos);
+  EXPECT_NE(recommended.find("table 512\u00d7256"), std::string::npos);
   study.recommendations.clear();
   const std::string measured = recommendation_section(study);
   EXPECT_NE(measured.find("as it was measured here"), std::string::npos);

@@ -10,7 +10,7 @@
 #include "lightproof/page/html.h"
 #include "lightproof/page/numbers.h"
 #include "lightproof/report/accuracy_findings.h"
-#include "lightproof/report/accuracy_reading.h"
+#include "lightproof/results/accuracy_reading.h"
 
 namespace lightproof {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "lightproof/page/chart_parts.h"
 #include "lightproof/page/numbers.h"
-#include "lightproof/report/accuracy_reading.h"
+#include "lightproof/results/accuracy_reading.h"
 
 namespace lightproof {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "lightproof/report/place_choice.h"
 #include "lightproof/results/accuracy_chart.h"
+#include "lightproof/results/method_regime.h"
 
 namespace lightproof {
 
@@ -24,5 +25,9 @@ std::string accuracy_chart(const std::vector<AccuracyChart>& charts);
 /// Fitted slopes of the estimators that draw dependent points, with bars of two standard errors,
 /// with lists to choose from; empty if there are none.
 std::string slope_chart(const std::vector<AccuracyChart>& charts);
+
+/// The fastest method over roughness and the width of the light, as a map; a list chooses whether
+/// biased ones count. `regimes` has some.
+std::string regime_chart(const MethodRegimes& regimes);
 
 }  // namespace lightproof

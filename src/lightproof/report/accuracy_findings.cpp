@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightproof/page/chart_parts.h"
 #include "lightproof/page/numbers.h"
-#include "lightproof/report/accuracy_reading.h"
+#include "lightproof/results/accuracy_reading.h"
 
 namespace lightproof {
 namespace {
@@ -103,6 +104,20 @@ std::string accuracy_caveats(const AccuracyChart& chart) {
         "ignore it, and are off by as much as their floor says, however exact they are elsewhere.";
   }
   return text;
+}
+
+std::string regime_finding(const MethodRegimes& regimes) {
+  std::vector<std::string> winners;
+  for (const MethodRegime& r : regimes.regimes) {
+    winners.push_back(r.estimator.empty() ? "none" : r.estimator);
+  }
+  std::string text;
+  for (const std::string& name : unique_names(winners)) {
+    text += fmt::format("{}{} in {}", text.empty() ? "" : ", ", name,
+                        std::count(winners.begin(), winners.end(), name));
+  }
+  return fmt::format("Fastest to {} error over {} of light and roughness: {}",
+                     percent(regimes.error), counted(winners.size(), "pair"), text);
 }
 
 std::string slope_finding(const AccuracyChart& chart) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lightproof/results/accuracy_chart.h"
+#include "lightproof/results/method_regime.h"
 
 namespace lightproof {
 
@@ -20,6 +21,9 @@ std::string front_sentence(const AccuracyChart& chart);
 /// How many estimators are charted, how many errors could not be measured, and what is off because
 /// it ignores what blocks the light.
 std::string accuracy_caveats(const AccuracyChart& chart);
+
+/// Which families win in how many of the cells. `regimes` has some.
+std::string regime_finding(const MethodRegimes& regimes);
 
 /// The alias tables and the monotone ones with the same points, by their fitted slopes.
 std::string slope_finding(const AccuracyChart& chart);

@@ -75,6 +75,39 @@ std::string slope_figure(const std::vector<AccuracyChart>& charts) {
                       "");
 }
 
+Table regime_table(const MethodRegimes& regimes) {
+  Table table("Which method wins where", {"Roughness", "Effective fraction", "Fastest", "Time",
+                                          "Fastest without bias", "Time"});
+  const auto time = [](const std::string& estimator, double seconds) {
+    return Cell{estimator.empty() ? "\u2013" : seconds_text(seconds), "number", ""};
+  };
+  for (const MethodRegime& r : regimes.regimes) {
+    table.add({number_cell(r.roughness, 2),
+               {percent(r.effective_fraction), "number", ""},
+               text_cell(r.estimator),
+               time(r.estimator, r.seconds),
+               text_cell(r.unbiased_estimator),
+               time(r.unbiased_estimator, r.unbiased_seconds)});
+  }
+  return table;
+}
+
+std::string regime_figure(const MethodRegimes& regimes) {
+  if (regimes.regimes.empty()) return "";
+  const std::string note = fmt::format(
+      "A sphere of GGX under one soft light that fills so much of the sphere: the fastest "
+      "estimator "
+      "to {} error, and its time for a shading point, without set-up.{}",
+      percent(regimes.error),
+      regimes.origin.empty() ? "" : fmt::format(" Measured on {}.", regimes.origin));
+  return chart_figure(
+      {"regime-chart", regime_finding(regimes),
+       "The fastest estimator over roughness and the width of the light", note,
+       regime_chart(regimes)},
+      collapsible("Which method wins where, as a table", regime_table(regimes).html()) +
+          download_link("method-regimes.csv", method_regimes_csv(regimes)));
+}
+
 }  // namespace
 
 std::string accuracy_section(const std::vector<AccuracyChart>& charts) {
@@ -103,8 +136,8 @@ std::string methods_section(const StudyResult& study) {
            "</section>\n";
   }
   return html + "<h3>The fastest to 5\u00a0% error</h3>\n" + winners_table_html(study.accuracy) +
-         samples_table_html(study.accuracy) + slope_figure(study.accuracy) +
-         warp_figures(study.warps) + "</section>\n";
+         samples_table_html(study.accuracy) + regime_figure(study.method_regimes) +
+         slope_figure(study.accuracy) + warp_figures(study.warps) + "</section>\n";
 }
 
 }  // namespace lightproof

@@ -6,15 +6,17 @@
 #include "lightproof/page/html.h"
 #include "lightproof/page/numbers.h"
 #include "lightproof/report/accuracy_findings.h"
-#include "lightproof/report/accuracy_reading.h"
 #include "lightproof/report/sections.h"
+#include "lightproof/results/accuracy_reading.h"
 
 namespace lightproof {
 namespace {
 
 Cell error_cell(const RecommendedMethod& method) {
   if (std::isnan(method.measured_error)) {
-    return {percent(method.predicted_error) + " predicted", "number", "not measured"};
+    return {fmt::format("{}{} predicted", method.is_upper_bound ? "at most " : "",
+                        percent(method.predicted_error)),
+            "number", "not measured"};
   }
   return {percent_with_error(method.measured_error, method.measured_error_error) + " measured",
           "number", percent(method.predicted_error) + " predicted"};
@@ -23,6 +25,13 @@ Cell error_cell(const RecommendedMethod& method) {
 std::string choice_text(const RecommendedMethod& method, double error) {
   return fmt::format("{}, {}, {} error", method.estimator, counted(method.samples, "sample"),
                      percent(error));
+}
+
+/// "3 MiB, 512×256".
+std::string memory_text(const RecommendedMethod& method) {
+  const std::string bytes = bytes_text(static_cast<double>(method.bytes));
+  return method.table.width > 0 ? fmt::format("{}, table {}", bytes, extent_text(method.table))
+                                : bytes;
 }
 
 std::string rival_text(const std::optional<RecommendedMethod>& rival) {
@@ -43,7 +52,7 @@ std::string recommendation_table(const std::vector<Recommendation>& recommendati
                error_cell(r.choice),
                {seconds_text(1e-3 * r.choice.milliseconds), "number", ""},
                {seconds_text(1e-3 * r.choice.set_up_milliseconds), "number", ""},
-               {bytes_text(static_cast<double>(r.choice.bytes)), "number", ""},
+               {memory_text(r.choice), "number", ""},
                text_cell(rival_text(r.runner_up)),
                {why, "detail", ""}});
   }
