@@ -44,6 +44,12 @@ function inspect(leastSections) {
 
 /** Runs inside the page: one chart. */
 function inspectChart(figure) {
+  /** Where marks may stand: in the figure, or in what it scrolls to. */
+  function outlineOf(figure) {
+    const { left, right } = figure.getBoundingClientRect();
+    const drawing = figure.querySelector(".drawing");
+    return { left, right: right + drawing.scrollWidth - drawing.clientWidth };
+  }
   const name = `chart ${figure.id}`;
   if (figure.dataset.drawn !== "yes") return [`${name}: not drawn`];
   const svg = figure.querySelector(".drawing svg.marks");
@@ -59,7 +65,7 @@ function inspectChart(figure) {
     return box.width + box.height > 0.5;
   });
   if (visible.length === 0) problems.push(`${name}: no marks`);
-  const outline = figure.getBoundingClientRect();
+  const outline = outlineOf(figure);
   for (const shape of visible) {
     const box = shape.getBoundingClientRect();
     if (box.right > outline.right + 2 || box.left < outline.left - 2) {
@@ -116,6 +122,17 @@ async function inspectChoices(page, figure) {
   return problems;
 }
 
+/** Opens the closed block that a chart stands in, and waits until it is drawn there. */
+async function unfold(page, figure, problems) {
+  await figure.evaluate((chart) => {
+    const closed = chart.closest("details:not([open])");
+    if (closed) closed.open = true;
+  });
+  await page
+    .waitForFunction((chart) => chart.dataset.drawn, figure, { timeout: drawingTimeout })
+    .catch(() => problems.push("a folded chart was not drawn in time"));
+}
+
 async function inspectPage(context, url, view, folder) {
   const problems = [];
   const page = await context.newPage();
@@ -143,6 +160,7 @@ async function inspectPage(context, url, view, folder) {
   problems.push(...(await page.evaluate(inspect, leastSections)));
   await page.screenshot({ path: join(folder, `${view.name}.png`), fullPage: true });
   for (const figure of await page.$$("figure.chart")) {
+    await unfold(page, figure, problems);
     problems.push(...(await figure.evaluate(inspectChart)));
     problems.push(...(await inspectChoices(page, figure)));
   }

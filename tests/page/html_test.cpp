@@ -43,5 +43,17 @@ TEST(Escaped, HoldsNothingThatXmlCannot) {
   EXPECT_EQ(escaped("tab\t and line\n"), "tab\t and line\n");
 }
 
+TEST(ChartFigure, HoldsTitlesAndBlocksForTheScriptThatFollowsTheLists) {
+  const std::string html =
+      chart_figure({"id", "first", "", "", "{}", {{"a | </script>", "first"}, {"b", "<second>"}}},
+                   choice_block("a | \"x\"", "<p>1</p>"));
+  EXPECT_NE(
+      html.find(R"(class="titles">{"a | \u003c/script>":"first","b":"\u003csecond>"}</script>)"),
+      std::string::npos)
+      << html;
+  EXPECT_NE(html.find("<div data-choice=\"a | &quot;x&quot;\">\n<p>1</p></div>"), std::string::npos)
+      << html;
+}
+
 }  // namespace
 }  // namespace lightproof

@@ -59,5 +59,18 @@ TEST(Numbers, GroupThousands) {
   EXPECT_EQ(count_word(13), "13");
 }
 
+TEST(SecondsText, TakesTheUnitThatSuits) {
+  EXPECT_EQ(seconds_text(9.5e-8), "95\u00a0ns");
+  EXPECT_EQ(seconds_text(9.999e-7), "1\u00a0\u00b5s");
+  EXPECT_EQ(seconds_text(1.34e-6), "1.3\u00a0\u00b5s");
+  EXPECT_EQ(seconds_text(0.0042), "4.2\u00a0ms");
+  EXPECT_EQ(seconds_text(2.0), "2\u00a0s");
+}
+
+TEST(PercentWithError, HasTheDecimalsOfTheError) {
+  EXPECT_EQ(percent_with_error(0.0213, 0.0031), "2.13 \u00b1 0.31\u00a0%");
+  EXPECT_EQ(percent_with_error(0.0213, 0.0), "2.1\u00a0%");
+}
+
 }  // namespace
 }  // namespace lightproof

@@ -91,26 +91,22 @@ std::vector<std::string> names_of(const std::vector<TableRecord>& records) {
   return names;
 }
 
-TEST(ParetoFront, IsWhatNothingBeatsInBothCosts) {
-  const std::vector<TableRecord> tables = testing::synthetic_study().tables;
-  EXPECT_EQ(
-      names_of(pareto_front(tables, &TableRecord::worst_texel_error, &TableRecord::ns_per_sample)),
-      (std::vector<std::string>{"alias", "packed_alias"}));
-  EXPECT_EQ(
-      names_of(pareto_front(tables, &TableRecord::bytes_per_texel, &TableRecord::ns_per_sample)),
-      (std::vector<std::string>{"alias_lines", "guide_table", "packed_alias"}));
+TEST(UnbeatenTables, AreThoseThatNothingBeatsInTimeSizeAndErrorAtOnce) {
+  EXPECT_EQ(names_of(unbeaten_tables(testing::synthetic_study().tables)),
+            (std::vector<std::string>{"packed_alias", "alias", "guide_table", "alias_lines",
+                                      "binary_search"}));
 }
 
-TEST(TableChart, MarksTheFrontOfTheLargestMap) {
+TEST(TableChart, MarksWhatIsNotBeatenOnTheLargestMap) {
   std::vector<TableRecord> tables = testing::synthetic_study().tables;
   tables.push_back({"small map", "sun-sky", {4, 2}, 1.0, 1.0, 1e-9, 99.0, 1.0});
-  const json rows =
-      json::parse(table_chart(tables, &TableRecord::bytes_per_texel, "size"))["data"]["values"];
+  const json rows = json::parse(table_chart(tables))["data"]["values"];
   ASSERT_EQ(rows.size(), 6U);
   EXPECT_EQ(rows[0]["series"], "upper_bound_baseline");
-  EXPECT_EQ(rows[0]["front"], "beaten in both");
+  EXPECT_EQ(rows[0]["front"], "beaten in all three");
   EXPECT_EQ(rows[3]["series"], "alias_lines");
-  EXPECT_EQ(rows[3]["front"], "on the front");
+  EXPECT_EQ(rows[3]["front"], "not beaten");
+  EXPECT_EQ(rows[4]["accuracy"], "below 1e-5");
 }
 
 TEST(DirectionsFigure, SaysHowFastBatchesAndSinglesAreAndHowDensitiesDiffer) {
@@ -164,14 +160,38 @@ TEST(ThroughputChart, HasNoFramesWhereNothingIsKnown) {
   EXPECT_EQ(json::parse(throughput_chart(study))["layer"].size(), 3U);
 }
 
-TEST(BuildChart, ShowsTheTimesAgainstTexels) {
+TEST(ThroughputChart, ShowsTheFastestTheSlowestAndTheUsualSamplerFirst) {
   StudyResult study = testing::synthetic_study();
-  study.throughput[1].build_ms = 0.0;
-  const json rows = json::parse(build_chart(study))["data"]["values"];
-  ASSERT_EQ(rows.size(), 14U);
-  EXPECT_EQ(rows[0]["series"], "binary_search, exponent 1");
-  EXPECT_EQ(rows[0]["size"], 32768.0);
-  EXPECT_DOUBLE_EQ(rows[0]["cost"], study.throughput[0].build_ms);
+  study.throughput.push_back({"middling", "sun-sky", {4096, 2048}, 40.0, 39.0, 41.0, 1.0, 1.0});
+  std::set<std::string> leading;
+  for (const json& row : json::parse(throughput_chart(study))["data"]["values"]) {
+    if (row["leads"]) leading.insert(row["sampler"]);
+  }
+  EXPECT_EQ(leading,
+            (std::set<std::string>{"alias_table", "binary_search", "linear_scan_published"}));
+}
+
+TEST(ConvergenceChart, OpensWhereMostSlopesCouldBeFitted) {
+  auto records = testing::synthetic_study().convergence;
+  for (ConvergenceRecord& r : records) {
+    if (r.map != "forest") r.slope = std::nan("");
+  }
+  const json chart = json::parse(convergence_chart(records));
+  EXPECT_EQ(chart["params"][0]["value"], "forest");
+  const std::vector<ChartTitle> titles = convergence_titles(records);
+  EXPECT_EQ(titles.size(), 8U * 4U);
+  EXPECT_TRUE(titles[0].title.starts_with("forest, point up, Lambert: All 4 estimators fall"))
+      << titles[0].title;
+  EXPECT_EQ(titles[0].key, "forest | point up, Lambert");
+}
+
+TEST(VarianceChart, MakesPaleWhatSaysLittle) {
+  auto records = testing::synthetic_study().convergence;
+  records.resize(2);
+  records[0].variance_ratio_error = 0.34;
+  const json rows = json::parse(variance_chart(records))["data"]["values"];
+  EXPECT_FALSE(rows[0]["counts"].get<bool>());
+  EXPECT_TRUE(rows[1]["counts"].get<bool>());
 }
 
 }  // namespace

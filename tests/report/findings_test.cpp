@@ -326,9 +326,14 @@ TEST(RenderFinding, ComparesBestAndWorst) {
   bad.estimator = "uniform";
   bad.rmse = 0.5;
   EXPECT_EQ(render_finding({&bad, &good}),
-            "At 64 samples per pixel environment B has the smallest error, 0.0200 of the mean; "
+            "At 64 samples per pixel environment B has the smallest error, 2\u00a0% of the mean; "
             "that of uniform is 25 times as large");
   EXPECT_EQ(renders_finding({bad, good}), render_finding({&bad, &good}));
+  RenderRecord timed = good;
+  timed.point_seconds = 1.6e-5;
+  EXPECT_EQ(render_finding({&timed}),
+            "In about 16\u00a0\u00b5s a pixel environment B has the smallest error, 2\u00a0% of "
+            "the mean");
   RenderRecord elsewhere = bad;
   elsewhere.map = "night";
   EXPECT_EQ(renders_finding({bad, good, elsewhere}),

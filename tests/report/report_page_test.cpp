@@ -50,6 +50,9 @@ TEST(Page, SaysWhatWasNotMeasured) {
   study.frames.clear();
   study.points = {};
   study.level_costs = {};
+  study.accuracy.clear();
+  study.recommendations.clear();
+  study.method_regimes = {};
   const std::string page = report_page(study);
   EXPECT_NE(page.find("Throughput was not measured in this study. Build"), std::string::npos);
   EXPECT_EQ(page.find("<figure class=\"chart"), std::string::npos) << "an empty chart";

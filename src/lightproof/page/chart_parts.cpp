@@ -93,7 +93,7 @@ Json quantity(const std::string& field, const std::string& title, const std::str
   return encoding;
 }
 
-Json log_axis(double low, double high) {
+Json log_axis(double low, double high, const std::string& text) {
   // Labels stand at 1, 2 and 5, or at powers of ten where the range is wide; there the lines in
   // between step back, or go.
   const double span = high / low;
@@ -103,7 +103,7 @@ Json log_axis(double low, double high) {
                   wide ? "'1'" : "'1', '2', '5'");
   const double minor = !wide ? 1.0 : span < 1e4 ? 0.5 : 0.0;
   const Json opacity = {{"condition", {{"test", labelled}, {"value", 1}}}, {"value", minor}};
-  return {{"labelExpr", labelled + " ? format(datum.value, ',~g') : ''"},
+  return {{"labelExpr", labelled + " ? " + text + " : ''"},
           {"gridOpacity", opacity},
           {"tickOpacity", opacity}};
 }

@@ -38,8 +38,9 @@ Json series(const std::vector<SeriesStyle>& styles, std::string SeriesStyle::*pr
 /// A quantitative encoding; `scale` is "log" or "linear", neither starts at zero.
 Json quantity(const std::string& field, const std::string& title, const std::string& scale);
 
-/// The axis, with its labels, of a logarithmic scale from `low` to `high`.
-Json log_axis(double low, double high);
+/// The axis, with its labels, of a logarithmic scale from `low` to `high`. `text` is the Vega
+/// expression of a label.
+Json log_axis(double low, double high, const std::string& text = "format(datum.value, ',~g')");
 
 /// The range of values on a logarithmic axis: of those that are positive and finite.
 struct LogRange {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "lightproof/core/text_escapes.h"
 #include "lightproof/page/numbers.h"
@@ -25,6 +26,14 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
 std::string without_source_map(std::string code) {
   const std::size_t at = code.rfind("//# sourceMappingURL=");
   return at == std::string::npos ? code : code.substr(0, at);
+}
+
+/// Titles by what is chosen, for the page's script.
+std::string titles_html(const std::vector<ChartTitle>& titles) {
+  nlohmann::ordered_json by_key;
+  for (const auto& [key, title] : titles) by_key[well_formed_text(key)] = well_formed_text(title);
+  return fmt::format("<script type=\"application/json\" class=\"titles\">{}</script>\n",
+                     script_safe_json(by_key.dump()));
 }
 
 }  // namespace
@@ -138,6 +147,10 @@ std::string Table::html() const {
       escaped(caption_), class_attribute(css_class_), head, body_);
 }
 
+std::string choice_block(std::string_view key, std::string_view html) {
+  return fmt::format("<div data-choice=\"{}\">\n{}</div>\n", escaped(key), html);
+}
+
 std::string chart_figure(const Chart& chart, std::string_view extra_html, bool small) {
   const std::string_view heading = small ? "h4" : "h3";
   std::string html = fmt::format(
@@ -145,8 +158,12 @@ std::string chart_figure(const Chart& chart, std::string_view extra_html, bool s
       "<div class=\"controls\"></div>\n<div class=\"drawing\" role=\"group\" "
       "aria-label=\"{4}\"></div>\n"
       "<script type=\"application/json\">{5}</script>\n",
-      small ? " small" : "", escaped(chart.id), heading, escaped(chart.title),
-      escaped(chart.description), script_safe_json(chart.spec));
+      small           ? " small"
+      : chart.is_wide ? " wide"
+                      : "",
+      escaped(chart.id), heading, escaped(chart.title), escaped(chart.description),
+      script_safe_json(chart.spec));
+  if (!chart.titles.empty()) html += titles_html(chart.titles);
   if (!chart.note.empty()) html += paragraph(chart.note, "note");
   return html + std::string(extra_html) + "</figure>\n";
 }

@@ -61,6 +61,12 @@ class Table {
   std::string body_;
 };
 
+/// What a chart is headed by when its lists have chosen `key`: their entries with " | " between.
+struct ChartTitle {
+  std::string key;
+  std::string title;
+};
+
 /// A chart that the page's script draws from its specification.
 struct Chart {
   std::string id;           ///< letters, digits and '-'; also the name of a saved picture
@@ -68,7 +74,14 @@ struct Chart {
   std::string description;  ///< for those who cannot see it
   std::string note;         ///< how to read it; may be empty
   std::string spec;         ///< Vega-Lite JSON
+  /// Titles that take the place of `title` as the reader chooses; may be empty.
+  std::vector<ChartTitle> titles = {};
+  /// Whether it has so many columns that a narrow window scrolls it sideways.
+  bool is_wide = false;
 };
+
+/// A part of a chart's figure that is shown only while its lists have chosen `key`.
+std::string choice_block(std::string_view key, std::string_view html);
 
 /// A chart as a figure of the page; `extra_html` (tables, downloads) stands below the chart.
 std::string chart_figure(const Chart& chart, std::string_view extra_html, bool small = false);

@@ -66,6 +66,26 @@ std::string with_error(double value, double error) {
 
 std::string percent(double fraction) { return format_number(100.0 * fraction, 2) + "\u00a0%"; }
 
+std::string percent_with_error(double fraction, double error) {
+  if (!(error > 0.0) || !std::isfinite(error)) return percent(fraction);
+  return with_error(100.0 * fraction, 100.0 * error) + "\u00a0%";
+}
+
+std::string seconds_text(double seconds) {
+  struct Unit {
+    double seconds;
+    std::string_view name;
+  };
+  constexpr std::array<Unit, 3> kSmall = {{{1e-6, "ns"}, {1e-3, "\u00b5s"}, {1.0, "ms"}}};
+  // 999.5 of a unit would be written as 1000.
+  for (const auto& [limit, name] : kSmall) {
+    if (seconds < 0.9995 * limit) {
+      return fmt::format("{}\u00a0{}", format_number(seconds / limit * 1000.0, 2), name);
+    }
+  }
+  return format_number(seconds, 2) + "\u00a0s";
+}
+
 std::string with_thousands(std::uint64_t value) {
   std::string digits = std::to_string(value);
   for (std::size_t end = digits.size(); end > 3; end -= 3) digits.insert(end - 3, ",");

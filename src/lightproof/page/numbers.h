@@ -25,6 +25,12 @@ std::string with_error(double value, double error);
 /// A fraction in percent, "2.1 %", with a space that does not break; two significant digits.
 std::string percent(double fraction);
 
+/// A fraction with its standard error in percent, "2.1 ± 0.3 %"; without one as percent().
+std::string percent_with_error(double fraction, double error);
+
+/// A time in the unit that suits it, "1.3 µs": ns, µs, ms or s; two significant digits.
+std::string seconds_text(double seconds);
+
 /// A whole number with its thousands apart: "4,194,304".
 std::string with_thousands(std::uint64_t value);
 

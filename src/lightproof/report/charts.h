@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lightproof/page/chart_parts.h"
+#include "lightproof/page/html.h"
 #include "lightproof/report/pareto.h"
 #include "lightproof/results/study_result.h"
 
@@ -19,6 +20,10 @@ std::string scene_name(const ConvergenceRecord& record);
 
 /// A chart of RMSE against samples, log-log, with lists to choose map and scene from.
 std::string convergence_chart(const std::vector<ConvergenceRecord>& records);
+
+/// What that chart is headed by, for each map and scene; first the one that is shown first: where
+/// most slopes could be fitted.
+std::vector<ChartTitle> convergence_titles(const std::vector<ConvergenceRecord>& records);
 
 /// A small chart of RMSE against samples, log-log, for one map and scene, without a legend; the
 /// axes are those of all maps.
@@ -40,14 +45,8 @@ std::string variance_chart(const std::vector<ConvergenceRecord>& records);
 /// legend. Points at which a table leaves a cache, and measured breakpoints, are framed.
 std::string throughput_chart(const StudyResult& study);
 
-/// A chart of the ms of a build against the number of texels, log-log, with the fitted growth in
-/// the legend. No points are framed: a build reads the map from end to end, and waits for no cache.
-/// Records without such a time are left out.
-std::string build_chart(const StudyResult& study);
-
-/// A chart of ns per sample against another cost of the tables on the largest map, log-log, with
-/// the Pareto front. Records without such a cost are left out.
-std::string table_chart(const std::vector<TableRecord>& records, TableCost cost,
-                        const std::string& cost_name);
+/// A chart of ns per sample against the bytes of the tables on the largest map, log-log; the size
+/// of a mark tells the worst texel's error; rings around what nothing beats in all three.
+std::string table_chart(const std::vector<TableRecord>& records);
 
 }  // namespace lightproof

@@ -1,7 +1,10 @@
 // Convergence: the error of every estimator against its number of samples.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -9,6 +12,7 @@
 #include "lightproof/report/charts.h"
 #include "lightproof/report/findings.h"
 #include "lightproof/report/gate_summary.h"
+#include "lightproof/report/place_choice.h"
 
 namespace lightproof {
 namespace {
@@ -117,54 +121,51 @@ Json convergence_layers(const std::vector<SeriesStyle>& styles, LogRange range, 
   return {predicted, bars, measured, points};
 }
 
-/// What the reader can choose between.
-struct Choices {
-  std::vector<std::string> maps;
-  std::vector<std::string> scenes;
-  std::vector<std::string> places;  ///< map and scene in one
-  bool full = false;                ///< every scene was measured on every map
-};
+Place place_of(const ConvergenceRecord& r) { return {r.map, scene_name(r)}; }
 
-std::string place_name(const ConvergenceRecord& r) { return r.map + ", " + scene_name(r); }
-
-Choices choices_of(const std::vector<ConvergenceRecord>& records) {
-  Choices all;
-  for (const ConvergenceRecord& r : records) {
-    all.maps.push_back(r.map);
-    all.scenes.push_back(scene_name(r));
-    all.places.push_back(place_name(r));
-  }
-  all.maps = unique_names(all.maps);
-  all.scenes = unique_names(all.scenes);
-  all.places = unique_names(all.places);
-  all.full = all.places.size() == all.maps.size() * all.scenes.size();
-  return all;
-}
-
-Json choice(const char* param, const char* label, const Json& options) {
-  return {{"name", param},
-          {"value", options.front()},
-          {"bind", {{"input", "select"}, {"options", options}, {"name", label}}}};
-}
-
-/// What a row says about where it belongs.
-enum class Rows { plain, with_map_and_scene, with_place };
-
-Json convergence_rows(const std::vector<ConvergenceRecord>& records, Rows kind) {
+/// The rows of all records, or those that belong to a chart with lists.
+Json convergence_rows(const std::vector<ConvergenceRecord>& records, const PlaceChoice* choice) {
   Json rows = Json::array();
   for (const ConvergenceRecord& r : records) {
     for (const ConvergencePoint& p : r.points) {
       if (!drawable(p.rmse) || is_all_but_exact(r)) continue;
       rows.push_back(convergence_row(r, p));
-      if (kind == Rows::with_map_and_scene) {
-        rows.back()["map"] = r.map;
-        rows.back()["scene"] = scene_name(r);
-      } else if (kind == Rows::with_place) {
-        rows.back()["place"] = place_name(r);
-      }
+      if (choice != nullptr) choice->put(rows.back(), place_of(r));
     }
   }
   return rows;
+}
+
+/// Where the slopes of most estimators could be fitted: there is something to see.
+Place telling_place(const std::vector<ConvergenceRecord>& records) {
+  std::map<Place, int> fitted;
+  int most = 0;
+  for (const ConvergenceRecord& r : records) {
+    most = std::max(most, fitted[place_of(r)] += has_slope(r) ? 1 : 0);
+  }
+  const auto first = std::find_if(records.begin(), records.end(),
+                                  [&](const auto& r) { return fitted[place_of(r)] == most; });
+  return place_of(*first);
+}
+
+PlaceChoice choice_of(const std::vector<ConvergenceRecord>& records) {
+  std::vector<Place> places;
+  for (const ConvergenceRecord& r : records) places.push_back(place_of(r));
+  return {{{"map", "Map"}, {"scene", "Receiver, material"}}, places, telling_place(records)};
+}
+
+std::vector<ConvergenceRecord> records_at(const std::vector<ConvergenceRecord>& records,
+                                          const Place& place) {
+  std::vector<ConvergenceRecord> here;
+  std::copy_if(records.begin(), records.end(), std::back_inserter(here),
+               [&](const ConvergenceRecord& r) { return place_of(r) == place; });
+  return here;
+}
+
+/// What is found in one place.
+std::string place_title(const std::vector<ConvergenceRecord>& records, const Place& place) {
+  return fmt::format("{}, {}: {}", place[0], place[1],
+                     convergence_finding(records_at(records, place)));
 }
 
 }  // namespace
@@ -180,22 +181,26 @@ std::string scene_name(const ConvergenceRecord& record) {
 }
 
 std::string convergence_chart(const std::vector<ConvergenceRecord>& records) {
+  const PlaceChoice choice = choice_of(records);
   Json chart = base_chart(380);
-  chart["params"] = Json::array();
-  const Choices choices = choices_of(records);
-  if (choices.full) {
-    chart["params"].push_back(choice("chosen_map", "Map", choices.maps));
-    chart["params"].push_back(choice("chosen_scene", "Receiver, material", choices.scenes));
-    chart["transform"] = {{{"filter", "datum.map === chosen_map && datum.scene === chosen_scene"}}};
-  } else {
-    chart["params"].push_back(choice("chosen_place", "Map, receiver, material", choices.places));
-    chart["transform"] = {{{"filter", "datum.place === chosen_place"}}};
-  }
-  chart["data"] = {{"values", convergence_rows(records, choices.full ? Rows::with_map_and_scene
-                                                                     : Rows::with_place)}};
+  chart["params"] = choice.params();
+  chart["transform"] = {choice.filter()};
+  chart["data"] = {{"values", convergence_rows(records, &choice)}};
   chart["encoding"] = {{"x", samples_axis(records, "samples N per estimate (log)", 12)}};
   chart["layer"] = convergence_layers(estimator_styles(records), error_range(records), true);
   return text_of(chart);
+}
+
+std::vector<ChartTitle> convergence_titles(const std::vector<ConvergenceRecord>& records) {
+  const PlaceChoice choice = choice_of(records);
+  std::set<Place> places;
+  for (const ConvergenceRecord& r : records) places.insert(place_of(r));
+  const Place first = telling_place(records);
+  std::vector<ChartTitle> titles = {{choice.key(first), place_title(records, first)}};
+  for (const Place& place : places) {
+    if (place != first) titles.push_back({choice.key(place), place_title(records, place)});
+  }
+  return titles;
 }
 
 std::string small_convergence_chart(const std::vector<ConvergenceRecord>& records,
@@ -206,7 +211,7 @@ std::string small_convergence_chart(const std::vector<ConvergenceRecord>& record
   const LogRange range = error_range(shown);
   std::erase_if(shown, [&](const ConvergenceRecord& r) { return r.map != map; });
   Json chart = base_chart(190);
-  chart["data"] = {{"values", convergence_rows(shown, Rows::plain)}};
+  chart["data"] = {{"values", convergence_rows(shown, nullptr)}};
   chart["encoding"] = {{"x", samples_axis(records, "samples N (log)", 4)}};
   chart["layer"] = convergence_layers(estimator_styles(records), range, false);
   for (Json& layer : chart["layer"]) {

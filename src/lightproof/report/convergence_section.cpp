@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "lightproof/page/html.h"
 #include "lightproof/page/numbers.h"
@@ -108,6 +109,15 @@ std::string legend(const std::vector<ConvergenceRecord>& records) {
          "<li>solid: measured</li><li>dashed: predicted</li></ul>\n";
 }
 
+/// Each map is compared by the same two, if they were measured there.
+std::vector<const ConvergenceRecord*> usual_rivals(std::vector<const ConvergenceRecord*> here) {
+  std::vector<const ConvergenceRecord*> rivals;
+  std::copy_if(here.begin(), here.end(), std::back_inserter(rivals), [](const auto* r) {
+    return r->estimator == "uniform" || r->estimator == "environment B";
+  });
+  return rivals.size() == 2 ? rivals : here;
+}
+
 std::string small_multiples(const std::vector<ConvergenceRecord>& records) {
   const std::string scene = scene_name(records.front());
   std::vector<std::string> maps;
@@ -124,7 +134,7 @@ std::string small_multiples(const std::vector<ConvergenceRecord>& records) {
     for (const ConvergenceRecord& r : records) {
       if (scene_name(r) == scene && r.map == maps[i]) here.push_back(&r);
     }
-    const std::string title = fmt::format("{}: {}", maps[i], saving_finding(here));
+    const std::string title = fmt::format("{}: {}", maps[i], saving_finding(usual_rivals(here)));
     const std::string text = fmt::format("RMSE against samples on {}, {}", maps[i], scene);
     html += chart_figure({fmt::format("convergence-{}", i + 1), title, text, "",
                           small_convergence_chart(records, maps[i], scene)},
@@ -141,7 +151,9 @@ constexpr std::string_view kConvergenceNote =
 constexpr std::string_view kVarianceNote =
     "Every estimator of the convergence study once: its measured variance per sample divided by "
     "the variance that was computed from the map by quadrature. Bars: two standard errors on "
-    "either side, so about one in twenty may miss the line at 1.";
+    "either side, so about one in twenty may miss the line at 1. Pale: ratios with a standard "
+    "error "
+    "above a third, which say little, and do not count in the title.";
 
 }  // namespace
 
@@ -153,15 +165,20 @@ std::string convergence_section(const std::vector<ConvergenceRecord>& records) {
   }
   const auto exact = static_cast<std::size_t>(std::count_if(
       records.begin(), records.end(), [](const auto& r) { return is_all_but_exact(r); }));
-  std::string note = fmt::format("{} {}", kConvergenceNote, prediction_finding(records));
+  const std::vector<ChartTitle> titles = convergence_titles(records);
+  std::string note = fmt::format("{} Over all places: {}. {}", kConvergenceNote,
+                                 convergence_finding(records), prediction_finding(records));
   if (exact > 0) {
     note += fmt::format(" Not shown: {} that {} all but exact (variance below 1e-8 of mean\u00b2).",
                         counted(exact, "estimator"), exact == 1 ? "is" : "are");
   }
-  const Chart chart = {"convergence-chart", convergence_finding(records),
+  const Chart chart = {"convergence-chart",
+                       titles.front().title,
                        "Error of each estimator against its number of samples, measured and "
                        "predicted, for a map and receiver of your choice",
-                       note, convergence_chart(records)};
+                       note,
+                       convergence_chart(records),
+                       titles};
   html += chart_figure(chart, collapsible("Slopes as a table", slope_table(records).html()) +
                                   download_link("convergence.csv", convergence_csv(records)));
   return html + small_multiples(records) + "</section>\n";

@@ -141,12 +141,13 @@ std::string directions_csv(const std::vector<DirectionRecord>& records) {
 }
 
 std::string renders_csv(const std::vector<RenderRecord>& records) {
-  std::string csv = "map,receiver,material,estimator,samples,width,height,rmse,seconds,picture\n";
+  std::string csv =
+      "map,receiver,material,estimator,samples,width,height,rmse,seconds,point_seconds,picture\n";
   const std::vector<std::string> stems = render_stems(records);
   for (std::size_t i = 0; i < records.size(); ++i) {
     const RenderRecord& r = records[i];
     csv += row(r.map, r.receiver, r.material, r.estimator, r.samples, r.picture.extent().width,
-               r.picture.extent().height, r.rmse, r.seconds, stems[i] + ".exr");
+               r.picture.extent().height, r.rmse, r.seconds, r.point_seconds, stems[i] + ".exr");
   }
   return csv;
 }

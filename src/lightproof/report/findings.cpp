@@ -150,13 +150,17 @@ bool has_ratio(const ConvergenceRecord& record) {
          std::isfinite(record.variance_ratio_error) && !is_all_but_exact(record);
 }
 
+bool has_telling_ratio(const ConvergenceRecord& record) {
+  return has_ratio(record) && record.variance_ratio_error <= kTelling;
+}
+
 std::string variance_finding(const std::vector<ConvergenceRecord>& records) {
   Agreement ratios;
   Range range;
   std::size_t vague = 0;
   for (const ConvergenceRecord& r : records) {
     if (!has_ratio(r)) continue;
-    if (r.variance_ratio_error > kTelling) {
+    if (!has_telling_ratio(r)) {
       ++vague;
       continue;
     }
@@ -249,18 +253,30 @@ std::string saving_finding(const std::vector<const ConvergenceRecord*>& records)
                      worst.estimator);
 }
 
+namespace {
+
+/// "At 64 samples per pixel ", "In 16 µs a pixel "; empty if neither is equal.
+std::string what_is_equal(const std::vector<const RenderRecord*>& scene) {
+  const RenderRecord& first = *scene.front();
+  if (first.point_seconds > 0.0) {
+    return fmt::format("In about {} a pixel ", seconds_text(first.point_seconds));
+  }
+  const bool equal = std::all_of(scene.begin(), scene.end(), [&](const RenderRecord* r) {
+    return r->samples == first.samples;
+  });
+  return equal ? fmt::format("At {} per pixel ", counted(first.samples, "sample")) : "";
+}
+
+}  // namespace
+
 std::string render_finding(const std::vector<const RenderRecord*>& scene) {
   const auto by_error = [](const RenderRecord* a, const RenderRecord* b) {
     return a->rmse < b->rmse;
   };
   const RenderRecord& best = **std::min_element(scene.begin(), scene.end(), by_error);
   const RenderRecord& worst = **std::max_element(scene.begin(), scene.end(), by_error);
-  const bool equal = std::all_of(scene.begin(), scene.end(),
-                                 [&](const RenderRecord* r) { return r->samples == best.samples; });
-  std::string text =
-      fmt::format("{}{} has the smallest error, {} of the mean",
-                  equal ? fmt::format("At {} per pixel ", counted(best.samples, "sample")) : "",
-                  best.estimator, format_number(best.rmse));
+  std::string text = fmt::format("{}{} has the smallest error, {} of the mean",
+                                 what_is_equal(scene), best.estimator, percent(best.rmse));
   if (&best != &worst && best.rmse > 0.0) {
     text += fmt::format("; that of {} is {} times as large", worst.estimator,
                         format_number(worst.rmse / best.rmse, 2));

@@ -63,10 +63,9 @@ std::string breakpoints_finding(const std::vector<GrowthFit>& growth);
 /// measured.
 std::string build_finding(const StudyResult& study);
 
-/// Which tables are beaten by none in speed and in another cost, on the largest map. `records` is
-/// not empty; `better` is the comparative: "more accurate".
-std::string tables_finding(const std::vector<TableRecord>& records, TableCost cost,
-                           std::string_view better);
+/// Which tables are beaten by none in speed, memory and accuracy at once, on the largest map.
+/// `records` is not empty.
+std::string tables_finding(const std::vector<TableRecord>& records);
 
 /// The exact variances of the estimators that draw from the map by one of kDensities each, in one
 /// place: on one map, receiver and material.
@@ -119,6 +118,9 @@ bool is_all_but_exact(const ConvergenceRecord& record);
 /// Whether measured / predicted variance has a standard error, and the estimator is not all but
 /// exact.
 bool has_ratio(const ConvergenceRecord& record);
+
+/// Whether the standard error of the ratio is at most a third: the ratio says something.
+bool has_telling_ratio(const ConvergenceRecord& record);
 
 /// Whether a slope could be fitted, with a standard error.
 bool has_slope(const ConvergenceRecord& record);

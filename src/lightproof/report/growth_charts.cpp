@@ -36,15 +36,9 @@ const GrowthFit* fit_of(const std::string& sampler, const std::vector<GrowthFit>
 
 std::optional<double> exponent_of_samples(const GrowthFit& fit) { return fit.exponent; }
 
-std::optional<double> exponent_of_builds(const GrowthFit& fit) {
-  if (!fit.build_exponent) return std::nullopt;
-  return fit.build_exponent->value;
-}
-
 double sides(Extent extent) { return extent.width + extent.height; }
-double texels(Extent extent) { return static_cast<double>(extent.count()); }
 
-/// What one of the charts shows.
+/// What the chart shows.
 struct Costs {
   double ThroughputRecord::*value;
   double ThroughputRecord::*low;  ///< where bars begin and end
@@ -62,14 +56,6 @@ constexpr Costs kTimePerSample = {&ThroughputRecord::ns_per_sample,
                                   sides,
                                   "map size, by width S + height T (log)",
                                   exponent_of_samples};
-constexpr Costs kTimeToBuild = {&ThroughputRecord::build_ms,
-                                &ThroughputRecord::build_ms,
-                                &ThroughputRecord::build_ms,
-                                "time to build (ms, log)",
-                                texels,
-                                "map size, by texels S \u00d7 T (log)",
-                                exponent_of_builds};
-
 /// "linear_scan, exponent 0.97", or the name alone without a fit.
 std::string label_of(const std::string& sampler, const StudyResult& study, const Costs& costs) {
   const GrowthFit* fit = fit_of(sampler, study.growth);
@@ -119,6 +105,33 @@ Json row_of(const ThroughputRecord& r, const Costs& costs, const std::string& se
           {"low", rounded(drawable(r.*costs.low) ? r.*costs.low : value)},
           {"high", rounded(drawable(r.*costs.high) ? r.*costs.high : value)},
           {"table", bytes_text(r.table_bytes)}};
+}
+
+constexpr std::string_view kUsualSampler = "binary_search";
+
+/// The fastest and the slowest sampler on the largest map, and the usual one.
+std::vector<std::string> leading_samplers(const std::vector<ThroughputRecord>& records) {
+  const auto rank = [](const ThroughputRecord& r) {
+    return std::pair(r.extent.count(), r.ns_per_sample);
+  };
+  const auto slowest =
+      std::max_element(records.begin(), records.end(),
+                       [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  const auto fastest =
+      std::min_element(records.begin(), records.end(), [&](const auto& a, const auto& b) {
+        const auto first_largest = [&](const ThroughputRecord& r) {
+          return std::pair(slowest->extent.count() - r.extent.count(), r.ns_per_sample);
+        };
+        return first_largest(a) < first_largest(b);
+      });
+  return {fastest->sampler, slowest->sampler, std::string(kUsualSampler)};
+}
+
+void mark_leading(Json& rows, const StudyResult& study) {
+  const std::vector<std::string> leading = leading_samplers(study.throughput);
+  for (Json& row : rows) {
+    row["leads"] = std::find(leading.begin(), leading.end(), row["sampler"]) != leading.end();
+  }
 }
 
 Json rows_of(const StudyResult& study, const Costs& costs) {
@@ -225,17 +238,40 @@ Json frames(const Encodings& encodings, const std::vector<FramedPoints>& framed)
   return layer;
 }
 
+/// What was clicked in the legend, or what leads if nothing was.
+Json strong_if_shown() {
+  const Json test = {
+      {"or",
+       {{{"param", "shown"}, {"empty", false}}, {{"and", {{{"param", "shown"}}, "datum.leads"}}}}}};
+  return {{"condition", {{"test", test}, {"value", 0.95}}}, {"value", 0.14}};
+}
+
 std::string cost_chart(const StudyResult& study, const Costs& costs,
                        const std::vector<FramedPoints>& framed) {
   const Encodings encodings = encodings_of(study, costs, framed);
+  Json rows = rows_of(study, costs);
+  mark_leading(rows, study);
   Json low = encodings.y;
   low["field"] = "low";
   Json chart = base_chart(420);
-  chart["data"] = {{"values", rows_of(study, costs)}};
+  chart["data"] = {{"values", rows}};
   chart["encoding"] = {{"x", size_axis(study.throughput, costs)}};
   chart["layer"] = {lines(encodings.y, encodings.colour), error_bars(low, encodings.colour),
                     dots(encodings)};
-  if (!framed.empty()) chart["layer"].push_back(frames(encodings, framed));
+  if (!framed.empty()) {
+    chart["layer"].push_back(frames(encodings, framed));
+    mark_leading(chart["layer"].back()["data"]["values"], study);
+    chart["layer"].back()["encoding"]["opacity"] = {
+        {"condition", {{"test", "datum.leads"}, {"value", 1.0}}}, {"value", 0.12}};
+  }
+  for (std::size_t layer : {0U, 1U, 2U}) {
+    chart["layer"][layer]["mark"].erase("opacity");
+    chart["layer"][layer]["encoding"]["opacity"] = strong_if_shown();
+  }
+  chart["layer"][2]["params"] = {
+      {{"name", "shown"},
+       {"select", {{"type", "point"}, {"fields", {"series"}}, {"toggle", "true"}}},
+       {"bind", "legend"}}};
   return text_of(chart);
 }
 
@@ -244,7 +280,5 @@ std::string cost_chart(const StudyResult& study, const Costs& costs,
 std::string throughput_chart(const StudyResult& study) {
   return cost_chart(study, kTimePerSample, framed_points(study));
 }
-
-std::string build_chart(const StudyResult& study) { return cost_chart(study, kTimeToBuild, {}); }
 
 }  // namespace lightproof

@@ -255,7 +255,8 @@ Json json_of(const RenderRecord& r) {
           {"size", json_of(r.picture.extent())},
           {"reference_samples", r.reference_samples},
           {"rmse", number(r.rmse)},
-          {"seconds", number(r.seconds)}};
+          {"seconds", number(r.seconds)},
+          {"point_seconds", number(r.point_seconds)}};
 }
 
 Json renders_json(const std::vector<RenderRecord>& renders) {

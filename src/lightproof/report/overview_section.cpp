@@ -15,16 +15,31 @@ std::string finding(std::string_view link, std::string_view topic, std::string_v
                      escaped(topic), escaped(text));
 }
 
-std::string sampler_list(const GateResult& gate) {
-  std::string items;
-  for (const SamplerFinding& f : sampler_findings(gate)) {
-    // A rejection that is expected, and decides nothing, is not shown as an alarm.
-    const bool expected = f.is_demonstration && f.outcome == Outcome::reject;
-    items += fmt::format("<li><strong class=\"{}\">{}</strong> <span>{}</span></li>\n",
-                         expected ? "demonstration" : to_string(f.outcome),
-                         expected ? "as known" : outcome_text(f.outcome), escaped(f.sentence));
-  }
+std::string verdict_item(const SamplerFinding& f) {
+  // A rejection that is expected, and decides nothing, is not shown as an alarm.
+  const bool expected = f.is_demonstration && f.outcome == Outcome::reject;
+  return fmt::format("<li><strong class=\"{}\">{}</strong> <span>{}</span></li>\n",
+                     expected ? "demonstration" : to_string(f.outcome),
+                     expected ? "as known" : outcome_text(f.outcome), escaped(f.sentence));
+}
+
+std::string list_of(const std::string& items) {
   return items.empty() ? "" : "<ul class=\"verdicts\">\n" + items + "</ul>\n";
+}
+
+/// Those that are accepted are a number, which opens on a click.
+std::string sampler_list(const GateResult& gate) {
+  std::string accepted;
+  std::string others;
+  std::size_t count = 0;
+  for (const SamplerFinding& f : sampler_findings(gate)) {
+    const bool passes = f.outcome == Outcome::accept;
+    count += passes ? 1 : 0;
+    (passes ? accepted : others) += verdict_item(f);
+  }
+  return list_of(others) +
+         (count == 0 ? ""
+                     : collapsible(counted(count, "sampler") + " accepted", list_of(accepted)));
 }
 
 std::string other_findings(const StudyResult& study) {
@@ -60,15 +75,19 @@ constexpr std::string_view kHowToRead =
 
 }  // namespace
 
-std::string overview_section(const StudyResult& study) {
+std::string opening_section(const StudyResult& study) {
   return fmt::format(
-             "<header id=\"overview\">\n<p class=\"kicker\">Lightproof study</p>\n"
-             "<h1>{}</h1>\n",
-             escaped(headline(study))) +
-         sampler_list(study.gate) + other_findings(study) +
+      "<header id=\"overview\">\n<p class=\"kicker\">Lightproof study</p>\n"
+      "<h1>{}</h1>\n</header>\n",
+      escaped(headline(study)));
+}
+
+std::string overview_section(const StudyResult& study) {
+  return "<section id=\"findings\">\n<h2>What was found</h2>\n" + sampler_list(study.gate) +
+         other_findings(study) +
          fmt::format("<p class=\"how\"><strong>How to read this.</strong> {}</p>\n",
                      escaped(kHowToRead)) +
-         facts(study) + "</header>\n";
+         facts(study) + "</section>\n";
 }
 
 }  // namespace lightproof

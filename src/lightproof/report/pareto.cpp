@@ -1,27 +1,35 @@
 #include "lightproof/report/pareto.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <functional>
 #include <iterator>
-#include <tuple>
 
 namespace lightproof {
 
-std::vector<TableRecord> pareto_front(std::vector<TableRecord> records, TableCost first,
-                                      TableCost second) {
-  std::sort(records.begin(), records.end(), [&](const TableRecord& a, const TableRecord& b) {
-    return std::tie(a.*first, a.*second) < std::tie(b.*first, b.*second);
-  });
-  std::vector<TableRecord> front;
-  double least = HUGE_VAL;
-  for (const TableRecord& record : records) {
-    const bool equals_last = !front.empty() && record.*first == front.back().*first &&
-                             record.*second == front.back().*second;
-    if (!(record.*second < least) && !equals_last) continue;
-    least = record.*second;
-    front.push_back(record);
-  }
-  return front;
+namespace {
+
+bool beats(const TableRecord& a, const TableRecord& b) {
+  const auto costs = [](const TableRecord& r) {
+    return std::array{r.ns_per_sample, r.bytes_per_texel, r.worst_texel_error};
+  };
+  const auto of_a = costs(a);
+  const auto of_b = costs(b);
+  return of_a != of_b && std::equal(of_a.begin(), of_a.end(), of_b.begin(), std::less_equal<>());
+}
+
+}  // namespace
+
+std::vector<TableRecord> unbeaten_tables(const std::vector<TableRecord>& records) {
+  std::vector<TableRecord> unbeaten;
+  std::copy_if(records.begin(), records.end(), std::back_inserter(unbeaten),
+               [&](const TableRecord& r) {
+                 return std::none_of(records.begin(), records.end(),
+                                     [&](const TableRecord& other) { return beats(other, r); });
+               });
+  std::stable_sort(unbeaten.begin(), unbeaten.end(),
+                   [](const auto& a, const auto& b) { return a.ns_per_sample < b.ns_per_sample; });
+  return unbeaten;
 }
 
 std::vector<TableRecord> of_largest_map(const std::vector<TableRecord>& records) {

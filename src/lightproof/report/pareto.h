@@ -1,4 +1,4 @@
-// Which samplers are beaten by none in two costs at once.
+// Which samplers' tables are beaten by none in time, memory and accuracy at once.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,9 @@
 
 namespace lightproof {
 
-/// A cost: the lower the better.
-using TableCost = double TableRecord::*;
-
-/// The records for which no other costs at most as much in both ways and less in one, by ascending
-/// first cost.
-std::vector<TableRecord> pareto_front(std::vector<TableRecord> records, TableCost first,
-                                      TableCost second);
+/// The records for which no other is at most as slow, as large and as wrong, and less of one of
+/// these; the fastest first.
+std::vector<TableRecord> unbeaten_tables(const std::vector<TableRecord>& records);
 
 /// The records of the largest map among these.
 std::vector<TableRecord> of_largest_map(const std::vector<TableRecord>& records);

@@ -7,7 +7,16 @@
 
 namespace lightproof {
 
+/// The verdict in one line.
+std::string opening_section(const StudyResult& study);
+/// The chart that the report opens with; empty without charts.
+std::string accuracy_section(const std::vector<AccuracyChart>& charts);
+/// The cheapest method for each map; empty without recommendations and charts.
+std::string recommendation_section(const StudyResult& study);
+/// What was found, in sentences, and how to read the rest.
 std::string overview_section(const StudyResult& study);
+/// What else follows from the charts of speed against accuracy.
+std::string methods_section(const StudyResult& study);
 /// `directions_origin`: of the tests of warps and materials; empty if it is not known.
 std::string gate_section(const GateResult& gate, const std::string& directions_origin);
 std::string self_test_section(const std::optional<SelfTestResult>& self_test);

@@ -179,14 +179,36 @@ constexpr std::string_view kIntroduction =
     "often as it claims.";
 constexpr std::string_view kKillNote =
     "Columns are the gate's tests, rows the injected defects; a dark frame marks tests of the "
-    "oracle that has to reject. Where a cell is empty the test does not see the defect with "
-    "262,144 samples.";
+    "oracle that has to reject. Colours are all samples that were drawn until the test rejected, "
+    "those of both stages of the gate together. The title counts what the oracle needed that "
+    "should reject; other tests may need more. Where a cell is empty the test does not reject with "
+    "the most samples that were tried with that defect.";
 constexpr std::string_view kCalibrationNote =
-    "One line for each test; dashed lines are the limits. The worst of many cells has a bound in "
-    "place of a p-value: it may run far below zero, never above.";
+    "One line for each test; dashed lines are the limits, between which the axis is even; beyond "
+    "them it is logarithmic. The worst of many cells has a bound in place of a p-value: it may run "
+    "far below zero, never above.";
 constexpr std::string_view kPowerNote =
     "Lines are predicted from the exact distribution, points are measured, bars are two standard "
     "errors. Tests at a level of 0.001.";
+
+std::string calibration_html(const CalibrationResult& calibration) {
+  return chart_figure({"calibration-chart", calibration_finding(calibration.tests),
+                       "Deviation of p-values from uniform", std::string(kCalibrationNote),
+                       calibration_chart(calibration.tests)},
+                      family_table(calibration.families) +
+                          collapsible("Calibration as a table", calibration_table(calibration)));
+}
+
+std::string power_html(const std::vector<PowerRecord>& power) {
+  return chart_figure(
+      {"power-chart",
+       fmt::format(
+           "The tests reject a distribution that is off as often as predicted, to within {}",
+           format_number(largest_miss(power), 2)),
+       "Share of rejections against the number of samples", std::string(kPowerNote),
+       power_chart(power)},
+      collapsible("Power as a table", power_table(power)));
+}
 
 }  // namespace
 
@@ -204,29 +226,25 @@ std::string self_test_section(const std::optional<SelfTestResult>& self_test) {
   html += paragraph(kIntroduction, "note");
   if (!origin.empty())
     html += paragraph(fmt::format("Self-test of this program, run on {}.", origin));
-  html += chart_figure({"kill-chart", kill_finding(mutants),
+  html += chart_figure({"kill-chart",
+                        kill_finding(mutants),
                         "Fewest samples with which each test rejects each injected defect",
-                        std::string(kKillNote), kill_chart(mutants)},
+                        std::string(kKillNote),
+                        kill_chart(mutants),
+                        {},
+                        true},
                        collapsible("Injected defects as a table", kill_table(mutants)) +
                            download_link("mutants.csv", mutants_csv(mutants)));
   if (!naming.empty()) {
     html += paragraph(naming_finding(naming, naming_origin), "note") +
             collapsible("Diagnoses of injected defects as a table", naming_table(naming));
   }
-  html += chart_figure({"calibration-chart", calibration_finding(calibration.tests),
-                        "Deviation of p-values from uniform", std::string(kCalibrationNote),
-                        calibration_chart(calibration.tests)},
-                       family_table(calibration.families) +
-                           collapsible("Calibration as a table", calibration_table(calibration)));
-  html += chart_figure(
-      {"power-chart",
-       fmt::format(
-           "The tests reject a distribution that is off as often as predicted, to within {}",
-           format_number(largest_miss(power), 2)),
-       "Share of rejections against the number of samples", std::string(kPowerNote),
-       power_chart(power)},
-      collapsible("Power as a table", power_table(power)));
-  return html + "</section>\n";
+  return html +
+         collapsible("P-values: " + calibration_finding(calibration.tests),
+                     calibration_html(calibration)) +
+         collapsible("Power: how often small deviations are found, measured and predicted",
+                     power_html(power)) +
+         "</section>\n";
 }
 
 }  // namespace lightproof

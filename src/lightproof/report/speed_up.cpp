@@ -137,20 +137,18 @@ std::string throughput_finding(const StudyResult& study) {
                      !one_size && grows(all) ? ", and the gap grows with the map" : "");
 }
 
-std::string tables_finding(const std::vector<TableRecord>& records, TableCost cost,
-                           std::string_view better) {
-  const std::vector<TableRecord> front =
-      pareto_front(of_largest_map(records), cost, &TableRecord::ns_per_sample);
-  const TableRecord& fastest = front.back();
+std::string tables_finding(const std::vector<TableRecord>& records) {
+  const std::vector<TableRecord> unbeaten = unbeaten_tables(of_largest_map(records));
+  const TableRecord& fastest = unbeaten.front();
   std::string others;
-  for (std::size_t i = 0; i + 1 < front.size(); ++i) {
-    others += (i == 0 ? "" : ", ") + front[i].sampler;
+  for (std::size_t i = 1; i < unbeaten.size(); ++i) {
+    others += (i == 1 ? "" : ", ") + unbeaten[i].sampler;
   }
-  return fmt::format("At {}, {} is the fastest table, {} ns a sample; {}",
-                     extent_text(fastest.extent), fastest.sampler,
-                     format_number(fastest.ns_per_sample),
-                     others.empty() ? fmt::format("none is {}", better)
-                                    : fmt::format("{} and not beaten: {}", better, others));
+  return fmt::format(
+      "At {}, {} is the fastest table, {} ns a sample; {}", extent_text(fastest.extent),
+      fastest.sampler, format_number(fastest.ns_per_sample),
+      others.empty() ? "none is smaller or more accurate"
+                     : "smaller or more accurate, and not beaten in all three: " + others);
 }
 
 }  // namespace lightproof

@@ -1,4 +1,4 @@
-// Speed against accuracy and against size of the samplers' tables, with the Pareto front.
+// Speed, size and accuracy of the samplers' tables, in one chart.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,13 +14,23 @@ namespace {
 
 constexpr const char* kFrontColour = "#1d232a";
 
-Json row_of(const TableRecord& record, TableCost cost, bool on_front) {
+/// Classes of the worst texel's relative error; larger marks are farther off.
+constexpr const char* kExact = "below 1e-5";
+constexpr const char* kClose = "below 0.1 %";
+constexpr const char* kOff = "0.1 % or more";
+
+const char* error_class(double error) {
+  if (error < 1e-5) return kExact;
+  return error < 1e-3 ? kClose : kOff;
+}
+
+Json row_of(const TableRecord& record, bool is_unbeaten) {
   return {{"series", record.sampler},
-          {"cost", rounded(record.*cost)},
           {"ns", rounded(record.ns_per_sample)},
           {"bytes", rounded(record.bytes_per_texel)},
           {"error", rounded(record.worst_texel_error)},
-          {"front", on_front ? "on the front" : "beaten in both"}};
+          {"accuracy", error_class(record.worst_texel_error)},
+          {"front", is_unbeaten ? "not beaten" : "beaten in all three"}};
 }
 
 Json axis_of(const char* field, const char* title, const LogRange& range) {
@@ -30,64 +40,57 @@ Json axis_of(const char* field, const char* title, const LogRange& range) {
   return axis;
 }
 
-Json front_line() {
-  return {{"transform", {{{"filter", "datum.front == 'on the front'"}}}},
-          {"mark",
-           {{"type", "line"},
-            {"color", kFrontColour},
-            {"strokeWidth", 1.5},
-            {"strokeDash", {4, 3}},
-            {"interpolate", "step-after"}}},
-          {"encoding", {{"order", {{"field", "cost"}, {"type", "quantitative"}}}}}};
-}
-
-/// Rings around what is on the front.
+/// Rings around what is not beaten.
 Json rings() {
   return {
-      {"transform", {{{"filter", "datum.front == 'on the front'"}}}},
-      {"mark", {{"type", "point"}, {"shape", "circle"}, {"size", 220}, {"color", kFrontColour}}},
+      {"transform", {{{"filter", "datum.front == 'not beaten'"}}}},
+      {"mark", {{"type", "point"}, {"shape", "circle"}, {"size", 420}, {"color", kFrontColour}}},
       {"encoding", Json::object()}};
 }
 
 Json dots(const std::vector<SeriesStyle>& styles) {
   const Json legend = {{"title", nullptr}, {"columns", 3}};
-  return {{"mark", {{"type", "point"}, {"filled", true}, {"size", 70}, {"opacity", 1}}},
+  Json size = {{"field", "accuracy"},
+               {"type", "ordinal"},
+               {"scale", {{"domain", {kExact, kClose, kOff}}, {"range", {50, 130, 260}}}}};
+  size["legend"] = {{"title", "worst texel's error"}, {"columns", 3}};
+  return {{"mark", {{"type", "point"}, {"filled", true}, {"opacity", 1}}},
           {"encoding",
            {{"color", series(styles, &SeriesStyle::colour, legend)},
             {"shape", series(styles, &SeriesStyle::shape, legend)},
+            {"size", size},
             {"tooltip",
              {tooltip("series", "sampler", ""), tooltip("ns", "ns per sample", ".3~g"),
               tooltip("bytes", "bytes per texel", ".3~g"),
               tooltip("error", "worst texel's relative error", ".2~g"),
-              tooltip("front", "Pareto front", "")}}}}};
+              tooltip("front", "time, size and error", "")}}}}};
 }
 
 }  // namespace
 
-std::string table_chart(const std::vector<TableRecord>& records, TableCost cost,
-                        const std::string& cost_name) {
+std::string table_chart(const std::vector<TableRecord>& records) {
   const std::vector<TableRecord> drawn = of_largest_map(records);
-  const std::vector<TableRecord> front = pareto_front(drawn, cost, &TableRecord::ns_per_sample);
+  const std::vector<TableRecord> unbeaten = unbeaten_tables(drawn);
   Json rows = Json::array();
-  LogRange costs;
+  LogRange sizes;
   LogRange times;
   std::vector<std::string> names;
   for (const TableRecord& record : drawn) {
-    if (!drawable(record.*cost) || !drawable(record.ns_per_sample)) continue;
-    const bool on_front = std::any_of(front.begin(), front.end(), [&](const TableRecord& best) {
-      return best.sampler == record.sampler;
-    });
+    if (!drawable(record.bytes_per_texel) || !drawable(record.ns_per_sample)) continue;
+    const bool is_unbeaten =
+        std::any_of(unbeaten.begin(), unbeaten.end(),
+                    [&](const TableRecord& best) { return best.sampler == record.sampler; });
     names.push_back(record.sampler);
-    rows.push_back(row_of(record, cost, on_front));
-    costs.add(record.*cost);
+    rows.push_back(row_of(record, is_unbeaten));
+    sizes.add(record.bytes_per_texel);
     times.add(record.ns_per_sample);
   }
   Json chart = base_chart(380);
   chart["data"] = {{"values", rows}};
   chart["encoding"] = {
-      {"x", axis_of("cost", cost_name.c_str(), costs)},
+      {"x", axis_of("bytes", "size of the table (bytes per texel, log)", sizes)},
       {"y", axis_of("ns", "time per sample, random numbers included (ns, log)", times)}};
-  chart["layer"] = {front_line(), rings(), dots(series_styles(names))};
+  chart["layer"] = {rings(), dots(series_styles(names))};
   return text_of(chart);
 }
 

@@ -50,8 +50,9 @@ constexpr std::string_view kGrowthNote =
     "A sampler whose time follows its steps takes the same time for each; the table has the "
     "fastest step and the slowest. What is left is the memory: once a table outgrows a cache, a "
     "step of the search waits for it, while a scan reads ahead. The exponent is that of the whole "
-    "time against width plus height, by least squares on logarithms. A table outgrows a cache at "
-    "the smallest measured map on which it is larger. Breakpoints are measured: a line with one or "
+    "time against width plus height, by least squares on logarithms. Where the sizes of the caches "
+    "are known, a table outgrows one at the smallest measured map on which it is larger. "
+    "Breakpoints are measured: a line with one or "
     "two of them that fits the time of a step so much better than a straight one that straight "
     "ones with random errors would hardly seem to bend as clearly: where all samplers are "
     "straight, any of them has a breakpoint with a probability of at most 1 % (Holm's procedure "
@@ -123,15 +124,13 @@ constexpr std::string_view kBuildNote =
     "threads takes its share. The exponent is fitted by least squares on logarithms, and its "
     "standard error comes from the scatter about the line.";
 
-std::string build_figure(const StudyResult& study) {
+std::string build_block(const StudyResult& study) {
   const bool was_measured = std::any_of(study.throughput.begin(), study.throughput.end(),
                                         [](const ThroughputRecord& r) { return r.build_ms > 0.0; });
   if (!was_measured) return "";
-  const Chart chart = {"build-chart", build_finding(study),
-                       "Time to build each sampler's table against the number of texels",
-                       std::string(kBuildNote), build_chart(study)};
-  return chart_figure(chart, collapsible("Builds as a table", build_table(study)) +
-                                 download_link("build.csv", build_csv(study.throughput)));
+  return collapsible("Time to build: " + build_finding(study),
+                     paragraph(kBuildNote, "note") + build_table(study)) +
+         download_link("build.csv", build_csv(study.throughput));
 }
 
 std::string tables_table(const std::vector<TableRecord>& records) {
@@ -151,36 +150,36 @@ std::string tables_table(const std::vector<TableRecord>& records) {
 }
 
 constexpr std::string_view kTablesNote =
-    "Batches of samples on one thread, random numbers included. The error is the largest relative "
-    "difference between the probability with which a texel is drawn and its share of the light; "
-    "samplers return the probability that they draw with, so the error costs variance, no bias. "
-    "Along the dashed line, from ring to ring, nothing gets better in one way without getting "
-    "worse in the other.";
+    "Batches of samples on one thread, random numbers included. The error, which the size of a "
+    "mark "
+    "tells, is the largest relative difference between the probability with which a texel is drawn "
+    "and its share of the light; samplers return the probability that they draw with, so the error "
+    "costs variance, no bias. Rings: nothing is as fast, as small and as accurate at once.";
 
-/// The costs that are held against speed.
-std::string table_figures(const std::vector<TableRecord>& tables) {
+/// What tables cost in memory and accuracy, against speed.
+std::string table_figure(const std::vector<TableRecord>& tables) {
   if (tables.empty()) return "";
-  const Chart accuracy = {
-      "table-accuracy-chart",
-      tables_finding(tables, &TableRecord::worst_texel_error, "more accurate"),
-      "Time per sample of each sampler against the worst relative error of a texel",
-      std::string(kTablesNote),
-      table_chart(tables, &TableRecord::worst_texel_error, "worst texel's relative error (log)")};
-  const Chart memory = {
-      "table-memory-chart", tables_finding(tables, &TableRecord::bytes_per_texel, "smaller"),
-      "Time per sample of each sampler against the bytes of its table per texel", "",
-      table_chart(tables, &TableRecord::bytes_per_texel,
-                  "size of the table (bytes per texel, log)")};
-  return chart_figure(accuracy, "") +
-         chart_figure(memory, collapsible("Tables as a table", tables_table(tables)) +
-                                  download_link("tables.csv", tables_csv(tables)));
+  const Chart chart = {"table-chart", tables_finding(tables),
+                       "Time per sample of each sampler against the bytes of its table per texel, "
+                       "with the worst relative error of a texel",
+                       std::string(kTablesNote), table_chart(tables)};
+  return chart_figure(chart, collapsible("Tables as a table", tables_table(tables)) +
+                                 download_link("tables.csv", tables_csv(tables)));
 }
 
 constexpr std::string_view kNote =
     "Median over the benchmark's repetitions; bars reach from the fastest to the slowest. "
-    "The legend gives the exponent of width S plus height T that fits the time. Frames mark, on "
-    "each line, the first map whose table is larger than a cache, and where the growth of the time "
-    "of a step changes measurably.";
+    "The legend gives the exponent of width S plus height T that fits the time; a click on it "
+    "shows "
+    "a sampler, at first the fastest, the slowest and the binary search. ";
+constexpr std::string_view kFrameNote =
+    "Frames mark, on each line, the first map whose table is larger than a cache, and where the "
+    "growth of the time of a step changes measurably.";
+constexpr std::string_view kNoCacheNote =
+    "This machine does not tell the sizes of its caches, so nothing is marked where a table "
+    "outgrows one; frames mark where the growth of the time of a step changes measurably.";
+
+bool knows_caches(const CacheSizes& caches) { return caches.l2 || caches.l3; }
 
 constexpr std::string_view kMissing =
     "Throughput was not measured in this study. Build the benchmark program (LIGHTPROOF_BENCH, on "
@@ -192,9 +191,11 @@ constexpr std::string_view kMissing =
 std::string throughput_section(const StudyResult& study) {
   std::string html = "<section id=\"throughput\">\n<h2>Throughput</h2>\n";
   if (study.throughput.empty()) return html + paragraph(kMissing, "empty") + "</section>\n";
-  const Chart chart = {"throughput-chart", throughput_finding(study),
-                       "Time per sample of each sampler against the size of the map",
-                       std::string(kNote), throughput_chart(study)};
+  const Chart chart = {
+      "throughput-chart", throughput_finding(study),
+      "Time per sample of each sampler against the size of the map",
+      fmt::format("{}{}", kNote, knows_caches(study.caches) ? kFrameNote : kNoCacheNote),
+      throughput_chart(study)};
   if (!study.throughput_origin.empty()) {
     html += paragraph("Measured: " + study.throughput_origin + ".");
   }
@@ -202,7 +203,7 @@ std::string throughput_section(const StudyResult& study) {
          chart_figure(chart, collapsible("Times as a table", throughput_table(study.throughput)) +
                                  download_link("throughput.csv", throughput_csv(study.throughput)) +
                                  growth_table(study.growth, study.caches)) +
-         build_figure(study) + table_figures(study.tables) + directions_figure(study.directions) +
+         build_block(study) + table_figure(study.tables) + directions_figure(study.directions) +
          "</section>\n";
 }
 

@@ -17,6 +17,7 @@ Json variance_rows(const std::vector<ConvergenceRecord>& records) {
     rows.push_back({{"series", r.estimator},
                     {"map", r.map},
                     {"scene", scene_name(r)},
+                    {"counts", has_telling_ratio(r)},
                     {"predicted", rounded(r.predicted_variance)},
                     {"ratio", rounded(ratio)},
                     {"low", rounded(ratio - half)},
@@ -60,6 +61,10 @@ Json ratio_axis(const std::string& field) {
   return y;
 }
 
+Json pale_unless_counted(double counted, double pale) {
+  return {{"condition", {{"test", "datum.counts"}, {"value", counted}}}, {"value", pale}};
+}
+
 }  // namespace
 
 std::string variance_chart(const std::vector<ConvergenceRecord>& records) {
@@ -68,9 +73,14 @@ std::string variance_chart(const std::vector<ConvergenceRecord>& records) {
   const Json colour = series(styles, &SeriesStyle::colour, legend);
   Json dots = points(ratio_axis("ratio"), colour, series(styles, &SeriesStyle::shape, legend));
   dots["encoding"]["tooltip"] = variance_tooltip();
+  Json bars = error_bars(ratio_axis("low"), colour);
+  bars["mark"].erase("opacity");
+  bars["encoding"]["opacity"] = pale_unless_counted(0.6, 0.08);
+  dots["mark"].erase("opacity");
+  dots["encoding"]["opacity"] = pale_unless_counted(0.9, 0.14);
   Json chart = base_chart(360);
   chart["data"] = {{"values", variance_rows(records)}};
-  chart["layer"] = {unit_rule(), error_bars(ratio_axis("low"), colour), dots};
+  chart["layer"] = {unit_rule(), bars, dots};
   for (std::size_t layer : {1U, 2U})
     chart["layer"][layer]["encoding"]["x"] = variance_axis(records);
   return text_of(chart);

@@ -8,6 +8,7 @@ namespace lightproof {
 namespace {
 
 constexpr double kMeasured = 0.5;  // standard error over the error
+constexpr double kGain = 0.9;      // error over that of a faster one on the front
 
 bool is_known(double error) { return std::isfinite(error) && error > 0.0; }
 
@@ -44,7 +45,12 @@ bool is_on(const std::vector<const AccuracyLine*>& lines, const AccuracyLine& li
 bool is_measured(const AccuracyPoint& point) { return point.rmse_error <= kMeasured * point.rmse; }
 
 double known_error(const AccuracyPoint& point) {
-  return is_measured(point) ? point.rmse : point.predicted;
+  return is_known(point.predicted) || !is_measured(point) ? point.predicted : point.rmse;
+}
+
+std::uint64_t whole_samples(const LinePlace& place) {
+  // Logarithms leave a whole number a little off.
+  return static_cast<std::uint64_t>(std::ceil(place.samples * (1.0 - 1e-9)));
 }
 
 std::optional<LinePlace> at_time(const AccuracyLine& line, double seconds) {
@@ -91,7 +97,7 @@ std::vector<ChartPoint> pareto_front(const AccuracyChart& chart) {
                    [&](const ChartPoint& a, const ChartPoint& b) { return costs(a) < costs(b); });
   std::vector<ChartPoint> front;
   for (const ChartPoint& p : points) {
-    if (front.empty() || known_error(*p.point) < known_error(*front.back().point)) {
+    if (front.empty() || known_error(*p.point) < kGain * known_error(*front.back().point)) {
       front.push_back(p);
     }
   }

@@ -13,8 +13,8 @@ namespace lightproof {
 /// error is carried by rare estimates, few or none of which were seen.
 bool is_measured(const AccuracyPoint& point);
 
-/// The measured error, or the predicted one where it was not measured; not a number if neither is
-/// known.
+/// The error that follows from exact moments where they are known, else the measured one; not a
+/// number if neither is known.
 double known_error(const AccuracyPoint& point);
 
 /// A place on a line, which may lie between two of its points.
@@ -23,6 +23,9 @@ struct LinePlace {
   double seconds = 0.0;
   double error = 0.0;
 };
+
+/// The fewest whole samples that reach it.
+std::uint64_t whole_samples(const LinePlace& place);
 
 /// What a line reaches in so many seconds, by straight lines between the logarithms of its points;
 /// a biased one stays at its last point with more. None if its first estimate takes longer, or if
@@ -43,7 +46,8 @@ struct ChartPoint {
   const AccuracyPoint* point;
 };
 
-/// The points that no other beats in time and in error, the fastest first.
+/// The points than which no other is as fast and as exact, the fastest first. One that is slower
+/// than another must have less than nine tenths of its error: smaller gains are within the noise.
 std::vector<ChartPoint> pareto_front(const AccuracyChart& chart);
 
 /// The line that reaches an error first, and where.

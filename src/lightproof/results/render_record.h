@@ -9,19 +9,21 @@
 
 namespace lightproof {
 
-/// One picture of a receiver, by one estimator at equal numbers of samples.
+/// One picture of a receiver, by one estimator in the time that all have.
 struct RenderRecord {
   std::string map;
   std::string receiver;
   std::string material;
   std::string estimator;
   std::uint64_t samples = 0;
-  Grid<Rgb> picture;    ///< the estimator's picture, row 0 at the top
-  Grid<Rgb> reference;  ///< the picture that all estimators of a map are held against
-  Grid<double> error;   ///< signed, over the reference's mean luminance at the receiver
-  double rmse = 0.0;    ///< root mean square of `error` at the pixels that show the receiver
-  double seconds = 0.0;
+  Grid<Rgb> picture;     ///< the estimator's picture, row 0 at the top
+  Grid<Rgb> reference;   ///< the picture that all estimators of a map are held against
+  Grid<double> error;    ///< signed, over the reference's mean luminance at the receiver
+  double rmse = 0.0;     ///< root mean square of `error` at the pixels that show the receiver
+  double seconds = 0.0;  ///< elapsed, to render, without set-up
   std::uint64_t reference_samples = 0;  ///< per pixel of the reference; 0 if it is not sampled
+  /// Processor time of one shading point with so many samples; 0 if it was not measured.
+  double point_seconds = 0.0;
 };
 
 }  // namespace lightproof

@@ -22,6 +22,7 @@
 #include "lightproof/results/self_test_result.h"
 #include "lightproof/results/split_sum_record.h"
 #include "lightproof/results/throughput_record.h"
+#include "lightproof/results/warp_grid.h"
 
 namespace lightproof {
 
@@ -38,6 +39,7 @@ struct StudyResult {
   std::vector<AccuracyChart> accuracy;
   std::vector<Recommendation> recommendations;
   MethodRegimes method_regimes = {};
+  std::vector<WarpGrid> warps = {};
   std::vector<ThroughputRecord> throughput;
   std::string throughput_origin;  ///< when, where and of what the throughput was measured
   CacheSizes caches;              ///< caches of the machine that measured the throughput

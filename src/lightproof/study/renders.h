@@ -1,4 +1,4 @@
-// Pictures by every estimator at equal numbers of samples, beside a reference.
+// Pictures by estimators of many kinds in equal time, beside a reference.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,15 @@ namespace lightproof {
 /// How pictures are rendered.
 struct RenderOptions {
   std::uint64_t seed = 1;
-  Extent picture = {160, 120};
-  std::uint64_t samples = 64;              ///< samples per pixel of each estimator
-  std::uint64_t reference_samples = 2048;  ///< samples per pixel of the reference, environment B
+  Extent picture = {128, 96};
+  double point_seconds = 16e-6;            ///< processor time of a pixel that each estimator has
+  std::uint64_t reference_samples = 1024;  ///< samples per pixel of the reference
 };
 
-/// Renders the sphere on a plane, of modified Phong, under every map by every estimator.
+/// Renders a glossy sphere on a plane and a diffuse sphere under every map, by estimators of every
+/// kind that serve the material, one of each at least, with as many samples as take the time that
+/// all have. How many these are is measured: pictures depend on the machine. One that its samples
+/// do not matter to takes its own time.
 std::vector<RenderRecord> study_renders(std::span<const EnvironmentMap> maps,
                                         const RenderOptions& options,
                                         const Progress& progress = {});

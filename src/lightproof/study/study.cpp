@@ -17,6 +17,7 @@
 #include "lightproof/study/growth.h"
 #include "lightproof/study/kept_directions.h"
 #include "lightproof/study/split_sum.h"
+#include "lightproof/study/warp_grids.h"
 
 namespace lightproof {
 namespace {
@@ -114,6 +115,7 @@ StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& opti
                          options.gate, part_of(progress, 0.2, 0.5), {}, directions.value);
   result.convergence = study_convergence(maps, options.convergence, part_of(progress, 0.5, 0.75));
   study_accuracy(maps, options, part_of(progress, 0.75, 0.93), result);
+  result.warps = study_warp_grids(maps);
   result.renders = study_renders(maps, options.renders, part_of(progress, 0.93, 0.98));
   result.split_sum = study_split_sum(maps, {}, part_of(progress, 0.98, 1.0));
   return result;

@@ -2,16 +2,21 @@
 "use strict";
 (() => {
   const narrow = 640;
+  const scrolled = 640; // of the plot of a chart that is wider than the page
 
-  // On a narrow page legends have one column, the kinds of line go below the chart, and labels that
-  // would stand upright are left to the tooltips and the table.
-  function fitted(spec, width) {
+  // On a narrow page legends have one column and the kinds of line go below the chart; a chart with
+  // many columns keeps its width, and is scrolled.
+  function fitted(spec, width, isWide) {
     if (width >= narrow) return spec;
+    if (isWide) {
+      spec.width = scrolled;
+      spec.autosize = { type: "pad", contains: "padding" };
+      return spec;
+    }
     spec.config.legend.columns = 1;
     for (const layer of spec.layer) {
-      if (layer.encoding.x?.axis?.labelAngle) layer.encoding.x.axis.labels = false;
       for (const [name, channel] of Object.entries(layer.encoding)) {
-        if (!channel.legend) continue;
+        if (!channel?.legend) continue;
         channel.legend.columns = 1;
         if (name === "strokeDash") channel.legend.orient = "bottom";
       }
@@ -19,12 +24,26 @@
     return spec;
   }
 
+  // Shows the title and the blocks of what a chart's lists have chosen.
+  function follow(figure) {
+    const lists = [...figure.querySelectorAll(".controls select")];
+    if (lists.length === 0) return;
+    const key = lists.map((list) => list.value).join(" | ");
+    const titles = figure.querySelector("script.titles");
+    const title = titles && JSON.parse(titles.textContent)[key];
+    const heading = figure.querySelector("figcaption > :first-child");
+    if (title && heading.textContent !== title) heading.textContent = title;
+    for (const block of figure.querySelectorAll("[data-choice]")) {
+      block.hidden = block.dataset.choice !== key;
+    }
+  }
+
   async function draw(figure) {
     const target = figure.querySelector(".drawing");
     const small = figure.classList.contains("small");
     try {
       const spec = JSON.parse(figure.querySelector("script").textContent);
-      await vegaEmbed(target, fitted(spec, target.clientWidth), {
+      await vegaEmbed(target, fitted(spec, target.clientWidth, figure.classList.contains("wide")), {
         mode: "vega-lite",
         bind: figure.querySelector(".controls"),
         renderer: "svg",
@@ -32,6 +51,8 @@
         downloadFileName: figure.id,
         tooltip: { theme: "light" },
       });
+      figure.querySelector(".controls").addEventListener("change", () => follow(figure));
+      follow(figure);
       figure.dataset.drawn = "yes";
     } catch (error) {
       figure.dataset.drawn = "no";
@@ -46,7 +67,14 @@
       document.body.classList.toggle("hide-samples", !samples.checked);
     });
   }
-  Promise.all([...document.querySelectorAll("figure.chart")].map(draw)).then(() => {
+  // A chart in a closed block has no width yet: it is drawn when the block opens.
+  function drawWhenOpen(figure) {
+    const closed = figure.closest("details:not([open])");
+    if (!closed) return draw(figure);
+    closed.addEventListener("toggle", () => draw(figure), { once: true });
+    return undefined;
+  }
+  Promise.all([...document.querySelectorAll("figure.chart")].map(drawWhenOpen)).then(() => {
     document.documentElement.dataset.charts = "done";
   });
 })();

@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "fixture.h"
+#include "lightproof/report/accuracy_blocks.h"
+#include "lightproof/report/accuracy_charts.h"
+#include "lightproof/report/accuracy_findings.h"
+#include "lightproof/report/sections.h"
+#include "tests/results/accuracy_lines.h"
+
+namespace lightproof {
+namespace {
+
+using nlohmann::json;
+using testing::chart_of;
+using testing::falling;
+using testing::look_up;
+
+TEST(FrontSentence, GoesFromFastToExact) {
+  EXPECT_EQ(front_sentence(chart_of({falling("a", "lobes"), look_up("c", 1e-7, 0.3)})),
+            "On the front, from fast to exact: c (100\u00a0ns, 30\u00a0%); a "
+            "(16\u00a0\u00b5s, 25\u00a0%).");
+}
+
+TEST(AccuracyFinding, NamesTheFastestToEachErrorAndTheHandicapOfUniform) {
+  EXPECT_EQ(accuracy_finding(chart_of({falling("uniform", "uniform", 0.2),
+                                       falling("b", "MIS", 0.02), look_up("c", 1e-7, 0.04)})),
+            "5\u00a0% error takes 100\u00a0ns (c), 1\u00a0% error takes 4\u00a0\u00b5s (b, 4 "
+            "samples); to 5\u00a0% uniform sampling takes 160 times as long");
+  EXPECT_EQ(accuracy_finding(chart_of({falling("uniform", "uniform", 9.0)})),
+            "5\u00a0% error is reached by none");
+}
+
+TEST(AccuracyCaveats, SayWhatIsPredictedAndWhatIgnoresOcclusion) {
+  AccuracyChart chart = chart_of({falling("a", "lobes")});
+  EXPECT_EQ(accuracy_caveats(chart), "1 estimator, 24 shading points, quality draft.");
+  chart.lines[0].points[0].rmse_error = 0.6;
+  chart.is_occluded = true;
+  const std::string text = accuracy_caveats(chart);
+  EXPECT_NE(text.find("At 1 point the error is carried by rare hits"), std::string::npos) << text;
+  EXPECT_NE(text.find("blocks the light"), std::string::npos) << text;
+}
+
+TEST(SlopeFinding, SetsTheAliasTableAgainstTheMonotoneOne) {
+  AccuracyLine monotone = falling("environment B sobol", "point sets");
+  AccuracyLine alias = falling("environment B alias sobol", "point sets");
+  monotone.slope = -0.8;
+  alias.slope = -0.5;
+  monotone.slope_error = alias.slope_error = 0.01;
+  EXPECT_EQ(slope_finding(chart_of({monotone, alias})),
+            "Error falls as N to the power of: sobol points \u22120.800 \u00b1 0.010 by the "
+            "monotone table, \u22120.500 \u00b1 0.010 by the alias table");
+}
+
+TEST(AccuracyChartSpec, MarksWhatLeadsAndDashesWhatWasNotMeasured) {
+  AccuracyLine rare = falling("uniform", "uniform", 30.0);
+  for (AccuracyPoint& point : rare.points) point.predicted = 1.1 * point.rmse;
+  rare.points[0].rmse_error = rare.points[0].rmse;
+  const json spec = json::parse(accuracy_chart(
+      {chart_of({rare, falling("a", "MIS"), falling("b", "MIS", 2.0), look_up("c", 1e-7, 0.3)})}));
+  json of_rare;
+  json of_b;
+  for (const json& row : spec["data"]["values"]) {
+    if (row.value("series", "") == "uniform") of_rare.push_back(row);
+    if (row.value("series", "") == "b") of_b.push_back(row);
+  }
+  ASSERT_EQ(of_rare.size(), 4U);
+  EXPECT_TRUE(of_rare[0]["rmse"].is_null());
+  EXPECT_EQ(of_rare[0]["predicted"], 10.0) << "drawn on the edge";
+  EXPECT_FALSE(of_rare[1]["predicted"].is_null()) << "the dashed line reaches the measured one";
+  EXPECT_TRUE(of_rare[2]["predicted"].is_null());
+  EXPECT_TRUE(of_rare[0]["leads"]);
+  EXPECT_FALSE(of_b[0]["leads"]);
+}
+
+TEST(AccuracyChartSpec, OffersEveryMapReceiverAndMaterial) {
+  const std::vector<AccuracyChart> charts = testing::synthetic_study().accuracy;
+  const json spec = json::parse(accuracy_chart(charts));
+  ASSERT_EQ(spec["params"].size(), 3U);
+  EXPECT_EQ(spec["params"][0]["bind"]["options"].size(), 8U);
+  EXPECT_EQ(spec["params"][1]["value"], "sphere") << "the receiver that nothing occludes";
+}
+
+TEST(PlaceChoice, OffersWholePlacesWhereCombinationsAreMissing) {
+  const std::vector<Place> places = {{"a", "x"}, {"a", "y"}, {"b", "x"}};
+  const PlaceChoice choice({{"map", "Map"}, {"scene", "Scene"}}, places, places[2]);
+  const json params = choice.params();
+  ASSERT_EQ(params.size(), 1U);
+  EXPECT_EQ(params[0]["value"], "b, x");
+  EXPECT_EQ(choice.key(places[1]), "a, y");
+  const PlaceChoice full({{"map", "Map"}, {"scene", "Scene"}},
+                         {{"a", "x"}, {"a", "y"}, {"b", "x"}, {"b", "y"}}, {"b", "y"});
+  EXPECT_EQ(full.params().size(), 2U);
+  EXPECT_EQ(full.key({"a", "y"}), "a | y");
+}
+
+TEST(RegimeChart, ShowsTheFastestAndTheFastestWithoutBias) {
+  const MethodRegimes regimes = testing::synthetic_study().method_regimes;
+  EXPECT_EQ(regime_finding(regimes),
+            "Fastest to 5\u00a0% error over 6 pairs of light and roughness: split-sum in 3, "
+            "environment B in 3");
+  const json rows = json::parse(regime_chart(regimes))["data"]["values"];
+  ASSERT_EQ(rows.size(), 12U);
+  EXPECT_EQ(rows[0]["series"], "split-sum");
+  EXPECT_EQ(rows[6]["series"], "brdf");
+  EXPECT_EQ(rows[7]["series"], "none");
+}
+
+TEST(AccuracyTables, NameWhatWasLeftOutAndWhy) {
+  const std::string html = accuracy_tables_html(testing::synthetic_study().accuracy[0]);
+  EXPECT_NE(html.find("1 estimator left out, and why"), std::string::npos);
+  EXPECT_NE(html.find("it does not serve this material"), std::string::npos);
+}
+
+TEST(RecommendationSection, HasARowForEachMapOrWhatWasMeasured) {
+  StudyResult study = testing::synthetic_study();
+  const std::string recommended = recommendation_section(study);
+  EXPECT_NE(recommended.find("environment B alias, 64 samples, 5\u00a0% error"), std::string::npos);
+  EXPECT_NE(recommended.find("its floor is 8 %"), std::string::npos);
+  EXPECT_NE(recommended.find("table 512\u00d7256"), std::string::npos);
+  study.recommendations.clear();
+  const std::string measured = recommendation_section(study);
+  EXPECT_NE(measured.find("as it was measured here"), std::string::npos);
+  study.accuracy.clear();
+  EXPECT_EQ(recommendation_section(study), "");
+}
+
+}  // namespace
+}  // namespace lightproof
