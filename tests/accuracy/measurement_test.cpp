@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "lightproof/accuracy/exact_light.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/estimators/registry.h"
@@ -170,6 +171,26 @@ TEST(Accuracy, RefusesAReceiverThatNoLightReaches) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("night"));
   }
+}
+
+// A lobe of a hundredth of a radian in cells of a fortieth: what is reflected of a constant sky is
+// the material's albedo, whatever the map's size. GGX seen at 83 degrees, by 4096 x 2048 cells:
+// .9491 of the light, and by 200,000 samples .9492.
+TEST(ExactLight, OfANarrowLobeIsTheSameOnSmallMaps) {
+  const ReceiverInfo& point = receiver_by_name("point");
+  const Scene scene(point.content);
+  Pixel pixel = visible_pixels(point, scene, {4, 3}).front();
+  const double cosine = 0.116;
+  pixel.point.view = {std::sqrt(1.0 - cosine * cosine), 0.0, cosine};
+  std::vector<double> means;
+  for (const Extent extent : {Extent{64, 32}, Extent{320, 160}, Extent{2048, 1024}}) {
+    const Grid<double> sky(extent, 1.0);
+    const auto light = exact_light({&sky, 1}, point, scene, material_of("ggx:0.1"), {&pixel, 1});
+    means.push_back(light[0][0][reference::SampledDensity::uniform].mean());
+  }
+  EXPECT_NEAR(means[0] / means[2], 1.0, 2e-3);
+  EXPECT_NEAR(means[1] / means[2], 1.0, 2e-3);
+  EXPECT_NEAR(means[2], 0.949, 1e-3);
 }
 
 TEST(AccuracyQualities, AnswerAnUnknownNameWithTheKnownOnes) {

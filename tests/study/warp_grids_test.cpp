@@ -17,7 +17,8 @@ TEST(WarpGrids, StayTogetherThroughAMonotoneTableAloneOfTheTwo) {
   EXPECT_GT(grids[1].neighbour_degrees, grids[0].neighbour_degrees);
   // Along a row of the grid a monotone table goes one way.
   for (std::size_t i = 1; i < grids[0].points.size(); ++i) {
-    if (i % 32 != 0) EXPECT_GE(grids[0].points[i].s, grids[0].points[i - 1].s) << i;
+    if (i % 32 == 0) continue;
+    EXPECT_GE(grids[0].points[i].s, grids[0].points[i - 1].s) << i;
   }
 }
 

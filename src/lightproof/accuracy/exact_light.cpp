@@ -3,27 +3,28 @@
 #include <variant>
 
 #include "lightproof/core/parallel.h"
+#include "lightproof/materials/lobe_place.h"
 
 namespace lightproof {
 
 reference::Kernel kernel_at(const ReceiverInfo& receiver, const Scene& scene,
                             const Material& material, const ShadingPoint& point) {
-  return {[material, point](Direction light) {
-            return std::visit(
-                [&](const auto& surface) -> reference::KernelValue {
-                  const Scattering at = surface.evaluate(point, light);
-                  if (at.reflected_cosine <= 0.0) return {};
-                  return {at.reflected_cosine, at.pdf.value};
-                },
-                material);
-          },
-          [&receiver, point](Direction light, double angle) {
-            return straddles_edge(receiver, point, light, angle);
-          },
-          [&scene, point](Direction light) {
-            return glm::dot(point.frame.normal, light) > 0.0 &&
-                   scene.is_visible(point.position, light);
-          }};
+  return {
+      [material, point](Direction light) {
+        return std::visit(
+            [&](const auto& surface) -> reference::KernelValue {
+              const Scattering at = surface.evaluate(point, light);
+              if (at.reflected_cosine <= 0.0) return {};
+              return {at.reflected_cosine, at.pdf.value};
+            },
+            material);
+      },
+      [&receiver, point, lobe = lobe_at(material, point)](Direction light, double angle) {
+        return lobe.varies_within(light, angle) || straddles_edge(receiver, point, light, angle);
+      },
+      [&scene, point](Direction light) {
+        return glm::dot(point.frame.normal, light) > 0.0 && scene.is_visible(point.position, light);
+      }};
 }
 
 std::vector<std::vector<reference::LightMoments>> exact_light(

@@ -95,7 +95,14 @@ std::optional<std::uint64_t> samples_for(const EstimatorInfo& info, const Predic
   const double left = error * error - predicted.bias * predicted.bias;
   if (!(left > 0.0)) return std::nullopt;
   constexpr double kMost = 1e15;
-  return in_steps(info, std::min(kMost, predicted.variance / left * (1.0 - 1e-12)));
+  // What a sample adds may fall with their number, so that fewer do than the variance of one says.
+  double samples = std::min(kMost, predicted.variance / left);
+  for (double less = samples;; samples = less) {
+    const auto rounded = static_cast<std::uint64_t>(std::max(1.0, std::ceil(less)));
+    less = std::min(kMost, predicted.variance_of(rounded) / left);
+    if (less >= 0.99 * samples) break;
+  }
+  return in_steps(info, samples * (1.0 - 1e-12));
 }
 
 Candidates candidates_for(const MethodDemand& demand, const Prediction& prediction,

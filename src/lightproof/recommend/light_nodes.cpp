@@ -19,27 +19,10 @@ constexpr double kBrightBlock = 5e-3;
 constexpr double kBrightTexel = 2e-3;
 constexpr int kBrightParts = 4;
 
-/// Width in radians of what a lobe of normals of this slope mirrors at a cosine of the view:
-/// narrower across where the view grazes.
-double mirrored_width(double slope, double cosine) { return 2.0 * slope * std::max(cosine, 0.15); }
-
-double width_of(const Material& material, double cosine) {
-  if (const auto* phong = std::get_if<ModifiedPhong>(&material)) {
-    return 1.0 / std::sqrt(phong->exponent);
-  }
-  if (const auto* ggx = std::get_if<Ggx>(&material)) {
-    return mirrored_width(ggx_alpha(ggx->roughness), cosine);
-  }
-  if (const auto* blinn = std::get_if<BlinnMicrofacet>(&material)) {
-    return mirrored_width(blinn->roughness * blinn->roughness, cosine);
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
 /// Adds nodes to those of one point.
 class Collector {
  public:
-  Collector(const MapSummary& summary, const LobePlace& lobe, LightNodes& nodes)
+  Collector(const MapSummary& summary, const LobeReach& lobe, LightNodes& nodes)
       : summary_(&summary), lobe_(&lobe), nodes_(&nodes), texels_(summary.finest.extent()) {}
 
   void add(const LightBlock& block) {
@@ -74,9 +57,9 @@ class Collector {
 
   /// The size that nodes may have within a radius of a direction.
   double size_at(Direction d, double radius) const {
-    if (std::isinf(lobe_->width)) return lobe_->width;
-    const double angle = std::acos(std::clamp(glm::dot(d, lobe_->axis), -1.0, 1.0));
-    return kRelativeSize * std::max(lobe_->width, angle - radius - lobe_->margin);
+    if (std::isinf(lobe_->place.width)) return lobe_->place.width;
+    const double angle = std::acos(std::clamp(glm::dot(d, lobe_->place.axis), -1.0, 1.0));
+    return kRelativeSize * std::max(lobe_->place.width, angle - radius - lobe_->margin);
   }
 
   void add_cells(const LightBlock& block) {
@@ -209,21 +192,20 @@ class Collector {
   }
 
   const MapSummary* summary_;
-  const LobePlace* lobe_;
+  const LobeReach* lobe_;
   LightNodes* nodes_;
   Extent texels_;
 };
 
 }  // namespace
 
-LobePlace lobe_of(const Material& material, const ShadingPoint& at) {
-  const double cosine = glm::dot(at.view, at.frame.normal);
+LobeReach lobe_of(const Material& material, const ShadingPoint& at) {
   // Tables of prefiltered maps have texels of up to a 256th of a turn.
   const double margin = std::holds_alternative<ModifiedPhong>(material) ? kPi / 256.0 : 0.0;
-  return {2.0 * cosine * at.frame.normal - at.view, width_of(material, cosine), margin};
+  return {lobe_at(material, at), margin};
 }
 
-LightNodes nodes_for(const MapSummary& summary, const LobePlace& lobe, Direction normal,
+LightNodes nodes_for(const MapSummary& summary, const LobeReach& lobe, Direction normal,
                      Direction also) {
   LightNodes nodes;
   Collector collector(summary, lobe, nodes);

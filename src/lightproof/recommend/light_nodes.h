@@ -5,20 +5,20 @@
 #include <array>
 #include <vector>
 
+#include "lightproof/materials/lobe_place.h"
 #include "lightproof/materials/material_batch.h"
 #include "lightproof/recommend/map_summary.h"
 
 namespace lightproof {
 
-/// Where a material's k varies fast: around the mirrored view, over a width in radians.
-struct LobePlace {
-  Direction axis;
-  double width;   ///< infinite if there is no lobe
-  double margin;  ///< an angle around the axis, in radians, at which other lobes may stand
+/// Where a material's k varies fast.
+struct LobeReach {
+  LobePlace place;
+  double margin;  ///< an angle around its axis, in radians, at which other lobes may stand
 };
 
 /// The lobe of a material at a shading point.
-LobePlace lobe_of(const Material& material, const ShadingPoint& at);
+LobeReach lobe_of(const Material& material, const ShadingPoint& at);
 
 /// Nodes, each number in an array of its own.
 struct LightNodes {
@@ -41,7 +41,7 @@ struct LightNodes {
 /// is not 0. A node is at most a fifth as large as the lobe is wide, or as it is far from the
 /// lobe's axis; as nothing more than the summary's finest grid is known, light is even inside of
 /// its texels.
-LightNodes nodes_for(const MapSummary& summary, const LobePlace& lobe, Direction normal,
+LightNodes nodes_for(const MapSummary& summary, const LobeReach& lobe, Direction normal,
                      Direction also = {0.0, 0.0, 0.0});
 
 }  // namespace lightproof
