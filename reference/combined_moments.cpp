@@ -83,10 +83,9 @@ template <class Sum, class Add>
 std::vector<Sum> sums_over(const Kernel& kernel, std::span<const Grid<double>> radiance,
                            CellRule rule, const Add& add) {
   const Extent extent = radiance.front().extent();
-  const Extent least = rule == CellRule::gauss ? SphereQuadrature::kLeastCells
-                                               : SphereQuadrature::kLeastMidpointCells;
-  const Extent parts = {(least.width + extent.width - 1) / extent.width,
-                        (least.height + extent.height - 1) / extent.height};
+  constexpr Extent kLeast = SphereQuadrature::kLeastCells;
+  const Extent parts = {(kLeast.width + extent.width - 1) / extent.width,
+                        (kLeast.height + extent.height - 1) / extent.height};
   const SphereQuadrature quadrature({extent.width * parts.width, extent.height * parts.height},
                                     rule);
   const auto height = static_cast<std::size_t>(quadrature.extent().height);

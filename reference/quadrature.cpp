@@ -32,9 +32,7 @@ std::vector<GaussNode> nodes_of(CellRule rule) {
 SphereQuadrature::SphereQuadrature(Extent extent, CellRule rule)
     : extent_(extent),
       radius_(0.5 * std::hypot(2.0 * kPi / extent.width, kPi / extent.height)),
-      coarse_(make_level(
-          cells_per_texel(extent, rule == CellRule::gauss ? kLeastCells : kLeastMidpointCells),
-          rule)),
+      coarse_(make_level(cells_per_texel(extent, kLeastCells), rule)),
       fine_(make_level(cells_per_texel(extent, kLeastEdgeCells), rule)) {
   for (int x = 0; x < extent.width; ++x) {
     const Direction at_equator = direction_from_square({(x + 0.5) / extent.width, 0.5});

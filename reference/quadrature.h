@@ -23,8 +23,8 @@ struct Node {
 /// Which nodes a cell has.
 enum class CellRule {
   gauss,  ///< 3 x 3 Gauss-Legendre nodes
-  /// The middle alone, of at least 1024 x 512 cells: a ninth of the time. Off by
-  /// h^2/24 times the second derivative of the integrand over the cells' side h in radians.
+  /// The middle alone: a ninth of the time. Off by h^2/24 times the second derivative of the
+  /// integrand over the cells' side h in radians.
   midpoint,
 };
 
@@ -38,9 +38,6 @@ class SphereQuadrature {
   /// The part of the sphere where an edge of the integrand may run is never divided into fewer
   /// cells than if the whole had this many.
   static constexpr Extent kLeastEdgeCells = {4096, 2048};
-
-  /// As kLeastCells, if each has one node.
-  static constexpr Extent kLeastMidpointCells = {1024, 512};
 
   explicit SphereQuadrature(Extent extent, CellRule rule = CellRule::gauss);
 
