@@ -445,6 +445,51 @@ BinnedMasses binned_masses(const Grid<double>& texel_masses, const Mapping& mapp
   return all;
 }
 
+BinShares::BinShares(const Mapping& mapping, Extent texels, Extent bins)
+    : bins_(bins), bin_of_texel_(texels.count(), -1) {
+  const int depth = depth_of_parts(mapping, texels);
+  std::vector<std::vector<Share>> rows(static_cast<std::size_t>(texels.height));
+  parallel_for(rows.size(), [&](std::size_t row) {
+    std::vector<Share> shares;
+    for (int x = 0; x < texels.width; ++x) {
+      const std::size_t texel =
+          row * static_cast<std::size_t>(texels.width) + static_cast<std::size_t>(x);
+      const SquareCell cell = texel_cell(texels, x, static_cast<int>(row));
+      shares.clear();
+      visit_binned_parts(mapping, cell, depth, bins, [&](const BinnedPart& part) {
+        const auto bin = static_cast<std::size_t>(part.row * bins.width + part.column);
+        const auto found = std::find_if(shares.begin(), shares.end(),
+                                        [&](const Share& share) { return share.bin == bin; });
+        if (found == shares.end()) {
+          shares.push_back({texel, bin, part.area / cell.area()});
+        } else {
+          found->share += part.area / cell.area();
+        }
+      });
+      if (shares.size() == 1) {
+        bin_of_texel_[texel] = static_cast<std::int32_t>(shares.front().bin);
+      } else {
+        rows[row].insert(rows[row].end(), shares.begin(), shares.end());
+      }
+    }
+  });
+  for (const std::vector<Share>& row : rows) shares_.insert(shares_.end(), row.begin(), row.end());
+}
+
+Grid<double> BinShares::masses(const Grid<double>& texel_masses) const {
+  Grid<double> masses(bins_);
+  const auto texels = texel_masses.values();
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    if (bin_of_texel_[i] >= 0) {
+      masses.values()[static_cast<std::size_t>(bin_of_texel_[i])] += texels[i];
+    }
+  }
+  for (const Share& share : shares_) {
+    masses.values()[share.bin] += share.share * texels[share.texel];
+  }
+  return masses;
+}
+
 void visit_nodes(const Mapping& mapping, const SquareCell& cell,
                  const std::function<void(const Node&)>& visit) {
   std::vector<Node> nodes;

@@ -3,6 +3,8 @@
 // these have folds.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -52,6 +54,28 @@ struct BinnedMasses {
 /// The masses of bins over (phi, theta), given the masses of texels in which the density over the
 /// square is uniform.
 BinnedMasses binned_masses(const Grid<double>& texel_masses, const Mapping& mapping, Extent bins);
+
+/// Which shares of the texels of a map lie in which bins over (phi, theta), kept for many
+/// densities.
+class BinShares {
+ public:
+  /// For densities that are uniform over the square of every texel.
+  BinShares(const Mapping& mapping, Extent texels, Extent bins);
+
+  /// The masses of the bins, given the masses of the texels: those of binned_masses().
+  Grid<double> masses(const Grid<double>& texel_masses) const;
+
+ private:
+  struct Share {
+    std::size_t texel;
+    std::size_t bin;
+    double share;
+  };
+
+  Extent bins_;
+  std::vector<std::int32_t> bin_of_texel_;  ///< -1 for one that lies in several
+  std::vector<Share> shares_;               ///< of those
+};
 
 /// Calls visit(Node) for 3 x 3 Gauss-Legendre nodes in each part of a cell inside which the mapping
 /// is smooth: an octahedral map folds along both diagonals of every quarter of its square, and

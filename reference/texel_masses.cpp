@@ -36,28 +36,6 @@ Grid<double> overlaps(int cells, int bins, const Height& height) {
   return overlap;
 }
 
-/// Of columns that are shifted, under B: they are divided where bins begin.
-Grid<double> turned_bin_masses(const Grid<double>& texel_masses, double shift, Extent bins) {
-  const Extent extent = texel_masses.extent();
-  Grid<double> turned({bins.width, extent.height});
-  for (int x = 0; x < extent.width; ++x) {
-    const double left = static_cast<double>(x) / extent.width + shift;
-    const double right = (x + 1.0) / extent.width + shift;
-    for (int b = 0; b < bins.width; ++b) {
-      double overlap = 0.0;
-      for (const double turn : {-1.0, 0.0, 1.0}) {
-        const double low = static_cast<double>(b) / bins.width + turn;
-        const double high = (b + 1.0) / bins.width + turn;
-        overlap += std::max(0.0, std::min(right, high) - std::max(left, low));
-      }
-      for (int y = 0; y < extent.height; ++y) {
-        turned(b, y) += overlap * extent.width * texel_masses(x, y);
-      }
-    }
-  }
-  return bin_masses(turned, DensitySpace::solid_angle, bins);
-}
-
 }  // namespace
 
 Grid<double> texel_masses(const EnvironmentMap& map, TargetDensity target) {
@@ -105,6 +83,27 @@ Grid<double> bin_masses(const Grid<double>& texel_masses, DensitySpace density_s
     }
   }
   return masses;
+}
+
+Grid<double> turned_bin_masses(const Grid<double>& texel_masses, double shift, Extent bins) {
+  const Extent extent = texel_masses.extent();
+  Grid<double> turned({bins.width, extent.height});
+  for (int x = 0; x < extent.width; ++x) {
+    const double left = static_cast<double>(x) / extent.width + shift;
+    const double right = (x + 1.0) / extent.width + shift;
+    for (int b = 0; b < bins.width; ++b) {
+      double overlap = 0.0;
+      for (const double turn : {-1.0, 0.0, 1.0}) {
+        const double low = static_cast<double>(b) / bins.width + turn;
+        const double high = (b + 1.0) / bins.width + turn;
+        overlap += std::max(0.0, std::min(right, high) - std::max(left, low));
+      }
+      for (int y = 0; y < extent.height; ++y) {
+        turned(b, y) += overlap * extent.width * texel_masses(x, y);
+      }
+    }
+  }
+  return bin_masses(turned, DensitySpace::solid_angle, bins);
 }
 
 Grid<double> bin_masses(const EnvironmentMap& map, TargetDensity target, Extent bins) {

@@ -94,13 +94,13 @@ class Placement {
 };
 
 /// What a sample's density says beside the declared one.
-void add_sample(DensityComparison& found, double& worst, const ComparedCell& cell,
-                double tolerance) {
+void add_sample(DensityComparison& found, double& worst, const ComparedCell& cell, double tolerance,
+                const Mapping& mapping) {
   if (!(cell.declared > 0.0)) {
     if (found.unlit_cells++ == 0) found.first_unlit = cell;
     return;
   }
-  const double over = std::abs(found.add_ratio(cell) - 1.0) / tolerance;
+  const double over = std::abs(found.add_ratio(cell, mapping) - 1.0) / tolerance;
   if (over <= 1.0) return;  // false for NaN
   ++found.cells_off;
   if (found.worst && !(over > worst)) return;
@@ -149,7 +149,7 @@ DensityComparison compare_dumped_density(const SampleDump& dump, const Expectati
       // Beside a pole the sine, by which densities over the square are divided, is rounded too.
       const double sine = sin_theta(sample.at.t);
       add_sample(found, worst, {sample.x, sample.y, sample.at, sample.pdf.value, declared},
-                 tolerance + 2.0 * dump.rounding() / sine);
+                 tolerance + 2.0 * dump.rounding() / sine, expectation.mapping);
     }
   }
   return found;

@@ -79,7 +79,7 @@ double log10_fit_of_counts(const Grid<std::uint64_t>& texels, const Grid<double>
 double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectation& expectation) {
   // The masses of an interpolated distribution say nothing of the bins that divide texels.
   if (expectation.lookup != Lookup::nearest) return fit_with_bins(draws, masses, nullptr);
-  const Grid<double> bins = reference::bin_masses(masses, expectation.density_space, kGateBins);
+  const Grid<double> bins = expectation.bins_of(masses);
   return fit_with_bins(draws, masses, &bins);
 }
 
@@ -112,7 +112,7 @@ std::vector<DistributionScores> score_distributions(std::span<const Alternative>
   for_each_holding_grids(alternatives.size(), expectation, [&](std::size_t distribution) {
     const Grid<double> masses = alternatives[distribution].masses();
     const Grid<double> ratios = log_ratios(masses, expectation.masses);
-    const Grid<double> bins = reference::bin_masses(masses, expectation.density_space, kGateBins);
+    const Grid<double> bins = expectation.bins_of(masses);
     for (std::size_t i = 0; i < scored.size(); ++i) {
       scores[i].gains[distribution] = log_likelihood_gain(*scored[i].draws, ratios);
       scores[i].from_own_pdf[distribution] = distance(bins, *scored[i].own_bins);
