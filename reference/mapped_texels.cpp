@@ -351,7 +351,9 @@ Division division_of(Extent map) {
   };
   const auto texels = static_cast<double>(map.count());
   const int parts = std::max(1, side(SphereQuadrature::kLeastCells, texels));
-  return {parts, std::max(1, side(SphereQuadrature::kLeastEdgeCells, texels * parts * parts))};
+  // An edge is a kink here, no jump: cells of 1/1024 leave 1e-6.
+  constexpr Extent kLeastEdgeCells = {1024, 512};
+  return {parts, std::max(1, side(kLeastEdgeCells, texels * parts * parts))};
 }
 
 }  // namespace

@@ -85,8 +85,8 @@ void visit_nodes(const Mapping& mapping, const SquareCell& cell,
                  const std::function<void(const Node&)>& visit);
 
 /// Calls add(node, value) for nodes in one texel of a map at which a kernel is positive. The sphere
-/// is divided into at least as many cells as by SphereQuadrature, and as finely where an edge of
-/// the kernel may run.
+/// is divided into at least as many cells as by SphereQuadrature, and into as many as 1024 x 512
+/// where an edge of the kernel may run, at which it has a kink and no jump.
 void visit_kernel(const Kernel& kernel, const Mapping& mapping, Extent map, const SquareCell& texel,
                   const std::function<void(const Node&, const KernelValue&)>& add);
 

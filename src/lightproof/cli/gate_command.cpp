@@ -95,7 +95,8 @@ int run(const Options& options) {
     check_folder(options.rejections, options.force, names_of_rejections(test_cases),
                  options.command_line);
   }
-  const Judged judged = run_on(test_cases, options);
+  Judged judged = run_on(test_cases, options);
+  judged.result.left_out = left_out_on(maps, chosen.of_maps);
   print_verdict(options, options.outputs, judged, stdout_is_taken);
   const RunDescription description = describe_run(options, maps);
   write_verdict(options.outputs, judged, description);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "lightproof/core/text_escapes.h"
@@ -103,6 +104,27 @@ std::string limited_lines(const GateResult& gate) {
   return text.empty() ? "" : "\nResolution-limited tests\n" + text;
 }
 
+/// One line for all samplers and densities that a map leaves out for one reason.
+std::string left_out_lines(const GateResult& gate) {
+  std::string text;
+  std::vector<LeftOut> groups;
+  for (const LeftOut& each : gate.left_out) {
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const LeftOut& group) {
+      return group.map == each.map && group.reason == each.reason;
+    });
+    const std::string name = fmt::format("{} {}", each.sampler, each.density_space);
+    if (same == groups.end()) {
+      groups.push_back({name, "", each.map, each.reason});
+    } else {
+      same->sampler += ", " + name;
+    }
+  }
+  for (const LeftOut& group : groups) {
+    text += fmt::format("  {}: {}: {}\n", group.map, group.reason, group.sampler);
+  }
+  return text.empty() ? "" : "\nLeft out\n" + text;
+}
+
 std::string all_lines(const GateResult& gate, Colour colour) {
   return summary_lines(gate, colour) + rejected_lines(gate, colour) + limited_lines(gate) +
          diagnosis_lines(gate);
@@ -139,8 +161,9 @@ std::string gate_table(const GateResult& gate, bool count_known_defects, Colour 
       "seed {}",
       outcome_text(all.outcome()), counted(all.tests, "test"), all.rejected, all.inconclusive,
       limited_text(all), significant(gate.family_alpha), with_thousands(gate.samples), gate.seed);
-  return all_lines(split.deciding, colour) + demonstration_lines(split.known_defects) + "\n" +
-         painted(total, all.outcome(), colour) + power_text(split.deciding) + "\n";
+  return all_lines(split.deciding, colour) + demonstration_lines(split.known_defects) +
+         left_out_lines(gate) + "\n" + painted(total, all.outcome(), colour) +
+         power_text(split.deciding) + "\n";
 }
 
 }  // namespace lightproof
