@@ -156,6 +156,34 @@ double solid_angle_per_square(const Mapping& mapping, SquarePoint at) {
   return solid_angle_per_square(at.t);
 }
 
+TurnEffect effect_of_turn(const Mapping& mapping, SquarePoint at) {
+  switch (mapping.kind) {
+    case MappingKind::octahedral:
+      // In an octant, with r = sqrt(2) sin(theta/2) and the azimuth's share f of a quarter turn,
+      // 2s - 1 is r (1 - f) and 2t - 1 is r f: r changes by at most 1/sqrt(2) per radian of theta,
+      // r f by at most (2/pi) r / sin(theta) <= 2/pi per radian of the way along the parallel.
+      return {0.5 * std::hypot(std::sqrt(0.5), 2.0 / kPi),
+              0.5 * std::hypot(std::sqrt(0.5), 2.0 / kPi), 0.0};
+    case MappingKind::cube_strip: {
+      // With a = 2u - 1, b = 2v - 1 and the direction (a, b, 1) / q on the face, the gradient of a
+      // over the sphere is q sqrt(1 + a^2) long, and d(omega) goes with q^-3 = cos^3 of the angle
+      // to the face's middle.
+      const CubePoint on_face = cube_point(at);
+      const double a = 2.0 * on_face.u - 1.0;
+      const double b = 2.0 * on_face.v - 1.0;
+      const double q = std::sqrt(1.0 + a * a + b * b);
+      return {0.5 * q * std::sqrt(1.0 + a * a) / kFaces, 0.5 * q * std::sqrt(1.0 + b * b),
+              3.0 * std::hypot(a, b)};
+    }
+    case MappingKind::lat_long:
+    case MappingKind::node_rows:
+      break;
+  }
+  const double sine = sin_theta(lat_long_height(mapping, at.t));
+  const double rows = mapping.kind == MappingKind::node_rows ? height_per_t(mapping, at.t) : 1.0;
+  return {0.5 / (kPi * sine), 1.0 / (kPi * rows), 1.0 / sine};
+}
+
 double texel_solid_angle(const Mapping& mapping, Extent extent, int x, int y) {
   switch (mapping.kind) {
     case MappingKind::octahedral:

@@ -78,6 +78,17 @@ SquarePoint square_point_of(const Mapping& mapping, Direction direction);
 /// mapping it is 0.
 double solid_angle_per_square(const Mapping& mapping, SquarePoint at);
 
+/// What a small turn of a direction does, per radian and at most: how far its point moves along
+/// either side of the square, and by how much, relative, d(omega) / (ds dt) changes there. A point
+/// that leaves a face of a cube, a fold of an octahedron or the square is taken to go on behind the
+/// edge. Infinite at the poles of latitude and longitude.
+struct TurnEffect {
+  double s;
+  double t;
+  double jacobian;
+};
+TurnEffect effect_of_turn(const Mapping& mapping, SquarePoint at);
+
 /// Solid angle, in steradian, of texel (x, y) of a map of this extent, counted from the lower left,
 /// to a few roundings. Texels have a closed form in every mapping.
 double texel_solid_angle(const Mapping& mapping, Extent extent, int x, int y);
