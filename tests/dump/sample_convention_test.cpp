@@ -5,6 +5,7 @@
 #include <set>
 
 #include "lightproof/core/error.h"
+#include "lightproof/warp/cube.h"
 
 namespace lightproof {
 namespace {

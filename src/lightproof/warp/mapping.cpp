@@ -160,10 +160,11 @@ TurnEffect effect_of_turn(const Mapping& mapping, SquarePoint at) {
   switch (mapping.kind) {
     case MappingKind::octahedral:
       // In an octant, with r = sqrt(2) sin(theta/2) and the azimuth's share f of a quarter turn,
-      // 2s - 1 is r (1 - f) and 2t - 1 is r f: r changes by at most 1/sqrt(2) per radian of theta,
-      // r f by at most (2/pi) r / sin(theta) <= 2/pi per radian of the way along the parallel.
-      return {0.5 * std::hypot(std::sqrt(0.5), 2.0 / kPi),
-              0.5 * std::hypot(std::sqrt(0.5), 2.0 / kPi), 0.0};
+      // 2s - 1 is r (1 - f) and 2t - 1 is r f. With c = cos(theta/2), at least sqrt(1/2) there,
+      // their squared gradients are at most c^2 / 2 along the meridian and (2/pi)^2 / (2 c^2) along
+      // the parallel, the sum of which is largest at the pole.
+      return {0.5 * std::sqrt(0.5 + 2.0 / (kPi * kPi)), 0.5 * std::sqrt(0.5 + 2.0 / (kPi * kPi)),
+              0.0};
     case MappingKind::cube_strip: {
       // With a = 2u - 1, b = 2v - 1 and the direction (a, b, 1) / q on the face, the gradient of a
       // over the sphere is q sqrt(1 + a^2) long, and d(omega) goes with q^-3 = cos^3 of the angle
