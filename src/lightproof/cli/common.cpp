@@ -121,7 +121,8 @@ void add_shared_options(CLI::App& command, CommonOptions& options, const std::st
   command.add_flag(
       "--resample", options.resample,
       "bring octahedral pictures, cubes and nodes to texels of latitude and longitude; "
-      "`precompute` and `study` always do, other commands keep the file's own texels");
+      "`precompute` always does, `study` for all but the gate; other commands keep the file's own "
+      "texels");
   add_number(command, "--seed", options.seed, 0, UINT64_MAX, "base seed of all random numbers");
   command.add_option("-t,--threads", options.threads, "threads; 0 is one per core")
       ->check(CLI::Range(0, 4096))

@@ -109,7 +109,7 @@ int run(Options options) {
   options.study.accuracy_scenes = accuracy_scenes(options);
   Throughput throughput;
   if (!options.throughput.empty()) throughput = read_throughput(options.throughput);
-  std::vector<EnvironmentMap> maps = load_maps(options, TexelsOfMaps::lat_long);
+  std::vector<EnvironmentMap> maps = load_maps(options);
   check_folder(options.output, options.force, report_file_names(), options.command_line);
   const RunDescription description = describe_run(options, maps);
   options.study.cache = kept_measurements(description.commit, options.measure_again);

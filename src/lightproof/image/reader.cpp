@@ -164,7 +164,7 @@ void note_mapping(EnvironmentMap& map) {
   const Extent texels = map.radiance.extent();
   if (!map.origin.is_resampled) {
     if (!is_plain(map.mapping)) {
-      map.notes.push_back(fmt::format("{} texels of the file's own mapping, {}: none is resampled.",
+      map.notes.push_back(fmt::format("{} texels of the file's own mapping, {}, each as it is.",
                                       size_text(texels), describe(map.mapping)));
     }
   } else if (chosen.lattice == Lattice::node_centred) {

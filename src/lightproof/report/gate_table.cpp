@@ -1,6 +1,7 @@
 #include "lightproof/report/gate_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <vector>
@@ -104,23 +105,10 @@ std::string limited_lines(const GateResult& gate) {
   return text.empty() ? "" : "\nResolution-limited tests\n" + text;
 }
 
-/// One line for all samplers and densities that a map leaves out for one reason.
 std::string left_out_lines(const GateResult& gate) {
   std::string text;
-  std::vector<LeftOut> groups;
-  for (const LeftOut& each : gate.left_out) {
-    const auto same = std::find_if(groups.begin(), groups.end(), [&](const LeftOut& group) {
-      return group.map == each.map && group.reason == each.reason;
-    });
-    const std::string name = fmt::format("{} {}", each.sampler, each.density_space);
-    if (same == groups.end()) {
-      groups.push_back({name, "", each.map, each.reason});
-    } else {
-      same->sampler += ", " + name;
-    }
-  }
-  for (const LeftOut& group : groups) {
-    text += fmt::format("  {}: {}: {}\n", group.map, group.reason, group.sampler);
+  for (const LeftOutGroup& group : left_out_groups(gate)) {
+    text += fmt::format("  {}: {}: {}\n", group.map, group.reason, fmt::join(group.samplers, ", "));
   }
   return text.empty() ? "" : "\nLeft out\n" + text;
 }

@@ -251,6 +251,8 @@ Json json_of(const MapRecord& r) {
   return {{"name", r.map.name},
           {"source", r.source},
           {"size", json_of(r.map.radiance.extent())},
+          {"mapping", describe(r.own_mapping)},
+          {"own_size", json_of(r.own_texels)},
           {"mean_luminance", number(r.mean_luminance)},
           {"peak_ratio", number(r.peak_ratio)},
           {"effective_fraction", number(r.effective_fraction)},
