@@ -121,7 +121,7 @@ TEST(Dump, InOtherAxesIsRecognisedInTheMapsOwnTexels) {
     EXPECT_EQ(outcome_of(dump.judged(DensitySpace::sine_weighted)), Outcome::reject);
     const std::vector<Recognition> found = dump.recognised(DensitySpace::sine_weighted);
     ASSERT_FALSE(found.empty());
-    EXPECT_THAT(found.front().change, HasSubstr("z is negated"));
+    EXPECT_THAT(found.front().words, HasSubstr("z is negated"));
   }
 }
 

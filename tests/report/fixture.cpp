@@ -110,7 +110,7 @@ GateResult gate() {
                             TestId::pdf_integral,
                             TestId::in_domain};
   GateResult result{1e-6, 4194304, 20240607, {}};
-  result.left_out = {{"hierarchical", "B", kMaps[1], "no such look-up on its texels"}};
+  result.left_out = {{"hierarchical_warp", "B", kMaps[1], "no such look-up on its texels"}};
   for (const std::string& sampler : kSamplers) {
     for (const char* density_space : {"A", "B"}) {
       if (sampler == "uniform" && density_space[0] == 'B') continue;

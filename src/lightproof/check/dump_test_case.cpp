@@ -20,8 +20,9 @@ TestCase dump_test_case(std::shared_ptr<const SampleDump> dump, const Environmen
   named.resolution = 0.0;
   if (const std::string_view reason = why_left_out(named, map); !reason.empty()) {
     throw InputError(fmt::format(
-        "{}: no density {} on its {} texels: {}; A and C are there, or --resample", map.name,
-        to_string(claim.target.density_space), info(map.mapping.kind).name, reason));
+        "{}: no density {} on its {} texels: {}, and --resample brings it to those of latitude and "
+        "longitude",
+        map.name, to_string(claim.target.density_space), info(map.mapping.kind).name, reason));
   }
   TestCase test_case = test_cases_of({&map, 1}, {&named, 1}).front();
   // The exact side is made once: the dump's samples find their texels by it.

@@ -124,7 +124,8 @@ constexpr std::string_view why_not_declared(TargetDensity target, const Mapping&
   const bool has_equal_rows = mapping.kind == MappingKind::lat_long;
   if (position_measure(target.density_space, mapping) == MapMeasure::solid_angle &&
       !has_equal_rows) {
-    return "positions uniform in solid angle are drawn in rows of one height between two parallels";
+    return "positions uniform in solid angle need rows of one height between two parallels; "
+           "density C draws the same texels";
   }
   return "";
 }
