@@ -221,6 +221,10 @@ TEST(MappedTexels, TurnedColumnsUnderBAreDividedExactly) {
   }
 }
 
+// Three nodes of Gauss leave h^7 f^(6) / 2016000 of a side h. Rows of pi/7 are the longest
+// sides here: of sin^3(theta), whose sixth derivative is at most 183, 7 times 3.3e-7, and half of
+// the turn of azimuth, together 7.3e-6; along their columns, of cos^2(phi), 7e-7. Of z the errors
+// of two hemispheres cancel.
 TEST(MappedTexels, NodesOfATexelIntegrateWhatIsSmooth) {
   for (const Case& each : cases()) {
     SCOPED_TRACE(describe(each.mapping));
@@ -235,13 +239,16 @@ TEST(MappedTexels, NodesOfATexelIntegrateWhatIsSmooth) {
       });
     });
     EXPECT_NEAR(area, kSphere, 1e-12);
-    EXPECT_NEAR(z, 0.0, 1e-6);
+    EXPECT_NEAR(z, 0.0, 1e-12);
     EXPECT_NEAR(square, kSphere / 3.0, 1e-5);
   }
 }
 
 // Of radiance 1 the estimator of irradiance has the mean pi whatever the texels; and where all
-// texels are of one size, that of uniform directions has the moments of the others.
+// texels are of one size, that of uniform directions has the moments of the others. Of a kink in
+// the middle of a side, three nodes of Gauss leave at most 0.07 of a quarter of the side squared:
+// in cells of a side h along the horizon, 2 pi / h of them, 0.0175 h^3 each, 4.1e-6 with h = 2 pi /
+// 1024 if all had one sign. A square has no kink, and is no worse than smooth functions are.
 TEST(MappedTexels, MomentsOfAConstantMapAreKnown) {
   for (const Case& each : cases()) {
     SCOPED_TRACE(describe(each.mapping));
@@ -249,12 +256,12 @@ TEST(MappedTexels, MomentsOfAConstantMapAreKnown) {
     for (const Direction normal : {Direction(0, 0, 1), Direction(1, 0, 0)}) {
       const LightMoments moments = light_moments(cosine_kernel(normal), {&one, 1}, each.mapping)[0];
       const EstimatorMoments& uniform = moments[SampledDensity::uniform];
-      EXPECT_NEAR(uniform.raw[0], kPi, 1e-6);
+      EXPECT_NEAR(uniform.raw[0], kPi, 4.1e-6);
       // E[X^2] = 4 pi ∫ cos^2 = 4 pi 2 pi/3.
       EXPECT_NEAR(uniform.raw[1], 8.0 * kPi * kPi / 3.0, 1e-5);
       EXPECT_NEAR(moments[SampledDensity::solid_angle].raw[1], uniform.raw[1], 1e-9);
-      EXPECT_NEAR(moments[SampledDensity::texture_space].raw[0], kPi, 1e-6);
-      EXPECT_NEAR(moments[SampledDensity::sine_weighted].raw[0], kPi, 1e-6);
+      EXPECT_NEAR(moments[SampledDensity::texture_space].raw[0], kPi, 4.1e-6);
+      EXPECT_NEAR(moments[SampledDensity::sine_weighted].raw[0], kPi, 4.1e-6);
       if (!is_equal_area(each.mapping)) continue;
       EXPECT_NEAR(moments[SampledDensity::texture_space].raw[1], uniform.raw[1], 1e-9);
       EXPECT_NEAR(moments[SampledDensity::sine_weighted].raw[3], uniform.raw[3], 1e-6);
@@ -263,7 +270,8 @@ TEST(MappedTexels, MomentsOfAConstantMapAreKnown) {
 }
 
 // Of the plain mapping there are two ways: the quadrature of rows and columns, and that of cells.
-// 1e-4 of a turn is the least shift that makes it another mapping.
+// The map is the same in all columns, which a shift of 1e-4 of a turn leaves as it is; the horizon
+// is an edge of texels, and what is smooth is divided as finely by both ways.
 TEST(MappedTexels, MomentsAgreeWithThoseOfRowsAndColumns) {
   const EnvironmentMap map = make_synthetic_map("gradient", {16, 8});
   const Grid<double> luminance = luminance_of(map);
