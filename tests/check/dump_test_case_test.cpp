@@ -129,8 +129,7 @@ TEST(Dump, OfADensityThatTheTexelsCannotHaveIsRefused) {
   const EnvironmentMap& cube = own_texels()[1];
   const Dump dump(DensitySpace::sine_weighted, {}, {}, 500, true, cube);
   EXPECT_THAT([&] { dump.judged(DensitySpace::solid_angle); },
-              testing::Throws<InputError>(
-                  testing::Property(&InputError::what, HasSubstr("no density B on its cube"))));
+              testing::ThrowsMessage<InputError>(HasSubstr("no density B on its cube")));
 }
 
 TEST(Dump, WithoutDensitiesIsJudgedByItsDirections) {

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "lightproof/core/error.h"
 #include "lightproof/core/temporary_folder.h"
 #include "lightproof/image/reader.h"
@@ -13,7 +15,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::Property;
 
 /// A picture for every preset: odd widths where columns can be shifted.
 Extent picture_for(const PresetInfo& preset) {
@@ -40,7 +41,8 @@ TEST(LatLongTexels, AreThoseOfAReaderThatResamples) {
     const EnvironmentMap expected = read_environment_map(folder / "a.exr", options);
     const EnvironmentMap found = resampled_to_lat_long(own);
     EXPECT_TRUE(is_plain(found.mapping));
-    EXPECT_EQ(found.radiance, expected.radiance);
+    EXPECT_EQ(found.radiance.extent(), expected.radiance.extent());
+    EXPECT_TRUE(std::ranges::equal(found.radiance.values(), expected.radiance.values()));
     EXPECT_EQ(found.notes.size(), own.notes.size() + (is_plain(own.mapping) ? 0 : 1));
     EXPECT_NO_THROW(require_lat_long(found, "irradiance"));
   }
@@ -48,11 +50,10 @@ TEST(LatLongTexels, AreThoseOfAReaderThatResamples) {
 
 TEST(LatLongTexels, AreAskedForWithTheMapItsMappingAndAWayOut) {
   const EnvironmentMap map = make_synthetic_map("constant", {24, 4}, {MappingKind::cube_strip});
-  EXPECT_THAT(
-      [&] { require_lat_long(map, "irradiance"); },
-      testing::Throws<InputError>(Property(
-          &InputError::what, AllOf(HasSubstr("constant: its texels are cube"),
-                                   HasSubstr("irradiance needs"), HasSubstr("--resample")))));
+  EXPECT_THAT([&] { require_lat_long(map, "irradiance"); },
+              testing::ThrowsMessage<InputError>(AllOf(HasSubstr("constant: its texels are cube"),
+                                                       HasSubstr("irradiance needs"),
+                                                       HasSubstr("--resample"))));
   EXPECT_NO_THROW(require_lat_long(make_synthetic_map("constant", {8, 4}), "irradiance"));
 }
 
