@@ -261,8 +261,8 @@ std::string gate_section(const GateResult& gate, const std::string& directions_o
   }
   html += fmt::format("<h3>{}</h3>\n", escaped(gate_title(gate)));
   const SplitGate split = split_gate(gate, false);
-  html += paragraph(kLegend, "note") + verdicts(split.deciding) + left_out(gate) +
-          demonstration(split.known_defects);
+  html += paragraph(kLegend, "note") + verdicts(split.deciding, gate.left_out) +
+          left_out_table(gate) + demonstration(split.known_defects, gate.left_out);
   if (!directions_origin.empty()) {
     html += paragraph(
         fmt::format("Warps and materials, which need no map: tested by this program on {}.",
