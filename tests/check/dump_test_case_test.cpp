@@ -113,9 +113,10 @@ TEST(Dump, IsAcceptedInTheMapsOwnTexels) {
   }
 }
 
+// Octahedral and of a cube: the other two have rows and columns as the plain ones have.
 TEST(Dump, InOtherAxesIsRecognisedInTheMapsOwnTexels) {
   const Change flipped = [](Written& row) { row[2] = -row[2]; };
-  for (const EnvironmentMap& map : own_texels()) {
+  for (const EnvironmentMap& map : std::span(own_texels()).first(2)) {
     SCOPED_TRACE(describe(map.mapping));
     const Dump dump(DensitySpace::sine_weighted, flipped, {}, kSamples, true, map);
     EXPECT_EQ(outcome_of(dump.judged(DensitySpace::sine_weighted)), Outcome::reject);
