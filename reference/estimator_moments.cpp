@@ -8,6 +8,7 @@
 #include "lightproof/core/parallel.h"
 #include "lightproof/warp/lat_long.h"
 #include "reference/kernel_nodes.h"
+#include "reference/mapped_texels.h"
 #include "reference/quadrature.h"
 
 namespace lightproof::reference {
@@ -53,34 +54,50 @@ TexelIntegrals integrate(const Kernel& kernel, const SphereQuadrature& quadratur
   return texel;
 }
 
+/// A texel of another mapping.
+TexelIntegrals integrate(const Kernel& kernel, const Mapping& mapping, Extent map,
+                         const SquareCell& cell) {
+  TexelIntegrals texel;
+  visit_kernel(kernel, mapping, map, cell,
+               [&](const Node& node, const KernelValue& value) { texel.add(value, node); });
+  return texel;
+}
+
 /// The factors that turn the texel's integrals into moments.
 struct Totals {
   double solid_angle_sum;  ///< G = ∫ L d(omega)
   double mean;             ///< A = mean of L over the square
 };
 
-Totals totals_of(const Grid<double>& radiance) {
+Totals totals_of(const Grid<double>& radiance, const Mapping& mapping) {
   Totals totals{0.0, 0.0};
   for (int y = 0; y < radiance.extent().height; ++y) {
     const auto row = radiance.row(y);
     const double sum = std::accumulate(row.begin(), row.end(), 0.0);
     totals.mean += sum / static_cast<double>(radiance.extent().count());
-    totals.solid_angle_sum += sum * texel_solid_angle(radiance.extent(), y);
+    if (mapping.kind == MappingKind::lat_long) {
+      totals.solid_angle_sum += sum * texel_solid_angle(radiance.extent(), y);
+      continue;
+    }
+    for (int x = 0; x < radiance.extent().width; ++x) {
+      totals.solid_angle_sum +=
+          radiance(x, y) * cell_solid_angle(mapping, texel_cell(radiance.extent(), x, y));
+    }
   }
   return totals;
 }
 
-/// Where a texel lies: what of a row the moments depend on.
-struct RowOfTexels {
+/// Where a texel lies: what of its place the moments depend on.
+struct PlaceOfTexel {
   double solid_angle;  ///< of a texel, in steradian
   double area;         ///< of a texel, over the square
 };
 
 /// Adds one texel: E[X^m] = ∫ (L k)^m / p^(m-1) d(omega).
-void accumulate(LightMoments& moments, double radiance, const Totals& totals, RowOfTexels row,
+void accumulate(LightMoments& moments, double radiance, const Totals& totals, PlaceOfTexel place,
                 const TexelIntegrals& texel) {
   const double a = 2.0 * kPi * kPi * totals.mean;
-  const double c = 2.0 * kPi * kPi * totals.solid_angle_sum * row.area / row.solid_angle;
+  const double c = 2.0 * kPi * kPi * totals.solid_angle_sum * place.area / place.solid_angle;
   const auto raise = [](EstimatorMoments& m, double x) { m.largest = std::max(m.largest, x); };
   raise(moments[SampledDensity::uniform], kSphere * radiance * texel.largest);
   raise(moments[SampledDensity::material], radiance * texel.largest_ratio);
@@ -134,7 +151,8 @@ Kernel cosine_kernel(Direction normal) {
 }
 
 std::vector<LightMoments> light_moments(const Kernel& kernel,
-                                        std::span<const Grid<double>> radiance) {
+                                        std::span<const Grid<double>> radiance,
+                                        const Mapping& mapping) {
   const Extent extent = radiance.front().extent();
   assert(std::all_of(radiance.begin(), radiance.end(),
                      [&](const auto& grid) { return grid.extent() == extent; }));
@@ -144,19 +162,23 @@ std::vector<LightMoments> light_moments(const Kernel& kernel,
                         (kLeast.height + extent.height - 1) / extent.height};
   const SphereQuadrature quadrature({extent.width * parts.width, extent.height * parts.height});
   std::vector<Totals> totals;
-  for (const auto& grid : radiance) totals.push_back(totals_of(grid));
+  for (const auto& grid : radiance) totals.push_back(totals_of(grid, mapping));
 
   const auto height = static_cast<std::size_t>(extent.height);
   std::vector<std::vector<LightMoments>> rows(height, std::vector<LightMoments>(radiance.size()));
   parallel_for(height, [&](std::size_t row) {
     const int y = static_cast<int>(row);
-    const RowOfTexels of_texel = {texel_solid_angle(extent, y),
-                                  1.0 / static_cast<double>(extent.count())};
     for (int x = 0; x < extent.width; ++x) {
       const bool dark = std::all_of(radiance.begin(), radiance.end(),
                                     [&](const auto& grid) { return grid(x, y) == 0.0; });
       if (dark) continue;
-      const TexelIntegrals texel = integrate(kernel, quadrature, parts, x, y);
+      const SquareCell cell = texel_cell(extent, x, y);
+      const PlaceOfTexel of_texel = {mapping.kind == MappingKind::lat_long
+                                         ? texel_solid_angle(extent, y)
+                                         : cell_solid_angle(mapping, cell),
+                                     1.0 / static_cast<double>(extent.count())};
+      const TexelIntegrals texel = is_plain(mapping) ? integrate(kernel, quadrature, parts, x, y)
+                                                     : integrate(kernel, mapping, extent, cell);
       if (texel.plain[0] == 0.0) continue;
       for (std::size_t map = 0; map < radiance.size(); ++map) {
         if (radiance[map](x, y) == 0.0) continue;  // whatever the powers of 1/pdf are

@@ -91,7 +91,9 @@ class LightMoments {
 /// The moments of the one-sample estimators of ∫ L k d(omega), one entry per grid of radiance L,
 /// which is constant inside a texel; all grids have one extent. Under A, B and C the density
 /// of a texel is proportional to the same L, so X is bounded however bright a sun is.
+/// Texels are those of the mapping.
 std::vector<LightMoments> light_moments(const Kernel& kernel,
-                                        std::span<const Grid<double>> radiance);
+                                        std::span<const Grid<double>> radiance,
+                                        const Mapping& mapping = {});
 
 }  // namespace lightproof::reference

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lightproof/core/measure.h"
+#include "lightproof/image/lat_long_texels.h"
 
 namespace lightproof::reference {
 namespace {
@@ -73,6 +74,7 @@ double clamped_cosine_of_texel(Extent map, int x, int y, Direction normal) {
 }
 
 glm::dvec3 irradiance(const EnvironmentMap& map, Direction normal) {
+  require_lat_long(map, "irradiance");
   const Extent extent = map.radiance.extent();
   glm::dvec3 sum(0.0);
   for (int y = 0; y < extent.height; ++y) {

@@ -15,6 +15,7 @@ namespace lightproof::reference {
 /// A direction at which an integrand over the sphere is evaluated.
 struct Node {
   Direction direction;
+  /// d(omega)/(ds dt) over 2 pi^2, which in latitude and longitude is sin(theta).
   double sin_theta;
   double solid_angle;  ///< weight of the node in steradian
   SquarePoint at;      ///< the direction's position in the square

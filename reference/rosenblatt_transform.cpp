@@ -25,9 +25,9 @@ double between(double low, double high, double share) { return low + (high - low
 
 }  // namespace
 
-RosenblattTransform::RosenblattTransform(const Grid<double>& masses, DensitySpace density_space)
+RosenblattTransform::RosenblattTransform(const Grid<double>& masses, MapMeasure positions)
     : extent_(masses.extent()),
-      measure_(position_measure(density_space)),
+      measure_(positions),
       rows_(static_cast<std::size_t>(extent_.height) + 1),
       columns_(static_cast<std::size_t>(extent_.width) + 1),
       within_({extent_.width + 1, extent_.height}) {

@@ -28,7 +28,11 @@ class RosenblattTransform {
  public:
   /// The transform of a density given by texel masses that sum to 1; uniform inside a texel in s,
   /// and in t or cos(theta) by position_measure() of the density.
-  RosenblattTransform(const Grid<double>& masses, DensitySpace density_space);
+  RosenblattTransform(const Grid<double>& masses, DensitySpace density_space)
+      : RosenblattTransform(masses, position_measure(density_space)) {}
+  /// As above, uniform inside a texel in this measure; in solid angle only in rows of latitude and
+  /// longitude. Coordinates are those of the square of any mapping.
+  RosenblattTransform(const Grid<double>& masses, MapMeasure positions);
 
   /// The transformed coordinates of `at`, which lies in texel (x, y).
   RosenblattPoint operator()(SquarePoint at, int x, int y) const;

@@ -7,6 +7,7 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/measure.h"
 #include "reference/bilinear_distribution.h"
+#include "reference/mapped_texels.h"
 
 namespace lightproof::reference {
 namespace {
@@ -42,13 +43,14 @@ Grid<double> texel_masses(const EnvironmentMap& map, TargetDensity target) {
   if (target.lookup == Lookup::bilinear) return bilinear_masses(map, target, extent);
   Grid<double> masses(extent);
   double total = 0.0;
+  const bool is_square = texel_measure(target.density_space, map.mapping) == MapMeasure::square;
   for (int y = 0; y < extent.height; ++y) {
     const double low = static_cast<double>(y) / extent.height;
     const double high = (y + 1.0) / extent.height;
-    const double area = texel_measure(target.density_space) == MapMeasure::square
-                            ? high - low
-                            : cos_theta(high) - cos_theta(low);
+    const double row = is_square ? high - low : cos_theta(high) - cos_theta(low);
     for (int x = 0; x < extent.width; ++x) {
+      const bool has_row = is_square || map.mapping.kind == MappingKind::lat_long;
+      const double area = has_row ? row : cell_solid_angle(map.mapping, texel_cell(extent, x, y));
       masses(x, y) = luminance_of(map.radiance(x, y), target.weights) * area;
       total += masses(x, y);
     }
@@ -83,8 +85,36 @@ Grid<double> bin_masses(const Grid<double>& texel_masses, DensitySpace density_s
   return masses;
 }
 
+Grid<double> turned_bin_masses(const Grid<double>& texel_masses, double shift, Extent bins) {
+  const Extent extent = texel_masses.extent();
+  Grid<double> turned({bins.width, extent.height});
+  for (int x = 0; x < extent.width; ++x) {
+    const double left = static_cast<double>(x) / extent.width + shift;
+    const double right = (x + 1.0) / extent.width + shift;
+    for (int b = 0; b < bins.width; ++b) {
+      double overlap = 0.0;
+      for (const double turn : {-1.0, 0.0, 1.0}) {
+        const double low = static_cast<double>(b) / bins.width + turn;
+        const double high = (b + 1.0) / bins.width + turn;
+        overlap += std::max(0.0, std::min(right, high) - std::max(left, low));
+      }
+      for (int y = 0; y < extent.height; ++y) {
+        turned(b, y) += overlap * extent.width * texel_masses(x, y);
+      }
+    }
+  }
+  return bin_masses(turned, DensitySpace::solid_angle, bins);
+}
+
 Grid<double> bin_masses(const EnvironmentMap& map, TargetDensity target, Extent bins) {
   if (target.lookup == Lookup::bilinear) return bilinear_masses(map, target, bins);
+  if (!is_plain(map.mapping)) {
+    const Grid<double> masses = texel_masses(map, target);
+    if (position_measure(target.density_space, map.mapping) == MapMeasure::solid_angle) {
+      return turned_bin_masses(masses, map.mapping.shift, bins);
+    }
+    return binned_masses(masses, map.mapping, bins).masses;
+  }
   return bin_masses(texel_masses(map, target), target.density_space, bins);
 }
 

@@ -16,8 +16,14 @@ Grid<double> texel_masses(const EnvironmentMap& map, TargetDensity target);
 /// position_measure() of the density.
 Grid<double> bin_masses(const Grid<double>& texel_masses, DensitySpace density_space, Extent bins);
 
-/// Probability of every bin of a `bins` grid laid over the square, of a map's target density by
-/// either look-up; they sum to 1. Throws InputError if the map is black.
+/// The same of positions that are uniform in solid angle, in columns that are shifted: their s is
+/// less than that of the bins by `shift`, from -1 to 1.
+Grid<double> turned_bin_masses(const Grid<double>& texel_masses, double shift, Extent bins);
+
+/// Probability of every bin of a `bins` grid laid over (s,t) of Lightproof's own frame, which is to
+/// say over (phi, theta), of a map's target density by either look-up; they sum to 1. Exact on maps
+/// of latitude and longitude; on others to binned_masses() of mapped_texels.h. Throws InputError if
+/// the map is black.
 Grid<double> bin_masses(const EnvironmentMap& map, TargetDensity target, Extent bins);
 
 /// Masses of the rows of a grid: the sums over its columns.

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "lightproof/check/recognition.h"
+#include "lightproof/core/error.h"
 #include "lightproof/core/random.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/results/verdict.h"
@@ -39,8 +40,10 @@ const EnvironmentMap& sun_sky() {
 class Dump {
  public:
   explicit Dump(DensitySpace drawn, const Change& change = {}, SampleConvention convention = {},
-                std::size_t samples = kSamples, bool with_pdf = true) {
-    const Alias sampler(sun_sky(), {drawn});
+                std::size_t samples = kSamples, bool with_pdf = true,
+                const EnvironmentMap& map = sun_sky())
+      : map_(&map) {
+    const Alias sampler(map, {drawn});
     const RandomStream stream("dump", 7);
     const std::size_t columns = with_pdf ? 4 : 3;
     std::vector<float> numbers;
@@ -59,14 +62,15 @@ class Dump {
   }
 
   GateResult judged(DensitySpace declared) const {
-    const TestCase test_case = dump_test_case(dump_, sun_sky(), {"dump", {declared}});
+    const TestCase test_case = dump_test_case(dump_, *map_, {"dump", {declared}});
     return run_gate({&test_case, 1}, spending({}, dump_->count()));
   }
   std::vector<Recognition> recognised(DensitySpace declared) const {
-    return recognise(*dump_, sun_sky(), {declared});
+    return recognise(*dump_, *map_, {declared});
   }
 
  private:
+  const EnvironmentMap* map_;
   TemporaryFolder folder_;
   std::shared_ptr<const SampleDump> dump_;
 };
@@ -87,6 +91,46 @@ TEST(Dump, OfEveryDensityIsAcceptedThoughFloatsMoveSamplesOverEdges) {
     const GateResult gate = Dump(density.density_space).judged(density.density_space);
     EXPECT_EQ(outcome_of(gate), Outcome::accept) << density.label << " " << rejected_tests(gate);
   }
+}
+
+/// Maps in every mapping but that of latitude and longitude.
+const std::vector<EnvironmentMap>& own_texels() {
+  static const std::vector<EnvironmentMap> maps = {
+      make_synthetic_map("sun-sky", {128, 128}, {MappingKind::octahedral}),
+      make_synthetic_map("sun-sky", {384, 64}, {MappingKind::cube_strip}),
+      make_synthetic_map("sun-sky", {256, 129}, node_mapping({256, 129})),
+      make_synthetic_map("sun-sky", {255, 128}, {.shift = 0.5 / 255})};
+  return maps;
+}
+
+// As floats do, in the texels of the file: over the edges of faces and folds, too.
+TEST(Dump, IsAcceptedInTheMapsOwnTexels) {
+  for (const EnvironmentMap& map : own_texels()) {
+    SCOPED_TRACE(describe(map.mapping));
+    const Dump dump(DensitySpace::sine_weighted, {}, {}, kSamples, true, map);
+    const GateResult gate = dump.judged(DensitySpace::sine_weighted);
+    EXPECT_EQ(outcome_of(gate), Outcome::accept) << rejected_tests(gate);
+  }
+}
+
+// Octahedral and of a cube: the other two have rows and columns as the plain ones have.
+TEST(Dump, InOtherAxesIsRecognisedInTheMapsOwnTexels) {
+  const Change flipped = [](Written& row) { row[2] = -row[2]; };
+  for (const EnvironmentMap& map : std::span(own_texels()).first(2)) {
+    SCOPED_TRACE(describe(map.mapping));
+    const Dump dump(DensitySpace::sine_weighted, flipped, {}, kSamples, true, map);
+    EXPECT_EQ(outcome_of(dump.judged(DensitySpace::sine_weighted)), Outcome::reject);
+    const std::vector<Recognition> found = dump.recognised(DensitySpace::sine_weighted);
+    ASSERT_FALSE(found.empty());
+    EXPECT_THAT(found.front().words, HasSubstr("z is negated"));
+  }
+}
+
+TEST(Dump, OfADensityThatTheTexelsCannotHaveIsRefused) {
+  const EnvironmentMap& cube = own_texels()[1];
+  const Dump dump(DensitySpace::sine_weighted, {}, {}, 500, true, cube);
+  EXPECT_THAT([&] { dump.judged(DensitySpace::solid_angle); },
+              testing::ThrowsMessage<InputError>(HasSubstr("no density B on its cube")));
 }
 
 TEST(Dump, WithoutDensitiesIsJudgedByItsDirections) {

@@ -7,6 +7,7 @@
 
 #include "lightproof/samplers/registry.h"
 #include "tests/cli/program.h"
+#include "tests/cli/schema.h"
 
 namespace lightproof::test {
 namespace {
@@ -58,6 +59,38 @@ TEST(Gate, RejectsThePublishedScanWhereTheFirstRowIsBlack) {
   const json results = json_of(folder / "g.json");
   EXPECT_EQ(results.at("outcome"), "reject");
   EXPECT_TRUE(has_rejected_check_at_origin(results)) << results.dump(1);
+}
+
+TEST(Gate, JudgesTheTexelsOfTheFileAndTellsWhatTheyLeaveOut) {
+  const TemporaryFolder folder;
+  write_map(folder / "faces.exr", {48, 8});
+  const std::string map = (folder / "faces.exr").string();
+  const Words words = {"gate", map, "--preset", "cube", "-n", "65536", "--sampler", "packed_alias"};
+  const Finished gate = gate_into(folder / "g.json", words);
+  EXPECT_EQ(gate.exit_code, 0) << gate.out << gate.err;
+  EXPECT_THAT(gate.out, AllOf(HasSubstr("packed_alias A"), HasSubstr("packed_alias C"),
+                              HasSubstr("Left out\n  faces: positions uniform in solid angle need"),
+                              HasSubstr("packed_alias B")));
+  expect_valid("gate.schema.json", folder / "g.json");
+  const json left_out = json_of(folder / "g.json").at("left_out");
+  ASSERT_EQ(left_out.size(), 1U);
+  EXPECT_EQ(left_out.at(0).at("density"), "B");
+
+  Words resampled = words;
+  resampled.emplace_back("--resample");
+  EXPECT_EQ(gate_into(folder / "r.json", resampled).exit_code, 0);
+  EXPECT_TRUE(json_of(folder / "r.json").at("left_out").empty());
+}
+
+TEST(Gate, RefusesToCallNothingAcceptance) {
+  const TemporaryFolder folder;
+  write_map(folder / "faces.exr", {48, 8});
+  const Finished gate = lightproof({"gate", (folder / "faces.exr").string(), "--preset", "cube",
+                                    "--density", "B", "-n", "65536"});
+  EXPECT_EQ(gate.exit_code, 2);
+  EXPECT_THAT(gate.err,
+              AllOf(HasSubstr("nothing is left to test"),
+                    HasSubstr("density C draws the same texels"), HasSubstr("--resample")));
 }
 
 TEST(Gate, LooksLikeAPassWhereItPasses) {

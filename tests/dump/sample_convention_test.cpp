@@ -5,6 +5,7 @@
 #include <set>
 
 #include "lightproof/core/error.h"
+#include "lightproof/warp/cube.h"
 
 namespace lightproof {
 namespace {
@@ -57,7 +58,12 @@ TEST(AxesOfAPreset, TakeItsUpToOurs) {
   const Direction their_z = {0.0, 0.0, 1.0};
   EXPECT_EQ(axes_of(Preset::openexr)(their_z), Direction(1.0, 0.0, 0.0));
   EXPECT_EQ(axes_of(Preset::pbrt_v4), AxisMap());
-  for (const PresetInfo& preset : presets()) EXPECT_FALSE(axes_of(preset.preset).mirrors());
+  // Graphics libraries look cube maps up in left-handed axes; all others are right-handed.
+  for (const PresetInfo& preset : presets()) {
+    EXPECT_EQ(axes_of(preset.preset).mirrors(), preset.preset == Preset::cube) << preset.name;
+  }
+  const Direction at = {0.48, -0.6, 0.64};
+  EXPECT_EQ(axes_of(Preset::cube)(cube_axes_from_world(at)), at);
 }
 
 }  // namespace

@@ -192,6 +192,13 @@ TEST(Estimators, AreTheMeanOfWhatTheyShow) {
   }
 }
 
+TEST(Estimators, RefuseTexelsThatAreNotThoseOfLatitudeAndLongitude) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {16, 16}, {MappingKind::octahedral});
+  for (const EstimatorInfo& info : estimators()) {
+    EXPECT_THROW(info.prepare(map), InputError) << info.name;
+  }
+}
+
 TEST(Estimators, KeepATableUnlessTheyDrawFromLobesAlone) {
   const EnvironmentMap map = make_synthetic_map("sun-sky", {64, 32});
   for (const EstimatorInfo& info : estimators()) {

@@ -44,7 +44,9 @@ TEST(Figures, AreThoseOfClosedForms) {
 TEST(Description, NamesThePeakInTheFile) {
   const TemporaryFolder folder;
   for (const PresetInfo& preset : presets()) {
-    const Extent extent = preset.aspect == 1.0 ? Extent{16, 16} : Extent{16, 8};
+    const Extent extent = preset.aspect == 1.0   ? Extent{16, 16}
+                          : preset.aspect == 6.0 ? Extent{48, 8}
+                                                 : Extent{16, 8};
     Grid<Rgb> picture(extent, Rgb(1.0F));
     picture(5, 2) = {100.0F, 200.0F, 300.0F};
     test::write_exr_file(folder / "a.exr", picture);

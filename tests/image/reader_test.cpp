@@ -198,7 +198,8 @@ class ReaderPreset : public testing::TestWithParam<Preset> {
   EnvironmentMap read(const Grid<Rgb>& picture) const {
     const TemporaryFolder folder;
     test::write_exr_file(folder / "a.exr", picture);
-    return read_environment_map(folder / "a.exr", {.preset = GetParam(), .any_aspect = true});
+    return read_environment_map(folder / "a.exr",
+                                {.preset = GetParam(), .any_aspect = true, .resample = true});
   }
 };
 
@@ -254,10 +255,48 @@ INSTANTIATE_TEST_SUITE_P(Presets, ReaderPreset,
                                          Preset::pbrt_v3, Preset::pbrt_v4, Preset::mitsuba),
                          test_name);
 
+// Whatever the mapping, the direction of every pixel is that of the preset's formula.
+TEST(Reader, KeepsTheTexelsOfTheFile) {
+  const TemporaryFolder folder;
+  struct Case {
+    Preset preset;
+    Extent picture;
+    Extent texels;
+  };
+  for (const Case& each : {Case{Preset::pbrt_v4, {6, 6}, {6, 6}},
+                           {Preset::cube, {18, 3}, {18, 3}},
+                           {Preset::openexr, {9, 5}, {8, 5}},
+                           {Preset::pbrt_v3, {7, 3}, {7, 3}},
+                           {Preset::z_up_half_turn, {7, 3}, {7, 3}}}) {
+    SCOPED_TRACE(info(each.preset).name);
+    const Grid<Rgb> picture = test::numbered_picture(each.picture);
+    test::write_exr_file(folder / "a.exr", picture);
+    const EnvironmentMap map =
+        read_environment_map(folder / "a.exr", {.preset = each.preset, .any_aspect = true});
+    ASSERT_EQ(map.radiance.extent(), each.texels);
+    EXPECT_THAT(map.notes, Contains(HasSubstr("own mapping")));
+    const bool has_nodes = info(each.preset).lattice == Lattice::node_centred;
+    for (int y = has_nodes ? 1 : 0; y + (has_nodes ? 1 : 0) < each.texels.height; ++y) {
+      for (int x = 0; x < each.texels.width; ++x) {
+        const Direction d = direction_at(map.mapping, texel_cell(each.texels, x, y).centre());
+        const test::PublishedPoint at = test::published_mapping(each.preset, d);
+        const auto [width, height] = each.picture;
+        const int column = has_nodes
+                               ? static_cast<int>(std::lround(at.u * (width - 1))) % (width - 1)
+                               : static_cast<int>(at.u * width) % width;
+        const int row = has_nodes ? static_cast<int>(std::lround(at.v * (height - 1)))
+                                  : static_cast<int>(at.v * height);
+        EXPECT_EQ(map.radiance(x, y), picture(column, row)) << x << ' ' << y;
+      }
+    }
+  }
+}
+
 TEST(Reader, BringsOctahedralMapsToTwiceTheWidth) {
   const TemporaryFolder folder;
   test::write_exr_file(folder / "a.exr", test::numbered_picture({4, 4}));
-  const EnvironmentMap map = read_environment_map(folder / "a.exr", {.preset = Preset::pbrt_v4});
+  const EnvironmentMap map =
+      read_environment_map(folder / "a.exr", {.preset = Preset::pbrt_v4, .resample = true});
   EXPECT_EQ(map.radiance.extent(), (Extent{8, 4}));
   EXPECT_THAT(map.notes, Contains(HasSubstr("octahedral")));
 }
@@ -265,7 +304,7 @@ TEST(Reader, BringsOctahedralMapsToTwiceTheWidth) {
 TEST(Reader, TellsOfColumnsMovedByHalfATexel) {
   const TemporaryFolder folder;
   test::write_exr_file(folder / "a.exr", test::numbered_picture({7, 3}));
-  const ReadOptions options = {.preset = Preset::pbrt_v3, .any_aspect = true};
+  const ReadOptions options = {.preset = Preset::pbrt_v3, .any_aspect = true, .resample = true};
   EXPECT_THAT(read_environment_map(folder / "a.exr", options).notes, Contains(HasSubstr("odd")));
 }
 
@@ -276,7 +315,7 @@ TEST(Reader, InterpolatesNodesOfTheEnvmapAttribute) {
   for (const Extent extent : {Extent{8, 4}, {9, 5}}) {
     const Grid<Rgb> picture = test::numbered_picture(extent);
     test::write_exr_file(folder / "a.exr", picture, {.envmap = test::Envmap::lat_long});
-    const EnvironmentMap map = read_environment_map(folder / "a.exr");
+    const EnvironmentMap map = read_environment_map(folder / "a.exr", {.resample = true});
     ASSERT_EQ(map.radiance.extent(), (Extent{extent.width - 1, extent.height - 1}));
     EXPECT_THAT(map.notes, Contains(HasSubstr("preset openexr")));
     EXPECT_THAT(map.notes, Contains(HasSubstr("bilinearly")));

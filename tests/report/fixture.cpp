@@ -58,6 +58,9 @@ MapRecord map_record(std::size_t number) {
     }
   }
   record.source = kMaps[number] + ".exr";
+  // One map comes from an octahedral file.
+  record.own_mapping.kind = number == 1 ? MappingKind::octahedral : MappingKind::lat_long;
+  record.own_texels = number == 1 ? Extent{32, 32} : Extent{64, 32};
   record.mean_luminance = 0.7 + 0.1 * static_cast<double>(number);
   record.peak_ratio = 480.0 / (1.0 + static_cast<double>(number));
   record.effective_fraction = std::min(0.9, 0.021 * std::exp2(static_cast<double>(number)));
@@ -107,10 +110,16 @@ GateResult gate() {
                             TestId::pdf_integral,
                             TestId::in_domain};
   GateResult result{1e-6, 4194304, 20240607, {}};
+  result.left_out = {{"hierarchical_warp", "B", kMaps[1], "no such look-up on its texels"}};
   for (const std::string& sampler : kSamplers) {
     for (const char* density_space : {"A", "B"}) {
       if (sampler == "uniform" && density_space[0] == 'B') continue;
       for (const std::string& map : kMaps) {
+        const LeftOut& left_out = result.left_out.front();
+        if (sampler == left_out.sampler && density_space == left_out.density_space &&
+            map == left_out.map) {
+          continue;
+        }
         for (const auto& kind : kinds) {
           TestRecord t = test_record(sampler, map, kind);
           t.density_space = sampler == "uniform" ? "" : density_space;

@@ -59,6 +59,15 @@ TEST(Page, SaysWhatWasNotMeasured) {
   EXPECT_NE(page.find("<h1>No test was run</h1>"), std::string::npos);
 }
 
+TEST(Page, SaysInWhichTexelsAMapIsDrawnAndJudgedAndWhatTheseLeaveOut) {
+  const std::string page = report_page(testing::synthetic_study());
+  EXPECT_EQ(occurrences(page, "The file has other texels (32\u00d732, octahedral)"),
+            1U);
+  EXPECT_EQ(occurrences(page, "\u2013 left out"), 1U);
+  EXPECT_EQ(occurrences(page, "no such look-up on its texels"), 2U)
+      << "beside the cell, in the list";
+}
+
 TEST(Page, ShowsKnownDefectsInASectionOfTheirOwn) {
   const std::string page = report_page(testing::synthetic_study());
   const std::size_t section = page.find("<summary>Kept as published, with known defects");

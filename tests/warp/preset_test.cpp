@@ -144,6 +144,9 @@ const KnownDirection kKnown[] = {
     {Preset::mitsuba, {0, 1, 0}, {0.25, 0.5}},  // X: u = 1/4
     {Preset::mitsuba, {1, 0, 0}, {0.5, 0.5}},
     {Preset::mitsuba, {0, -1, 0}, {0.75, 0.5}},
+    {Preset::cube, {1, 0, 0}, {1.5 / 6, 0.5}},  // the middle of -X
+    {Preset::cube, {0, 0, 1}, {2.5 / 6, 0.5}},  // of +Y
+    {Preset::cube, {0, 1, 0}, {5.5 / 6, 0.5}},  // of -Z
 };
 
 TEST(Preset, PlacesTheKnownDirections) {
@@ -158,7 +161,7 @@ TEST(Preset, PlacesTheKnownDirections) {
 TEST(Preset, HasNoOtherNames) {
   EXPECT_EQ(preset_by_name("z-down"), std::nullopt);
   EXPECT_EQ(preset_by_name(""), std::nullopt);
-  EXPECT_EQ(presets().size(), 7U);
+  EXPECT_EQ(presets().size(), 8U);
 }
 
 }  // namespace

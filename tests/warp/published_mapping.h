@@ -47,6 +47,21 @@ inline PublishedPoint published_mapping(Preset preset, Direction d) {
       return published_octahedral(d);
     case Preset::mitsuba:
       return {fraction(std::atan2(y_up_x, -y_up_z) / (2.0 * kPi)), std::acos(y_up_y) / kPi};
+    case Preset::cube: {
+      // Table 8.19 of the OpenGL 4.6 specification, of (X, Y, Z) = (-x, z, -y), faces in a row.
+      const double x = -d.x;
+      const double y = d.z;
+      const double z = -d.y;
+      const double ax = std::abs(x);
+      const double ay = std::abs(y);
+      const double az = std::abs(z);
+      const auto point = [](int face, double sc, double tc, double ma) {
+        return PublishedPoint{(face + 0.5 * (sc / ma + 1.0)) / 6.0, 0.5 * (tc / ma + 1.0)};
+      };
+      if (ax >= ay && ax >= az) return x > 0 ? point(0, -z, -y, ax) : point(1, z, -y, ax);
+      if (ay >= az) return y > 0 ? point(2, x, z, ay) : point(3, x, -z, ay);
+      return z > 0 ? point(4, x, -y, az) : point(5, -x, -y, az);
+    }
   }
   return {};
 }

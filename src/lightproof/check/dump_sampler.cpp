@@ -1,13 +1,14 @@
 #include "lightproof/check/dump_sampler.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include "lightproof/samplers/texel_positions.h"
-#include "lightproof/warp/lat_long.h"
+#include "lightproof/warp/mapping.h"
 
 namespace lightproof {
 namespace {
@@ -15,56 +16,50 @@ namespace {
 constexpr std::size_t kBlock = 4096;
 constexpr std::uint64_t kMostCompared = std::uint64_t{1} << 22U;
 
-/// How near positions may come to the edges of the map, in texels: as samplers keep away from them.
-double off_the_edges(double cells, int count) {
-  return std::clamp(cells, kCellMargin, count * (1.0 - 0x1p-53) - kCellMargin);
+/// Directions around one, on a circle: an edge within the rounding of a direction lies between it
+/// and one of as many on a circle that is so much larger.
+constexpr int kAround = 8;
+const double kBeyond = 1.0 / std::cos(kPi / kAround);
+
+/// Two unit vectors that are perpendicular to a unit vector and to each other.
+std::array<Direction, 2> across(Direction d) {
+  const Direction other = std::abs(d.z) < 0.5 ? Direction(0.0, 0.0, 1.0) : Direction(1.0, 0.0, 0.0);
+  const Direction first = glm::normalize(glm::cross(d, other));
+  return {first, glm::cross(d, first)};
 }
 
-/// A coordinate in cells, and the cell on the other side of the nearest edge, if that edge is
-/// within the coordinate's rounding: else the coordinate's own.
-struct Cells {
-  double at;
-  int own;
-  int other;
-};
-
-Cells cells_of(double coordinate, int count, double rounding, bool wraps) {
-  const double at = off_the_edges(coordinate * count, count);
-  const int own = std::min(static_cast<int>(at), count - 1);
-  const double edge = std::round(at);
-  if (std::abs(at - edge) > rounding * count) return {at, own, own};
-  int other = at < edge ? own + 1 : own - 1;
-  if (other < 0 || other >= count) other = wraps ? (other + count) % count : own;
-  return {at, own, other};
+/// A coordinate as samplers place it: away from the edges of its cell.
+double away_from_edges(double coordinate, int cell, int count) {
+  return position_in_cell(cell, coordinate * count - cell, count);
 }
 
-/// The coordinate inside of a cell: the nearest one to where it was.
-double inside(const Cells& cells, int cell, int count) {
-  const double fraction = cell == cells.own ? cells.at - cell : cells.at < cell ? 0.0 : 1.0;
-  // From the last cell to the first one and back the edge is the same.
-  const bool wraps = std::abs(cell - cells.own) > 1;
-  return position_in_cell(cell, wraps ? 1.0 - fraction : fraction, count);
+bool is_near_edge(double coordinate, double reach, int count) {
+  const double at = coordinate * count;
+  return !(std::abs(at - std::round(at)) > reach * count);
 }
 
 class Placement {
  public:
   Placement(const Expectation& expectation, double rounding)
-      : expectation_(&expectation), extent_(expectation.masses.extent()), rounding_(rounding) {}
+      : expectation_(&expectation),
+        mapping_(expectation.mapping),
+        extent_(expectation.masses.extent()),
+        rounding_(rounding) {}
 
   TexelSample operator()(const DumpedSample& sample) const {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     if (!std::isfinite(sample.direction.x)) return {{kNaN, kNaN}, -1, -1, {kNaN}};
-    const SquarePoint at = square_from_direction(sample.direction);
-    const double sine = std::hypot(sample.direction.x, sample.direction.y);
-    const double turn = sine > 0.0 ? std::min(rounding_ / (2.0 * kPi * sine), 0.5) : 0.5;
-    const Cells s = cells_of(at.s, extent_.width, turn, true);
-    const Cells t = cells_of(at.t, extent_.height, rounding_ / kPi, false);
-    TexelSample best = placed(s, t, s.own, t.own, sample.pdf);
-    if (s.other == s.own && t.other == t.own) return best;
+    TexelSample best = placed(sample.direction, sample.pdf);
+    if (!is_near_edges(best.at)) return best;
     double least = misfit(best);
-    for (const auto& [x, y] :
-         {std::pair(s.other, t.own), std::pair(s.own, t.other), std::pair(s.other, t.other)}) {
-      const TexelSample candidate = placed(s, t, x, y, sample.pdf);
+    const auto [first, second] = across(sample.direction);
+    for (int k = 0; k < kAround; ++k) {
+      const double angle = 2.0 * kPi * k / kAround;
+      const Direction turned = glm::normalize(
+          sample.direction +
+          rounding_ * kBeyond * (std::cos(angle) * first + std::sin(angle) * second));
+      const TexelSample candidate = placed(turned, sample.pdf);
+      if (candidate.x == best.x && candidate.y == best.y) continue;
       const double its = misfit(candidate);
       if (its < least) {
         least = its;
@@ -75,9 +70,19 @@ class Placement {
   }
 
  private:
-  TexelSample placed(const Cells& s, const Cells& t, int x, int y, PerSteradian pdf) const {
-    const SquarePoint at = {inside(s, x, extent_.width), inside(t, y, extent_.height)};
-    return {at, x, y, to_square(pdf, at)};
+  TexelSample placed(Direction d, PerSteradian pdf) const {
+    const SquarePoint of_direction = square_point_of(mapping_, d);
+    const int x = cell_of(of_direction.s, extent_.width);
+    const int y = cell_of(of_direction.t, extent_.height);
+    const SquarePoint at = {away_from_edges(of_direction.s, x, extent_.width),
+                            away_from_edges(of_direction.t, y, extent_.height)};
+    return {at, x, y, {pdf.value * solid_angle_per_square(mapping_, at)}};
+  }
+
+  bool is_near_edges(SquarePoint at) const {
+    const TurnEffect turn = effect_of_turn(mapping_, at);
+    return is_near_edge(at.s, rounding_ * turn.s, extent_.width) ||
+           is_near_edge(at.t, rounding_ * turn.t, extent_.height);
   }
 
   /// How badly a texel fits a sample: by the ratio of densities, or else by its own.
@@ -89,18 +94,19 @@ class Placement {
   }
 
   const Expectation* expectation_;
+  Mapping mapping_;
   Extent extent_;
   double rounding_;
 };
 
 /// What a sample's density says beside the declared one.
-void add_sample(DensityComparison& found, double& worst, const ComparedCell& cell,
-                double tolerance) {
+void add_sample(DensityComparison& found, double& worst, const ComparedCell& cell, double tolerance,
+                const Mapping& mapping) {
   if (!(cell.declared > 0.0)) {
     if (found.unlit_cells++ == 0) found.first_unlit = cell;
     return;
   }
-  const double over = std::abs(found.add_ratio(cell) - 1.0) / tolerance;
+  const double over = std::abs(found.add_ratio(cell, mapping) - 1.0) / tolerance;
   if (over <= 1.0) return;  // false for NaN
   ++found.cells_off;
   if (found.worst && !(over > worst)) return;
@@ -146,10 +152,11 @@ DensityComparison compare_dumped_density(const SampleDump& dump, const Expectati
       const TexelSample sample = place(block[i]);
       if (!std::isfinite(sample.at.s)) continue;
       const double declared = declared_density(expectation, sample.at, sample.x, sample.y);
-      // Beside a pole the sine, by which densities over the square are divided, is rounded too.
-      const double sine = sin_theta(sample.at.t);
+      // Where the Jacobian changes, the one by which densities over the square are divided is that
+      // of a rounded direction too.
+      const double jacobian = effect_of_turn(expectation.mapping, sample.at).jacobian;
       add_sample(found, worst, {sample.x, sample.y, sample.at, sample.pdf.value, declared},
-                 tolerance + 2.0 * dump.rounding() / sine);
+                 tolerance + 2.0 * dump.rounding() * jacobian, expectation.mapping);
     }
   }
   return found;

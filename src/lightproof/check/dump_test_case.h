@@ -21,7 +21,9 @@ struct DumpClaim {
   double pdf_tolerance = 1e-4;
 };
 
-/// The test case of a dump on a map, which must outlive it.
+/// The test case of a dump on a map, which must outlive it. The dump's samples are put into the
+/// map's own texels. Throws InputError if these cannot have the declared density, see
+/// why_not_declared().
 TestCase dump_test_case(std::shared_ptr<const SampleDump> dump, const EnvironmentMap& map,
                         const DumpClaim& claim);
 

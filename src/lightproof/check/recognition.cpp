@@ -13,6 +13,7 @@
 #include "lightproof/image/luminance.h"
 #include "lightproof/stats/goodness_of_fit.h"
 #include "lightproof/warp/lat_long.h"
+#include "lightproof/warp/mapping.h"
 #include "reference/texel_masses.h"
 
 namespace lightproof {
@@ -41,7 +42,8 @@ std::vector<Direction> some_directions(const SampleDump& dump) {
 class Target {
  public:
   Target(const EnvironmentMap& map, TargetDensity target)
-      : masses_(reference::texel_masses(map, target)),
+      : mapping_(map.mapping),
+        masses_(reference::texel_masses(map, target)),
         bins_(serpentine(reference::bin_masses(map, target, kGateBins))) {}
 
   struct Fit {
@@ -53,18 +55,21 @@ class Target {
     const Extent extent = masses_.extent();
     double sum = 0.0;
     for (const Direction d : directions) {
-      const SquarePoint at = square_from_direction(axes(d));
-      ++counts(cell_of(at.s, kGateBins.width), cell_of(at.t, kGateBins.height));
+      const Direction turned = axes(d);
+      const SquarePoint in_bins = square_from_direction(turned);
+      ++counts(cell_of(in_bins.s, kGateBins.width), cell_of(in_bins.t, kGateBins.height));
+      const SquarePoint at = square_point_of(mapping_, turned);
+      const int x = cell_of(at.s, extent.width);
       const int y = cell_of(at.t, extent.height);
-      const double mass = masses_(cell_of(at.s, extent.width), y);
       // What lies beside a bright texel by rounding must not decide.
-      sum += std::log(std::max(mass, 1e-12) / texel_solid_angle(extent, y));
+      sum += std::log(std::max(masses_(x, y), 1e-12) / texel_solid_angle(mapping_, extent, x, y));
     }
     return {cressie_read(serpentine(counts), bins_, directions.size()).log10_p,
             sum / static_cast<double>(directions.size())};
   }
 
  private:
+  Mapping mapping_;
   Grid<double> masses_;
   std::vector<double> bins_;
 };
@@ -124,6 +129,10 @@ constexpr std::array kWeights = {NamedWeights{"rec709", kRec709},
 void add_densities(std::vector<Candidate>& found, const EnvironmentMap& map, TargetDensity target,
                    const std::vector<Direction>& directions) {
   for (const DensityInfo& density : kDensities) {
+    const TargetDensity changed = {density.density_space, target.weights, target.lookup};
+    if (!why_not_declared(changed, map.mapping).empty()) continue;
+    // Where equal areas are equal solid angles all densities are one.
+    if (is_equal_area(map.mapping) && !(changed == target)) continue;
     for (const NamedWeights& weights : kWeights) {
       const bool same_weights = weights.weights == target.weights;
       const bool same_density = density.density_space == target.density_space;

@@ -118,6 +118,11 @@ void add_shared_options(CLI::App& command, CommonOptions& options, const std::st
   command.add_option(size_option, options.size, "WxH of built-in maps")->capture_default_str();
   add_input_options(command, options);
   command.add_flag("--any-aspect", options.any_aspect, "accept maps that are not 2:1");
+  command.add_flag(
+      "--resample", options.resample,
+      "bring octahedral pictures, cubes and nodes to texels of latitude and longitude; "
+      "`precompute` always does, `study` for all but the gate; other commands keep the file's own "
+      "texels");
   add_number(command, "--seed", options.seed, 0, UINT64_MAX, "base seed of all random numbers");
   command.add_option("-t,--threads", options.threads, "threads; 0 is one per core")
       ->check(CLI::Range(0, 4096))
@@ -163,7 +168,7 @@ bool is_built_in(const std::string& name) {
 }
 
 ReadOptions read_options(const CommonOptions& options) {
-  ReadOptions read{.any_aspect = options.any_aspect};
+  ReadOptions read{.any_aspect = options.any_aspect, .resample = options.resample};
   apply(options, read);
   if (options.preset.empty()) return read;
   read.preset = preset_by_name(options.preset);
@@ -187,13 +192,14 @@ Extent parse_size(const std::string& text) {
       fmt::format("--size: '{}' is not WIDTHxHEIGHT with sides from 1 to {}", text, kLargestSide));
 }
 
-std::vector<EnvironmentMap> load_maps(const CommonOptions& options) {
+std::vector<EnvironmentMap> load_maps(const CommonOptions& options, TexelsOfMaps texels) {
   std::vector<std::string> inputs = options.maps;
   if (inputs.empty()) {
     for (const SyntheticMap& map : synthetic_maps()) inputs.emplace_back(map.name);
   }
   const Extent size = parse_size(options.size);
-  const ReadOptions read = read_options(options);
+  ReadOptions read = read_options(options);
+  if (texels == TexelsOfMaps::lat_long) read.resample = true;
   std::vector<EnvironmentMap> maps;
   for (const std::string& input : inputs) {
     try {
@@ -216,6 +222,7 @@ std::string input_options(const CommonOptions& options) {
   if (!options.preset.empty()) text += " --preset " + shell_word(options.preset);
   if (options.size != CommonOptions{}.size) text += " --size " + options.size;
   if (options.any_aspect) text += " --any-aspect";
+  if (options.resample) text += " --resample";
   return text + words_of(options);
 }
 

@@ -33,6 +33,7 @@ struct CommonOptions : InputOptions {
   std::string size = "512x256";
   std::string color = "auto";
   bool any_aspect = false;
+  bool resample = false;
   bool quiet = false;
   int threads = 0;
   std::uint64_t seed = 1;
@@ -70,9 +71,12 @@ Extent parse_size(const std::string& text);
 
 /// Reads files and makes built-in maps, in the order of their names on the command line; without
 /// any, every built-in map. All options are checked, used or not. Notes of the reader go to stderr
-/// unless quiet. Names are made unique. Throws a Refusal if a map is refused that other flags
-/// accept.
-std::vector<EnvironmentMap> load_maps(const CommonOptions& options);
+/// unless quiet. Names are made unique. What works in latitude and longitude alone asks for
+/// `lat_long`: other texels are resampled, and a note says so. Throws a Refusal if a map is refused
+/// that other flags accept.
+enum class TexelsOfMaps { own, lat_long };
+std::vector<EnvironmentMap> load_maps(const CommonOptions& options,
+                                      TexelsOfMaps texels = TexelsOfMaps::own);
 
 /// The options with which load_maps() would read the same maps again, each after a space.
 std::string input_options(const CommonOptions& options);

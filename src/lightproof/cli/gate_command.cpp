@@ -7,11 +7,13 @@
 #include <chrono>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "common.h"
 #include "describe_run.h"
 #include "gate_samplers.h"
 #include "known_names.h"
+#include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/text_escapes.h"
 #include "lightproof/gate/gate.h"
@@ -80,6 +82,12 @@ Judged run_on(std::span<const TestCase> test_cases, const Options& options) {
   return judged;
 }
 
+/// Nothing that was asked for can be tested on these maps: no verdict is no acceptance.
+[[noreturn]] void refuse_as_nothing_is_left(const LeftOut& first) {
+  throw InputError(fmt::format("{}: nothing is left to test: {} {}: {}, or --resample", first.map,
+                               first.sampler, first.density_space, first.reason));
+}
+
 int run(const Options& options) {
   const ThreadLimit threads(options.threads);
   const ChosenSamplers chosen = choose_samplers(
@@ -91,11 +99,14 @@ int run(const Options& options) {
   const std::vector<EnvironmentMap> maps = load_maps(options);
   const std::vector<TestCase> test_cases =
       test_cases_of(maps, chosen.of_maps, chosen.of_directions);
+  std::vector<LeftOut> left_out = left_out_on(maps, chosen.of_maps);
+  if (test_cases.empty() && !left_out.empty()) refuse_as_nothing_is_left(left_out.front());
   if (!options.rejections.empty()) {
     check_folder(options.rejections, options.force, names_of_rejections(test_cases),
                  options.command_line);
   }
-  const Judged judged = run_on(test_cases, options);
+  Judged judged = run_on(test_cases, options);
+  judged.result.left_out = std::move(left_out);
   print_verdict(options, options.outputs, judged, stdout_is_taken);
   const RunDescription description = describe_run(options, maps);
   write_verdict(options.outputs, judged, description);

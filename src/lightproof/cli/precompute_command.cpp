@@ -161,7 +161,7 @@ int run(const Options& options) {
   const ThreadLimit threads(options.threads);
   const MapFormat format = *map_format_by_name(options.format);
   PrecomputeRequest request = request_of(options);
-  const std::vector<EnvironmentMap> maps = load_maps(options);
+  const std::vector<EnvironmentMap> maps = load_maps(options, TexelsOfMaps::lat_long);
   const EnvironmentMap& map = maps.front();
   choose_sizes(map, options, request);
   check_folder(options.output, options.force, file_names(request, format), options.command_line);

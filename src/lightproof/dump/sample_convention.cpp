@@ -94,6 +94,9 @@ AxisMap axes_of(Preset preset) {
     case Preset::mitsuba:
       // Their (X, Y, Z) is Lightproof's (y, z, x): see preset.h.
       return AxisMap::parse("z,x,y");
+    case Preset::cube:
+      // A cube's left-handed (X, Y, Z) is Lightproof's (-x, z, -y): see cube.h.
+      return AxisMap::parse("-x,-z,y");
     case Preset::z_up:
     case Preset::z_up_half_turn:
     case Preset::pbrt_v3:

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lightproof/core/error.h"
-#include "lightproof/warp/lat_long.h"
+#include "lightproof/warp/mapping.h"
 
 namespace lightproof {
 namespace {
@@ -26,9 +26,13 @@ Direction normalised(Direction d) {
 }
 
 /// Steradian per area of the image at a direction: of latitude and longitude by the angle from the
-/// map's own axis, which is Lightproof's z for all presets but the octahedral one.
+/// map's own axis, which is Lightproof's z.
 double solid_angle_per_image(Preset preset, Direction d) {
   if (preset == Preset::pbrt_v4) return kSphere;
+  if (preset == Preset::cube) {
+    const Mapping faces = {MappingKind::cube_strip};
+    return solid_angle_per_square(faces, square_point_of(faces, d));
+  }
   return 2.0 * kPi * kPi * std::hypot(d.x, d.y);
 }
 

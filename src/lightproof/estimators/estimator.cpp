@@ -1,6 +1,13 @@
 #include "lightproof/estimators/estimator.h"
 
+#include "lightproof/image/lat_long_texels.h"
+
 namespace lightproof {
+
+PreparedEstimator EstimatorInfo::prepare(const EnvironmentMap& map) const {
+  require_lat_long(map, name);
+  return make(map);
+}
 
 std::string_view to_string(EstimatorKind kind) {
   switch (kind) {

@@ -125,8 +125,12 @@ struct EstimatorInfo {
   bool is_studied = false;
   /// Whether it can be used for a material. Binding to one that it cannot serve throws InputError.
   bool (*serves)(const Material& material) = serves_all;
-  /// Throws InputError if it draws from the map and the map is black.
-  PreparedEstimator (*prepare)(const EnvironmentMap& map) = nullptr;
+  /// Makes what prepare() gives, of a map in texels of latitude and longitude.
+  PreparedEstimator (*make)(const EnvironmentMap& map) = nullptr;
+
+  /// What it keeps of a map, whose texels must be those of latitude and longitude. Throws
+  /// InputError if they are not, or if it draws from the map and the map is black.
+  PreparedEstimator prepare(const EnvironmentMap& map) const;
 };
 
 }  // namespace lightproof

@@ -5,6 +5,7 @@
 
 #include "lightproof/estimators/light_samples.h"
 #include "lightproof/estimators/texel_directions.h"
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/warp/lat_long.h"
 
 namespace lightproof {
@@ -132,6 +133,7 @@ Rgb sum_of(std::span<const DirectedLight> lights, const Scene& scene, const Mate
 }  // namespace
 
 std::vector<DirectedLight> median_cut(const EnvironmentMap& map, int cuts) {
+  require_lat_long(map, "median cut");
   const Extent extent = map.radiance.extent();
   const SummedAreas sums(map);
   std::vector<Region> regions = {{0, extent.width, 0, extent.height}};

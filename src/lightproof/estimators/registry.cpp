@@ -95,14 +95,13 @@ constexpr std::array kEstimators = {
         .source = "Kajiya 1986",
         .density = SampledDensity::uniform,
         .is_studied = true,
-        .prepare =
-            [](const EnvironmentMap& map) { return prepare_one_sample(map, UniformSphere{}); }},
+        .make = [](const EnvironmentMap& map) { return prepare_one_sample(map, UniformSphere{}); }},
     EstimatorInfo{
         .name = "hemisphere",
         .description = "uniform over the hemisphere above the surface, density 1/2pi",
         .source = "Kajiya 1986",
         .pdf = hemisphere_pdf,
-        .prepare =
+        .make =
             [](const EnvironmentMap& map) { return independent_samples(hemisphere_source(map)); }},
     EstimatorInfo{
         .name = "cosine",
@@ -110,8 +109,7 @@ constexpr std::array kEstimators = {
         .source = "Shirley and Chiu 1997; the lecture, whatever the material",
         .family = EstimatorFamily::lobes,
         .pdf = cosine_pdf,
-        .prepare =
-            [](const EnvironmentMap& map) { return independent_samples(cosine_source(map)); }},
+        .make = [](const EnvironmentMap& map) { return independent_samples(cosine_source(map)); }},
     EstimatorInfo{
         .name = "brdf",
         .description = "the material's own lobes",
@@ -119,15 +117,14 @@ constexpr std::array kEstimators = {
         .family = EstimatorFamily::lobes,
         .density = SampledDensity::material,
         .is_studied = true,
-        .prepare =
-            [](const EnvironmentMap& map) { return prepare_one_sample(map, MaterialLobes{}); }},
+        .make = [](const EnvironmentMap& map) { return prepare_one_sample(map, MaterialLobes{}); }},
     EstimatorInfo{.name = "ggx normals",
                   .description = "GGX's normals, whatever the view",
                   .source = "Walter et al. 2007, eq. 35 and 36",
                   .family = EstimatorFamily::lobes,
                   .pdf = pdf_of_ggx<MicrofacetSampling::normals>,
                   .serves = is_ggx,
-                  .prepare =
+                  .make =
                       [](const EnvironmentMap& map) {
                         return independent_samples(ggx_source(map, MicrofacetSampling::normals));
                       }},
@@ -137,7 +134,7 @@ constexpr std::array kEstimators = {
                   .family = EstimatorFamily::lobes,
                   .pdf = pdf_of_ggx<MicrofacetSampling::visible_normals>,
                   .serves = is_ggx,
-                  .prepare =
+                  .make =
                       [](const EnvironmentMap& map) {
                         return independent_samples(
                             ggx_source(map, MicrofacetSampling::visible_normals));
@@ -148,7 +145,7 @@ constexpr std::array kEstimators = {
                   .family = EstimatorFamily::lobes,
                   .pdf = pdf_of_ggx<MicrofacetSampling::spherical_caps>,
                   .serves = is_ggx,
-                  .prepare =
+                  .make =
                       [](const EnvironmentMap& map) {
                         return independent_samples(
                             ggx_source(map, MicrofacetSampling::spherical_caps));
@@ -160,7 +157,7 @@ constexpr std::array kEstimators = {
         .family = EstimatorFamily::lobes,
         .pdf = pdf_of_ggx<MicrofacetSampling::bounded_caps>,
         .serves = is_ggx,
-        .prepare =
+        .make =
             [](const EnvironmentMap& map) {
               return independent_samples(ggx_source(map, MicrofacetSampling::bounded_caps));
             }},
@@ -170,7 +167,7 @@ constexpr std::array kEstimators = {
                   .family = EstimatorFamily::environment,
                   .density = SampledDensity::texture_space,
                   .is_studied = true,
-                  .prepare =
+                  .make =
                       [](const EnvironmentMap& map) {
                         return prepare_one_sample(map, MapDensity{DensitySpace::texture});
                       }},
@@ -180,7 +177,7 @@ constexpr std::array kEstimators = {
                   .family = EstimatorFamily::environment,
                   .density = SampledDensity::solid_angle,
                   .is_studied = true,
-                  .prepare =
+                  .make =
                       [](const EnvironmentMap& map) {
                         return prepare_one_sample(map, MapDensity{DensitySpace::solid_angle});
                       }},
@@ -191,7 +188,7 @@ constexpr std::array kEstimators = {
                   .family = EstimatorFamily::environment,
                   .density = SampledDensity::sine_weighted,
                   .is_studied = true,
-                  .prepare =
+                  .make =
                       [](const EnvironmentMap& map) {
                         return prepare_one_sample(map, MapDensity{DensitySpace::sine_weighted});
                       }},
@@ -200,7 +197,7 @@ constexpr std::array kEstimators = {
                   .source = "Walker 1974; Vose 1991",
                   .family = EstimatorFamily::environment,
                   .density = SampledDensity::solid_angle,
-                  .prepare =
+                  .make =
                       [](const EnvironmentMap& map) {
                         return independent_samples(alias_source(map, DensitySpace::solid_angle));
                       }},
@@ -210,49 +207,49 @@ constexpr std::array kEstimators = {
                   .family = EstimatorFamily::environment,
                   .map_pdf = pdf_of_reduced<2>,
                   .table_reduction = 2,
-                  .prepare = from_reduced_table<2>},
+                  .make = from_reduced_table<2>},
     EstimatorInfo{.name = "environment B alias 1/4",
                   .description = "the map by an alias table of the means of 4 x 4 texels",
                   .source = "Walker 1974; the light is that of the texel",
                   .family = EstimatorFamily::environment,
                   .map_pdf = pdf_of_reduced<4>,
                   .table_reduction = 4,
-                  .prepare = from_reduced_table<4>},
+                  .make = from_reduced_table<4>},
     EstimatorInfo{.name = "environment B alias 1/8",
                   .description = "the map by an alias table of the means of 8 x 8 texels",
                   .source = "Walker 1974; the light is that of the texel",
                   .family = EstimatorFamily::environment,
                   .map_pdf = pdf_of_reduced<8>,
                   .table_reduction = 8,
-                  .prepare = from_reduced_table<8>},
+                  .make = from_reduced_table<8>},
     EstimatorInfo{.name = "environment B alias 1/16",
                   .description = "the map by an alias table of the means of 16 x 16 texels",
                   .source = "Walker 1974; the light is that of the texel",
                   .family = EstimatorFamily::environment,
                   .map_pdf = pdf_of_reduced<16>,
                   .table_reduction = 16,
-                  .prepare = from_reduced_table<16>},
+                  .make = from_reduced_table<16>},
     EstimatorInfo{.name = "environment B half",
                   .description = "as environment B, each texel's mass rounded to half floats, "
                                  "relative to the brightest of its row",
                   .source = "cumulative sums over runs of 32 texels",
                   .family = EstimatorFamily::environment,
                   .map_pdf = pdf_of_rounded<MassForm::half>,
-                  .prepare = from_rounded_table<MassForm::half>},
+                  .make = from_rounded_table<MassForm::half>},
     EstimatorInfo{.name = "environment B 8-bit",
                   .description = "as environment B, each texel's mass rounded to 8 bits, a small "
                                  "float relative to the brightest of its row",
                   .source = "cumulative sums over runs of 32 texels",
                   .family = EstimatorFamily::environment,
                   .map_pdf = pdf_of_rounded<MassForm::byte>,
-                  .prepare = from_rounded_table<MassForm::byte>},
+                  .make = from_rounded_table<MassForm::byte>},
     EstimatorInfo{
         .name = "product table",
         .description = "the product of map and material, tabulated for every shading point",
         .source = "Burke, Ghosh and Heidrich 2005, their exact product",
         .family = EstimatorFamily::product,
         .tabulates_each_point = true,
-        .prepare =
+        .make =
             [](const EnvironmentMap& map) {
               return independent_samples(product_table_source(map));
             }},
@@ -261,7 +258,7 @@ constexpr std::array kEstimators = {
         .description = "the product of map and material on 12 x 12 blocks, then the map alone",
         .source = "Conty Estevez and Lecocq 2018",
         .family = EstimatorFamily::product,
-        .prepare =
+        .make =
             [](const EnvironmentMap& map) {
               return independent_samples(two_level_product_source(map));
             }},
@@ -269,7 +266,7 @@ constexpr std::array kEstimators = {
                   .description = "the product of map and material down a quadtree",
                   .source = "Clarberg and Akenine-Möller 2008",
                   .family = EstimatorFamily::product,
-                  .prepare =
+                  .make =
                       [](const EnvironmentMap& map) {
                         return independent_samples(hierarchical_product_source(map));
                       }},
@@ -282,7 +279,7 @@ constexpr std::array kEstimators = {
         .kind = EstimatorKind::multi_sample,
         .combined = CombinedSampling{.heuristic = Heuristic::balance, .compensation = 0.0},
         .samples_per_estimate = 2,
-        .prepare =
+        .make =
             [](const EnvironmentMap& map) {
               return multi_sample(map, DensitySpace::solid_angle, Heuristic::balance, 0.0);
             }},
@@ -293,7 +290,7 @@ constexpr std::array kEstimators = {
                   .kind = EstimatorKind::multi_sample,
                   .combined = CombinedSampling{.heuristic = Heuristic::power, .compensation = 0.0},
                   .samples_per_estimate = 2,
-                  .prepare =
+                  .make =
                       [](const EnvironmentMap& map) {
                         return multi_sample(map, DensitySpace::solid_angle, Heuristic::power, 0.0);
                       }},
@@ -305,7 +302,7 @@ constexpr std::array kEstimators = {
         .kind = EstimatorKind::multi_sample,
         .combined = CombinedSampling{.heuristic = Heuristic::balance, .compensation = 0.5},
         .samples_per_estimate = 2,
-        .prepare =
+        .make =
             [](const EnvironmentMap& map) {
               return multi_sample(map, DensitySpace::solid_angle, Heuristic::balance, 0.5);
             }},
@@ -317,7 +314,7 @@ constexpr std::array kEstimators = {
         .kind = EstimatorKind::multi_sample,
         .combined = CombinedSampling{.heuristic = Heuristic::balance, .compensation = 1.0},
         .samples_per_estimate = 2,
-        .prepare =
+        .make =
             [](const EnvironmentMap& map) {
               return multi_sample(map, DensitySpace::solid_angle, Heuristic::balance, 1.0);
             }},
@@ -328,7 +325,7 @@ constexpr std::array kEstimators = {
                   .kind = EstimatorKind::multi_sample,
                   .combined = CombinedSampling{.heuristic = Heuristic::power, .compensation = 1.0},
                   .samples_per_estimate = 2,
-                  .prepare =
+                  .make =
                       [](const EnvironmentMap& map) {
                         return multi_sample(map, DensitySpace::solid_angle, Heuristic::power, 1.0);
                       }},
@@ -339,7 +336,7 @@ constexpr std::array kEstimators = {
         .source = "Veach and Guibas 1995",
         .family = EstimatorFamily::mis,
         .combined = CombinedSampling{.is_one_sample = true, .compensation = 0.0},
-        .prepare =
+        .make =
             [](const EnvironmentMap& map) {
               return independent_samples(one_sample_mixture(map, DensitySpace::solid_angle, 0.0));
             }},
@@ -348,7 +345,7 @@ constexpr std::array kEstimators = {
                   .source = "Karlík et al. 2019",
                   .family = EstimatorFamily::mis,
                   .combined = CombinedSampling{.is_one_sample = true, .compensation = 0.5},
-                  .prepare =
+                  .make =
                       [](const EnvironmentMap& map) {
                         return independent_samples(
                             one_sample_mixture(map, DensitySpace::solid_angle, 0.5));
@@ -358,7 +355,7 @@ constexpr std::array kEstimators = {
                   .source = "Karlík et al. 2019",
                   .family = EstimatorFamily::mis,
                   .combined = CombinedSampling{.is_one_sample = true, .compensation = 1.0},
-                  .prepare =
+                  .make =
                       [](const EnvironmentMap& map) {
                         return independent_samples(
                             one_sample_mixture(map, DensitySpace::solid_angle, 1.0));
@@ -370,7 +367,7 @@ constexpr std::array kEstimators = {
         .family = EstimatorFamily::ris,
         .kind = EstimatorKind::resampled,
         .candidates = 4,
-        .prepare = resampled_of<4>},
+        .make = resampled_of<4>},
     EstimatorInfo{
         .name = "ris 16",
         .description = "one of 16 candidates of mis one-sample, chosen by its unoccluded light",
@@ -378,7 +375,7 @@ constexpr std::array kEstimators = {
         .family = EstimatorFamily::ris,
         .kind = EstimatorKind::resampled,
         .candidates = 16,
-        .prepare = resampled_of<16>},
+        .make = resampled_of<16>},
     EstimatorInfo{
         .name = "ris 64",
         .description = "one of 64 candidates of mis one-sample, chosen by its unoccluded light",
@@ -386,14 +383,14 @@ constexpr std::array kEstimators = {
         .family = EstimatorFamily::ris,
         .kind = EstimatorKind::resampled,
         .candidates = 64,
-        .prepare = resampled_of<64>},
+        .make = resampled_of<64>},
     EstimatorInfo{.name = "environment B stratified",
                   .description = "as environment B, one at random in each cell of a grid",
                   .source = "Cook, Porter and Carpenter 1984",
                   .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "environment B",
-                  .prepare = from_map_at<kStratified>},
+                  .make = from_map_at<kStratified>},
     EstimatorInfo{.name = "environment B hammersley",
                   .description = "as environment B, at Hammersley's points, shifted at random",
                   .source = "Hammersley 1960; Cranley and Patterson 1976",
@@ -401,7 +398,7 @@ constexpr std::array kEstimators = {
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "environment B",
                   .is_studied = true,
-                  .prepare = from_map_at<kHammersley>},
+                  .make = from_map_at<kHammersley>},
     EstimatorInfo{.name = "environment B R2",
                   .description = "as environment B, at the points of R2, shifted at random",
                   .source = "Roberts 2018; Cranley and Patterson 1976",
@@ -409,7 +406,7 @@ constexpr std::array kEstimators = {
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "environment B",
                   .is_studied = true,
-                  .prepare = from_map_at<kR2>},
+                  .make = from_map_at<kR2>},
     EstimatorInfo{.name = "environment B sobol",
                   .description = "as environment B, at Owen-scrambled Sobol points",
                   .source = "Owen 1995; Kollig and Keller 2002; Burley 2020",
@@ -417,14 +414,14 @@ constexpr std::array kEstimators = {
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "environment B",
                   .is_studied = true,
-                  .prepare = from_map_at<kSobol>},
+                  .make = from_map_at<kSobol>},
     EstimatorInfo{.name = "brdf stratified",
                   .description = "as brdf, one at random in each cell of a grid",
                   .source = "Cook, Porter and Carpenter 1984",
                   .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "brdf",
-                  .prepare = from_lobes_at<kStratified>},
+                  .make = from_lobes_at<kStratified>},
     EstimatorInfo{.name = "brdf hammersley",
                   .description = "as brdf, at Hammersley's points, shifted at random",
                   .source = "Hammersley 1960; Cranley and Patterson 1976",
@@ -432,7 +429,7 @@ constexpr std::array kEstimators = {
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "brdf",
                   .is_studied = true,
-                  .prepare = from_lobes_at<kHammersley>},
+                  .make = from_lobes_at<kHammersley>},
     EstimatorInfo{.name = "brdf R2",
                   .description = "as brdf, at the points of R2, shifted at random",
                   .source = "Roberts 2018; Cranley and Patterson 1976",
@@ -440,7 +437,7 @@ constexpr std::array kEstimators = {
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "brdf",
                   .is_studied = true,
-                  .prepare = from_lobes_at<kR2>},
+                  .make = from_lobes_at<kR2>},
     EstimatorInfo{.name = "brdf sobol",
                   .description = "as brdf, at Owen-scrambled Sobol points",
                   .source = "Owen 1995; Kollig and Keller 2002; Burley 2020",
@@ -448,7 +445,7 @@ constexpr std::array kEstimators = {
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "brdf",
                   .is_studied = true,
-                  .prepare = from_lobes_at<kSobol>},
+                  .make = from_lobes_at<kSobol>},
     EstimatorInfo{.name = "environment B alias stratified",
                   .description = "as environment B alias, one at random in each cell of a grid: "
                                  "what an alias table leaves of their evenness",
@@ -456,7 +453,7 @@ constexpr std::array kEstimators = {
                   .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "environment B alias",
-                  .prepare = from_alias_at<kStratified>},
+                  .make = from_alias_at<kStratified>},
     EstimatorInfo{.name = "environment B alias hammersley",
                   .description = "as environment B alias, at Hammersley's points, shifted at "
                                  "random: what an alias table leaves of their evenness",
@@ -464,7 +461,7 @@ constexpr std::array kEstimators = {
                   .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "environment B alias",
-                  .prepare = from_alias_at<kHammersley>},
+                  .make = from_alias_at<kHammersley>},
     EstimatorInfo{.name = "environment B alias R2",
                   .description = "as environment B alias, at the points of R2, shifted at random: "
                                  "what an alias table leaves of their evenness",
@@ -472,7 +469,7 @@ constexpr std::array kEstimators = {
                   .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "environment B alias",
-                  .prepare = from_alias_at<kR2>},
+                  .make = from_alias_at<kR2>},
     EstimatorInfo{.name = "environment B alias sobol",
                   .description = "as environment B alias, at Owen-scrambled Sobol points: what an "
                                  "alias table leaves of their evenness",
@@ -480,14 +477,14 @@ constexpr std::array kEstimators = {
                   .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "environment B alias",
-                  .prepare = from_alias_at<kSobol>},
+                  .make = from_alias_at<kSobol>},
     EstimatorInfo{.name = "mis one-sample sobol",
                   .description = "as mis one-sample, at Owen-scrambled Sobol points",
                   .source = "Owen 1995; Kollig and Keller 2002; Burley 2020",
                   .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "mis one-sample",
-                  .prepare =
+                  .make =
                       [](const EnvironmentMap& map) {
                         return samples_at_points(
                             one_sample_mixture(map, DensitySpace::solid_angle, 0.0), kSobol);
@@ -498,7 +495,7 @@ constexpr std::array kEstimators = {
                   .family = EstimatorFamily::points,
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "product hierarchical",
-                  .prepare =
+                  .make =
                       [](const EnvironmentMap& map) {
                         return samples_at_points(hierarchical_product_source(map), kSobol);
                       }},
@@ -509,7 +506,7 @@ constexpr std::array kEstimators = {
         .family = EstimatorFamily::lights,
         .kind = EstimatorKind::precomputed,
         .is_biased = true,
-        .prepare = [](const EnvironmentMap& map) { return light_sets(map); }},
+        .make = [](const EnvironmentMap& map) { return light_sets(map); }},
     EstimatorInfo{
         .name = "riemann",
         .description = "midpoints in azimuth and polar angle, about twice as many azimuths",
@@ -517,7 +514,7 @@ constexpr std::array kEstimators = {
         .family = EstimatorFamily::quadrature,
         .kind = EstimatorKind::deterministic,
         .is_biased = true,
-        .prepare = riemann_sum},
+        .make = riemann_sum},
     EstimatorInfo{.name = "median cut 16",
                   .description = "16 lights of equal power, each with a shadow ray",
                   .source = "Debevec 2005",
@@ -525,7 +522,7 @@ constexpr std::array kEstimators = {
                   .kind = EstimatorKind::deterministic,
                   .is_biased = true,
                   .ignores_budget = true,
-                  .prepare = median_cut_of<4>},
+                  .make = median_cut_of<4>},
     EstimatorInfo{.name = "median cut 64",
                   .description = "64 lights of equal power, each with a shadow ray",
                   .source = "Debevec 2005",
@@ -533,7 +530,7 @@ constexpr std::array kEstimators = {
                   .kind = EstimatorKind::deterministic,
                   .is_biased = true,
                   .ignores_budget = true,
-                  .prepare = median_cut_of<6>},
+                  .make = median_cut_of<6>},
     EstimatorInfo{.name = "median cut 256",
                   .description = "256 lights of equal power, each with a shadow ray",
                   .source = "Debevec 2005",
@@ -541,7 +538,7 @@ constexpr std::array kEstimators = {
                   .kind = EstimatorKind::deterministic,
                   .is_biased = true,
                   .ignores_budget = true,
-                  .prepare = median_cut_of<8>},
+                  .make = median_cut_of<8>},
     EstimatorInfo{.name = "median cut 1024",
                   .description = "1024 lights of equal power, each with a shadow ray",
                   .source = "Debevec 2005",
@@ -549,7 +546,7 @@ constexpr std::array kEstimators = {
                   .kind = EstimatorKind::deterministic,
                   .is_biased = true,
                   .ignores_budget = true,
-                  .prepare = median_cut_of<10>},
+                  .make = median_cut_of<10>},
     EstimatorInfo{
         .name = "filtered importance sampling",
         .description = "the material's lobes at Hammersley's points, looked up in smaller maps",
@@ -557,7 +554,7 @@ constexpr std::array kEstimators = {
         .family = EstimatorFamily::lobes,
         .kind = EstimatorKind::point_set,
         .is_biased = true,
-        .prepare = filtered_sampling},
+        .make = filtered_sampling},
     EstimatorInfo{.name = "sh-9",
                   .description = "irradiance by nine spherical harmonics; ignores occlusion",
                   .source = "Ramamoorthi and Hanrahan 2001",
@@ -567,7 +564,7 @@ constexpr std::array kEstimators = {
                   .ignores_occlusion = true,
                   .ignores_budget = true,
                   .serves = is_lambert,
-                  .prepare = harmonic_irradiance},
+                  .make = harmonic_irradiance},
     EstimatorInfo{.name = "tabulated irradiance",
                   .description = "irradiance of 64 x 32 normals, interpolated; ignores occlusion",
                   .source = "Miller and Hoffman 1984; Greene 1986",
@@ -577,7 +574,7 @@ constexpr std::array kEstimators = {
                   .ignores_occlusion = true,
                   .ignores_budget = true,
                   .serves = is_lambert,
-                  .prepare = tabulated_irradiance},
+                  .make = tabulated_irradiance},
     EstimatorInfo{
         .name = "split-sum",
         .description =
@@ -589,7 +586,7 @@ constexpr std::array kEstimators = {
         .ignores_occlusion = true,
         .ignores_budget = true,
         .serves = is_ggx,
-        .prepare = split_sum},
+        .make = split_sum},
     EstimatorInfo{.name = "prefiltered phong",
                   .description = "irradiance and a map prefiltered by Phong's lobe, times the "
                                  "light of a white sky; ignores occlusion",
@@ -600,7 +597,7 @@ constexpr std::array kEstimators = {
                   .ignores_occlusion = true,
                   .ignores_budget = true,
                   .serves = is_phong,
-                  .prepare = prefiltered_phong},
+                  .make = prefiltered_phong},
     EstimatorInfo{.name = "outgoing table",
                   .description = "reflected radiance of 32 x 16 normals and 16 x 8 views, the "
                                  "nearest; ignores occlusion",
@@ -610,7 +607,7 @@ constexpr std::array kEstimators = {
                   .is_biased = true,
                   .ignores_occlusion = true,
                   .ignores_budget = true,
-                  .prepare = outgoing_table},
+                  .make = outgoing_table},
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "lightproof/core/measure.h"
 #include "lightproof/warp/lat_long.h"
+#include "lightproof/warp/mapping.h"
 #include "reference/texel_masses.h"
 
 namespace lightproof {
@@ -17,6 +18,17 @@ void normalise(Grid<double>& masses) {
   const auto values = masses.values();
   const double total = std::accumulate(values.begin(), values.end(), 0.0);
   for (double& mass : values) mass /= total;
+}
+
+/// Texels of weight value(x, y).
+template <class Value>
+Grid<double> weighted(Extent extent, const Value& value) {
+  Grid<double> masses(extent);
+  for (int y = 0; y < extent.height; ++y) {
+    for (int x = 0; x < extent.width; ++x) masses(x, y) = value(x, y);
+  }
+  normalise(masses);
+  return masses;
 }
 
 /// Texels of weight value(x, y), times the weight of their row.
@@ -31,8 +43,11 @@ Grid<double> weighted(Extent extent, const Value& value, const RowWeight& row_we
   return masses;
 }
 
-double declared_row_weight(Extent extent, DensitySpace density_space, int y) {
-  return texel_measure(density_space) == MapMeasure::square ? 1.0 : texel_solid_angle(extent, y);
+double declared_weight(const DeclaredDistribution& declared, int x, int y) {
+  const Mapping& mapping = declared.map->mapping;
+  return texel_measure(declared.target.density_space, mapping) == MapMeasure::square
+             ? 1.0
+             : texel_solid_angle(mapping, declared.map->radiance.extent(), x, y);
 }
 
 /// The declared distribution with another luminance.
@@ -44,9 +59,9 @@ Grid<double> with_luminance(const DeclaredDistribution& declared, const Luminanc
     for (Rgb& rgb : other.radiance.values()) rgb = Rgb(static_cast<float>(luminance(rgb)));
     return reference::texel_masses(other, declared.target);
   }
-  return weighted(
-      extent, [&](int x, int y) { return luminance(declared.map->radiance(x, y)); },
-      [&](int y) { return declared_row_weight(extent, declared.target.density_space, y); });
+  return weighted(extent, [&](int x, int y) {
+    return declared_weight(declared, x, y) * luminance(declared.map->radiance(x, y));
+  });
 }
 
 /// The declared distribution with another weight of the rows.
@@ -321,12 +336,14 @@ Grid<double> half_column(const DeclaredDistribution& declared) {
 
 constexpr auto kAlternatives = std::to_array<AlternativeDistribution>({
     {"other-density", "a missing sin(theta) (or one too many): the other target density",
-     other_density},
+     other_density, true, false, MappingNeed::unequal_areas},
     {"other-lookup", "the other look-up: whole texels for interpolated ones, or the reverse",
-     other_lookup},
-    {"sine-at-edge", "sin(theta) taken at the row's edge, y/H instead of (y+1/2)/H", sine_at_edge},
-    {"sine-to-last-row", "sin(theta) taken at y/(H-1) instead of (y+1/2)/H", sine_to_last_row},
-    {"sine-twice", "sin(theta) applied twice", sine_twice},
+     other_lookup, true, false, MappingNeed::rows},
+    {"sine-at-edge", "sin(theta) taken at the row's edge, y/H instead of (y+1/2)/H", sine_at_edge,
+     true, false, MappingNeed::rows},
+    {"sine-to-last-row", "sin(theta) taken at y/(H-1) instead of (y+1/2)/H", sine_to_last_row, true,
+     false, MappingNeed::rows},
+    {"sine-twice", "sin(theta) applied twice", sine_twice, true, false, MappingNeed::rows},
     {"column-late", "columns off by one: each is drawn for the one before it", column_late, false},
     {"column-early", "columns off by one: each is drawn for the one after it", column_early, false},
     {"one-texel-missing", "one texel of some brightness is never drawn", without_one_texel, false,
@@ -365,6 +382,21 @@ constexpr auto kAlternatives = std::to_array<AlternativeDistribution>({
 }  // namespace
 
 std::span<const AlternativeDistribution> alternative_distributions() { return kAlternatives; }
+
+std::string_view why_meaningless(MappingNeed need, const Mapping& mapping) {
+  switch (need) {
+    case MappingNeed::rows:
+      return mapping.kind == MappingKind::lat_long
+                 ? ""
+                 : "it is a mistake of rows of latitude, which the mapping does not have";
+    case MappingNeed::unequal_areas:
+      return is_equal_area(mapping) ? "all texels have one solid angle: nothing could be forgotten"
+                                    : "";
+    case MappingNeed::none:
+      break;
+  }
+  return "";
+}
 
 const AlternativeDistribution& alternative_distribution(std::string_view name) {
   const auto* found = std::find_if(

@@ -17,6 +17,16 @@ struct DeclaredDistribution {
   TargetDensity target = {DensitySpace::solid_angle};
 };
 
+/// What a defect needs of a map's mapping to be one.
+enum class MappingNeed {
+  none,
+  rows,  ///< texels of latitude and longitude: what is wrong is a sin(theta), or a pole's row
+  unequal_areas,  ///< texels of different solid angles
+};
+
+/// Empty if a mapping has what a defect needs; else what it lacks.
+std::string_view why_meaningless(MappingNeed need, const Mapping& mapping);
+
 /// A distribution over texels that samplers draw by mistake, whatever the map.
 struct AlternativeDistribution {
   std::string_view name;       ///< "no-sine"
@@ -28,6 +38,7 @@ struct AlternativeDistribution {
   /// Whether its masses are only an example of the defect, whose counts may be any of many: such a
   /// defect is known by other evidence.
   bool is_example = false;
+  MappingNeed need = MappingNeed::none;  ///< on other maps it says nothing
 };
 
 /// All alternative distributions, in the order in which they are shown.

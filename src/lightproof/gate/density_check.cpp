@@ -6,6 +6,7 @@
 #include "lightproof/core/parallel.h"
 #include "lightproof/samplers/cdf_lines.h"
 #include "lightproof/warp/lat_long.h"
+#include "lightproof/warp/mapping.h"
 
 namespace lightproof {
 namespace {
@@ -53,8 +54,8 @@ struct Row {
 };
 
 MapMeasure other_measure(const Expectation& expectation) {
-  return position_measure(expectation.density_space) == MapMeasure::square ? MapMeasure::solid_angle
-                                                                           : MapMeasure::square;
+  return expectation.positions() == MapMeasure::square ? MapMeasure::solid_angle
+                                                       : MapMeasure::square;
 }
 
 /// The density over the square, at a point of a texel of row y, of this mass in the texel.
@@ -69,13 +70,13 @@ struct RowComparison {
   double excess = 0.0;  ///< error of the worst cell over its bound
 
   /// A cell of this probability, whose error in probability may be as large as the bound.
-  void add(const ComparedCell& cell, double mass, double bound) {
+  void add(const ComparedCell& cell, double mass, double bound, const Mapping& mapping) {
     if (!(cell.declared > kNoDensity)) {
       if (std::abs(cell.pdf) <= kNoDensity) return;  // false for NaN
       if (found.unlit_cells++ == 0) found.first_unlit = cell;
       return;
     }
-    const double ratio = found.add_ratio(cell);
+    const double ratio = found.add_ratio(cell, mapping);
     if (cell.pdf <= 0.0) {
       found.unreachable_mass += mass;
       if (found.unreachable_cells++ == 0) found.first_unreachable = cell;
@@ -109,8 +110,8 @@ RowComparison compare_row(const Row& row, const BoundSampler& sampler,
     const double run = runs[static_cast<std::size_t>(cell.x / kRunTexels)];
     const double bound = kRelative * mass +
                          rounding.bound({mass, run, row_mass, expectation.masses.extent().count()});
-    result.add(cell, mass, bound);
-    if (!expectation.density && mass > 0.0) {
+    result.add(cell, mass, bound, expectation.mapping);
+    if (!expectation.density && mass > 0.0 && has_two_measures(expectation.mapping)) {
       const double other =
           spread(mass, other_measure(expectation), expectation.masses.extent(), cell.at, cell.y);
       result.found.over_other_measure.add(cell.pdf / other);
@@ -153,9 +154,9 @@ void RatioRange::merge(const RatioRange& other) {
 
 bool RatioRange::is_constant() const { return least > 0.0 && largest <= least * (1.0 + kRelative); }
 
-double DensityComparison::add_ratio(const ComparedCell& cell) {
+double DensityComparison::add_ratio(const ComparedCell& cell, const Mapping& mapping) {
   const double of_both = cell.pdf / cell.declared;
-  const double jacobian = solid_angle_per_square(cell.at.t);
+  const double jacobian = solid_angle_per_square(mapping, cell.at);
   ratio.add(of_both);
   times_jacobian.add(of_both * jacobian);
   over_jacobian.add(of_both / jacobian);
@@ -166,8 +167,8 @@ double DensityComparison::add_ratio(const ComparedCell& cell) {
 
 double declared_density(const Expectation& expectation, SquarePoint at, int x, int y) {
   if (expectation.density) return expectation.density(at);
-  return spread(expectation.masses(x, y), position_measure(expectation.density_space),
-                expectation.masses.extent(), at, y);
+  return spread(expectation.masses(x, y), expectation.positions(), expectation.masses.extent(), at,
+                y);
 }
 
 DensityComparison compare_density(const BoundSampler& sampler, const Expectation& expectation,

@@ -55,15 +55,16 @@ struct DensityComparison {
   double rounding_variance = 0.0;
   double largest_weight_error = 0.0;
   RatioRange ratio;           ///< pdf over declared density, in lit cells
-  RatioRange times_jacobian;  ///< that ratio times 2 pi^2 sin(theta)
-  RatioRange over_jacobian;   ///< that ratio over 2 pi^2 sin(theta)
+  RatioRange times_jacobian;  ///< that ratio times d(omega)/(ds dt), 2 pi^2 sin(theta) or another
+  RatioRange over_jacobian;   ///< that ratio over it
   /// The pdf over that of the declared masses, spread inside the texels by the other measure than
-  /// the declared one. Stays empty if the declared density is no masses of texels.
+  /// the declared one. Stays empty if the declared density is no masses of texels, or the mapping
+  /// leaves no choice of measures.
   RatioRange over_other_measure;
 
   /// Adds the ratio of the two densities of a cell, whose declared one is positive, to `ratio`,
   /// `times_jacobian` and `over_jacobian`, and its error to `largest_error`. Returns the ratio.
-  double add_ratio(const ComparedCell& cell);
+  double add_ratio(const ComparedCell& cell, const Mapping& mapping);
 };
 
 /// Compares a sampler's pdf with the declared density, given the rounding that the sampler
@@ -71,6 +72,11 @@ struct DensityComparison {
 /// cos(theta) are all but one: what is compared is a quarter of the height away from it.
 DensityComparison compare_density(const BoundSampler& sampler, const Expectation& expectation,
                                   const MassRounding& rounding);
+
+/// Whether positions inside texels of a map may be uniform in either of two measures.
+constexpr bool has_two_measures(const Mapping& mapping) {
+  return mapping.kind == MappingKind::lat_long;
+}
 
 /// The declared density over the square at a point of texel (x, y).
 double declared_density(const Expectation& expectation, SquarePoint at, int x, int y);

@@ -109,15 +109,14 @@ std::string_view distribution_of_pdf(const ScoredAlternatives& distributions,
 }
 
 /// Whether the samples follow this distribution of the test case.
-bool fits(const ScoredAlternatives& distributions, const Expectation& expectation,
-          const Draws& draws, std::string_view name) {
+bool fits(const ScoredAlternatives& distributions, const Draws& draws, std::string_view name) {
   const Alternative* distribution = distributions.find(name);
   return distribution != nullptr &&
-         log10_fit(draws, distribution->masses(), expectation) >= std::log10(kFitLevel);
+         log10_fit(draws, distribution->masses()) >= std::log10(kFitLevel);
 }
 
 bool fits_declared(const Expectation& expectation, const Draws& draws) {
-  return log10_fit_of_declared(draws, expectation) >= std::log10(kFitLevel);
+  return log10_fit(draws, expectation.masses) >= std::log10(kFitLevel);
 }
 
 /// A name, and how sure it is.
@@ -163,7 +162,7 @@ Name name_of_distribution(const ScoredAlternatives& distributions, const Expecta
   }
   const std::string_view own =
       distribution_of_pdf(distributions, expectation, evidence.inspection->own);
-  if (!own.empty() && fits(distributions, expectation, *evidence.draws, own)) {
+  if (!own.empty() && fits(distributions, *evidence.draws, own)) {
     return {own, "the sampler's own pdf is this distribution, and the samples do not reject it"};
   }
   return {};
@@ -234,10 +233,7 @@ Name name_of_other_measure(const Expectation& expectation, const Evidence& evide
                    std::abs(over_other.largest - 1.0) <= kIntegrated;
   if (!pdf && !positions_are_wrong(verdicts)) return {};
   const Draws& draws = *evidence.draws;
-  const std::uint64_t samples = draws.samples - draws.out_of_domain.count;
-  if (log10_fit_of_counts(draws.texels, expectation.masses, samples) < std::log10(kFitLevel)) {
-    return {};
-  }
+  if (!fits_declared(expectation, draws)) return {};
   const PositionFit fit = fit_of_other_measure(expectation, draws);
   if (positions_are_wrong(verdicts) && fit.named()) {
     return {"other-measure-in-texel",
@@ -282,7 +278,7 @@ Name name_of(const ScoredAlternatives& distributions, const Expectation& expecta
   // first, as does a pdf that says so: points directed at a row miss some of it if the row sums are
   // another distribution's.
   const DistributionFit likeliest =
-      likeliest_distribution(distributions.all, distributions.scores, expectation, draws);
+      likeliest_distribution(distributions.all, distributions.scores, draws);
   if (!likeliest.named()) {
     Name measure = name_of_other_measure(expectation, evidence, verdicts);
     if (!measure.defect.empty()) return measure;

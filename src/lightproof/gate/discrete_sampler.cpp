@@ -60,9 +60,9 @@ std::size_t ShareGuide::find(std::span<const double> sums, double u) const {
   return bisect(sums, first_[part], first_[part + 1] - first_[part] + std::size_t{1}, u);
 }
 
-DiscreteSampler::DiscreteSampler(Grid<double> masses, MapMeasure positions)
+DiscreteSampler::DiscreteSampler(Grid<double> masses, MapMeasure positions, const Mapping& mapping)
     : masses_(std::move(masses)),
-      positions_(masses_.extent(), positions),
+      positions_(masses_.extent(), positions, mapping),
       rows_(static_cast<std::size_t>(masses_.extent().height)),
       columns_(masses_.extent()) {
   std::vector<double> row_masses;

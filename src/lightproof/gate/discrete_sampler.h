@@ -37,7 +37,7 @@ class DiscreteSampler {
   DiscreteSampler(Grid<double> masses, DensitySpace density_space)
       : DiscreteSampler(std::move(masses), lightproof::position_measure(density_space)) {}
   /// As above, with positions that are uniform in this measure.
-  DiscreteSampler(Grid<double> masses, MapMeasure positions);
+  DiscreteSampler(Grid<double> masses, MapMeasure positions, const Mapping& mapping = {});
 
   TexelSample sample(SquarePoint u) const;
   PerSquare pdf(SquarePoint at) const;
@@ -46,6 +46,7 @@ class DiscreteSampler {
   Extent extent() const { return masses_.extent(); }
   /// The measure in which positions are uniform inside a texel.
   MapMeasure position_measure() const { return positions_.measure(); }
+  const Mapping& mapping() const { return positions_.mapping(); }
   const Grid<double>& masses() const { return masses_; }
   /// What u = (1/2, 1/2) gives: a texel with light.
   const TexelSample& median() const { return median_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -38,10 +39,30 @@ double log10_p(std::span<const std::uint64_t> counts, std::span<const double> ma
   return cressie_read(counts, masses, samples).log10_p;
 }
 
-/// The p-values (log10) of goodness of fit of texels, rows, columns and the worst texel.
+/// Sums over blocks of whole texels, about as many as there are bins. Bins may divide texels, and
+/// then say where in them samples lie, too.
+template <class Value>
+Grid<Value> over_blocks(const Grid<Value>& texels) {
+  const auto [width, height] = texels.extent();
+  Grid<Value> blocks({std::min(width, kGateBins.width), std::min(height, kGateBins.height)});
+  const auto block_of = [](int texel, int all, int parts) {
+    return static_cast<int>(static_cast<std::int64_t>(texel) * parts / all);
+  };
+  for (int y = 0; y < height; ++y) {
+    const auto row = blocks.row(block_of(y, height, blocks.extent().height));
+    for (int x = 0; x < width; ++x) {
+      row[static_cast<std::size_t>(block_of(x, width, blocks.extent().width))] += texels(x, y);
+    }
+  }
+  return blocks;
+}
+
+/// The p-values (log10) of goodness of fit of blocks of texels, texels, rows, columns and the worst
+/// texel.
 std::vector<double> log10_ps(const Grid<std::uint64_t>& texels, const Grid<double>& masses,
                              std::uint64_t samples) {
-  return {log10_p(serpentine(texels), serpentine(masses), samples),
+  return {log10_p(serpentine(over_blocks(texels)), serpentine(over_blocks(masses)), samples),
+          log10_p(serpentine(texels), serpentine(masses), samples),
           log10_p(row_counts(texels), reference::row_marginal(masses), samples),
           log10_p(column_counts(texels), reference::column_marginal(masses), samples),
           worst_cell(texels.values(), masses.values(), samples).log10_p};
@@ -51,16 +72,6 @@ std::vector<double> log10_ps(const Grid<std::uint64_t>& texels, const Grid<doubl
 double of_several(std::span<const double> log10_ps) {
   const double least = *std::min_element(log10_ps.begin(), log10_ps.end());
   return std::min(0.0, least + std::log10(static_cast<double>(log10_ps.size())));
-}
-
-/// The fit over the texels, and over the bins as well if their masses are given.
-double fit_with_bins(const Draws& draws, const Grid<double>& masses, const Grid<double>* bins) {
-  const std::uint64_t samples = draws.samples - draws.out_of_domain.count;
-  std::vector<double> all = log10_ps(draws.texels, masses, samples);
-  if (bins != nullptr) {
-    all.push_back(log10_p(serpentine(draws.bins), serpentine(*bins), samples));
-  }
-  return of_several(all);
 }
 
 }  // namespace
@@ -76,16 +87,8 @@ double log10_fit_of_counts(const Grid<std::uint64_t>& texels, const Grid<double>
   return of_several(all);
 }
 
-double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectation& expectation) {
-  // The masses of an interpolated distribution say nothing of the bins that divide texels.
-  if (expectation.lookup != Lookup::nearest) return fit_with_bins(draws, masses, nullptr);
-  const Grid<double> bins = reference::bin_masses(masses, expectation.density_space, kGateBins);
-  return fit_with_bins(draws, masses, &bins);
-}
-
-double log10_fit_of_declared(const Draws& draws, const Expectation& expectation) {
-  const bool has_bins = expectation.lookup == Lookup::nearest;
-  return fit_with_bins(draws, expectation.masses, has_bins ? &expectation.bins : nullptr);
+double log10_fit(const Draws& draws, const Grid<double>& masses) {
+  return log10_fit_of_counts(draws.texels, masses, draws.samples - draws.out_of_domain.count);
 }
 
 double distance(const Grid<double>& a, const Grid<double>& b) {
@@ -112,7 +115,7 @@ std::vector<DistributionScores> score_distributions(std::span<const Alternative>
   for_each_holding_grids(alternatives.size(), expectation, [&](std::size_t distribution) {
     const Grid<double> masses = alternatives[distribution].masses();
     const Grid<double> ratios = log_ratios(masses, expectation.masses);
-    const Grid<double> bins = reference::bin_masses(masses, expectation.density_space, kGateBins);
+    const Grid<double> bins = expectation.bins_of(masses);
     for (std::size_t i = 0; i < scored.size(); ++i) {
       scores[i].gains[distribution] = log_likelihood_gain(*scored[i].draws, ratios);
       scores[i].from_own_pdf[distribution] = distance(bins, *scored[i].own_bins);
@@ -122,8 +125,7 @@ std::vector<DistributionScores> score_distributions(std::span<const Alternative>
 }
 
 DistributionFit likeliest_distribution(std::span<const Alternative> alternatives,
-                                       const DistributionScores& scores,
-                                       const Expectation& expectation, const Draws& draws) {
+                                       const DistributionScores& scores, const Draws& draws) {
   DistributionFit best;
   const Alternative* best_distribution = nullptr;
   double most = 0.0;  // of the declared distribution
@@ -146,7 +148,7 @@ DistributionFit likeliest_distribution(std::span<const Alternative> alternatives
   }
   if (best_distribution == nullptr) return best;
   best.log10_odds = (most - second) * std::numbers::log10e;
-  best.log10_p = log10_fit(draws, best_distribution->masses(), expectation);
+  best.log10_p = log10_fit(draws, best_distribution->masses());
   return best;
 }
 

@@ -65,19 +65,15 @@ double distance(const Grid<double>& a, const Grid<double>& b);
 
 /// The distribution that the samples make likeliest, by the scores of their sampler.
 DistributionFit likeliest_distribution(std::span<const Alternative> alternatives,
-                                       const DistributionScores& scores,
-                                       const Expectation& expectation, const Draws& draws);
-
-/// log10 of how well masses of texels fit what was drawn: the smallest p-value of goodness of fit
-/// over bins, texels, rows, columns and the worst texel, times their number.
-double log10_fit(const Draws& draws, const Grid<double>& masses, const Expectation& expectation);
-
-/// log10_fit() of the declared distribution.
-double log10_fit_of_declared(const Draws& draws, const Expectation& expectation);
+                                       const DistributionScores& scores, const Draws& draws);
 
 /// log10 of how well probabilities of texels fit their counts among `samples` samples: the smallest
-/// p-value of goodness of fit over texels, rows, columns and the worst texel, times their number.
+/// p-value of goodness of fit over blocks of texels, texels, rows, columns and the worst texel,
+/// times their number. Where in their texels samples lie makes no difference.
 double log10_fit_of_counts(const Grid<std::uint64_t>& texels, const Grid<double>& masses,
                            std::uint64_t samples);
+
+/// log10_fit_of_counts() of the texels of what was drawn on the map.
+double log10_fit(const Draws& draws, const Grid<double>& masses);
 
 }  // namespace lightproof

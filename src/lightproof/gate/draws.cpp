@@ -10,6 +10,7 @@
 #include "lightproof/core/random_batch.h"
 #include "lightproof/image/look_up.h"
 #include "lightproof/stats/uniformity.h"
+#include "lightproof/warp/lat_long.h"
 #include "lightproof/warp/sphere_batch.h"
 
 namespace lightproof {
@@ -50,13 +51,13 @@ struct Batch {
   std::vector<std::size_t> order = std::vector<std::size_t>(kBatch);  ///< in the batch as drawn
   std::uint64_t first = 0;  ///< number of the first sample
   std::size_t size = 0;
-  std::size_t drawn = 0;  ///< before those that left the map were taken out
-  Numbers s = Numbers(kBatch);
+  std::size_t drawn = 0;        ///< before those that left the map were taken out
+  Numbers s = Numbers(kBatch);  ///< of the directions, in Lightproof's own frame
   Numbers t = Numbers(kBatch);
   Numbers x = Numbers(kBatch);  ///< directions
   Numbers y = Numbers(kBatch);
   Numbers z = Numbers(kBatch);
-  Numbers sine = Numbers(kBatch);
+  Numbers per_square = Numbers(kBatch);  ///< d(omega) / (ds dt) in the map's square
   std::vector<reference::RosenblattPoint> units = std::vector<reference::RosenblattPoint>(kBatch);
   std::vector<TransformedSample> transformed = std::vector<TransformedSample>(kBatch);
   Numbers radiance = Numbers(kBatch);                       ///< as it is looked up
@@ -96,14 +97,30 @@ void count_out_of_domain(Draws& draws, Batch& batch, Extent map) {
   batch.size = kept;
 }
 
-void find_directions(Batch& batch) {
+/// One by one, on maps of any mapping.
+void find_mapped_directions(Batch& batch, const Mapping& mapping) {
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    const Direction d = direction_at(mapping, batch.samples[i].at);
+    const SquarePoint at = square_from_direction(d);
+    batch.s[i] = at.s;
+    batch.t[i] = at.t;
+    batch.x[i] = d.x;
+    batch.y[i] = d.y;
+    batch.z[i] = d.z;
+    batch.per_square[i] = solid_angle_per_square(mapping, batch.samples[i].at);
+  }
+}
+
+void find_directions(Batch& batch, const Mapping& mapping) {
+  if (!is_plain(mapping)) return find_mapped_directions(batch, mapping);
   const auto part = [&](Numbers& numbers) { return std::span(numbers).first(batch.size); };
   for (std::size_t i = 0; i < batch.size; ++i) {
     batch.s[i] = batch.samples[i].at.s;
     batch.t[i] = batch.samples[i].at.t;
   }
   directions_of_positions(part(batch.s), part(batch.t),
-                          {part(batch.x), part(batch.y), part(batch.z), part(batch.sine)});
+                          {part(batch.x), part(batch.y), part(batch.z), part(batch.per_square)});
+  for (double& value : part(batch.per_square)) value *= 2.0 * kPi * kPi;
 }
 
 /// The texels lie anywhere: a loop that does little else waits for many of them at once.
@@ -178,7 +195,7 @@ void add_estimates(Draws& draws, Batch& batch) {
     ++draws.bins(cell_of(batch.s[i], kGateBins.width), cell_of(batch.t[i], kGateBins.height));
   }
   for (std::size_t i = 0; i < batch.size; ++i) {
-    batch.inverse_pdf[i] = 2.0 * kPi * kPi * batch.sine[i] / batch.samples[i].pdf.value;
+    batch.inverse_pdf[i] = batch.per_square[i] / batch.samples[i].pdf.value;
   }
   const std::span<const double> estimates = std::span(batch.estimates).first(batch.size);
   for (std::size_t k = 0; k < kMeanCaseCount; ++k) {
@@ -223,7 +240,7 @@ Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
     draw_batch(batch, sampler, stream, batch.first);
     count_repeats(part.draws, batch);
     count_out_of_domain(part.draws, batch, expectation.masses.extent());
-    find_directions(batch);
+    find_directions(batch, expectation.mapping);
     count_texels(part, batch, expectation);
     if (expectation.transform) count_transformed(part, batch, expectation);
     add_estimates(part.draws, batch);
@@ -268,9 +285,12 @@ void add_uniform(UniformEstimates& estimates, UniformBatch& batch, const Expecta
   fill_points(stream, range.first, part(batch.s), part(batch.u));
   uniform_directions(part(batch.s), part(batch.u),
                      {part(batch.x), part(batch.y), part(batch.z), part(batch.t)});
+  const bool plain = is_plain(expectation.mapping);
   for (std::size_t i = 0; i < range.count; ++i) {
-    batch.radiance[i] =
-        look_up(expectation.luminance, expectation.lookup, {batch.s[i], std::min(batch.t[i], 1.0)});
+    const SquarePoint at =
+        plain ? SquarePoint{batch.s[i], std::min(batch.t[i], 1.0)}
+              : square_point_of(expectation.mapping, {batch.x[i], batch.y[i], batch.z[i]});
+    batch.radiance[i] = look_up(expectation.luminance, expectation.lookup, at);
   }
   for (std::size_t k = 0; k < kMeanCaseCount; ++k) {
     const Direction normal = kMeanCases[k].normal;

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "lightproof/core/parallel.h"
 #include "lightproof/gate/draws.h"
 #include "reference/gauss_rule.h"
+#include "reference/mapped_texels.h"
 
 namespace lightproof {
 namespace {
@@ -164,7 +166,31 @@ double integral_over(const Piece& piece, const BoundSampler& sampler) {
 
 }  // namespace
 
-OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells) {
+namespace {
+
+/// Masses of bins that are cut out of the cells of a square.
+Grid<double> mapped_bins(const BoundSampler& sampler, Extent cells, const Mapping& mapping) {
+  const int depth = reference::depth_of_parts(mapping, cells);
+  std::vector<Grid<double>> rows(static_cast<std::size_t>(cells.height), Grid<double>(kGateBins));
+  parallel_for(rows.size(), [&](std::size_t row) {
+    for (int x = 0; x < cells.width; ++x) {
+      reference::visit_binned_parts(mapping, texel_cell(cells, x, static_cast<int>(row)), depth,
+                                    kGateBins, [&](const reference::BinnedPart& part) {
+                                      rows[row](part.column, part.row) +=
+                                          part.area * sampler.pdf(part.centre).value;
+                                    });
+    }
+  });
+  Grid<double> bins(kGateBins);
+  for (const Grid<double>& row : rows) {
+    for (std::size_t i = 0; i < bins.values().size(); ++i) bins.values()[i] += row.values()[i];
+  }
+  return bins;
+}
+
+}  // namespace
+
+OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells, const Mapping& mapping) {
   const std::vector<double> across = edges(cells.width, kGateBins.width);
   const int pieces = (kFewestPieces + cells.height - 1) / cells.height;
   const std::vector<double> along = edges(cells.height * pieces, kGateBins.height);
@@ -178,6 +204,7 @@ OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells) {
       own.bins(cell_of(s, kGateBins.width), cell_of(t, kGateBins.height)) += mass;
     }
   }
+  if (!is_plain(mapping)) own.bins = mapped_bins(sampler, cells, mapping);
   for (double& mass : own.bins.values()) mass /= own.integral;
   return own;
 }
@@ -293,7 +320,7 @@ Inspection inspect(const BoundSampler& sampler, const Expectation& expectation,
                    .has_weights = sampler.has_weights,
                    .takes_points = sampler.takes_points()};
   if (found.has_pdf) {
-    found.own = integrate_pdf(sampler, expectation.smooth_cells());
+    found.own = integrate_pdf(sampler, expectation.smooth_cells(), expectation.mapping);
     found.density = compare_density(sampler, expectation, rounding);
   }
   if (found.takes_points) found.edges = check_edges(sampler, expectation);

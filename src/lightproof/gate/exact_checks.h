@@ -33,7 +33,9 @@ struct OwnDensity {
 /// begin and over t into pieces of at most 1/64. A density that inside a cell is linear over s, and
 /// linear times sin(pi t) over t, is integrated to a relative 1e-10 whatever the grid; another one
 /// as well as it is smooth inside a cell.
-OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells);
+/// On maps of another mapping than Lightproof's own frame bins are cut out of texels by
+/// reference::visit_binned_parts(), and the pdf is that of the centre of each part.
+OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells, const Mapping& mapping = {});
 
 /// Checks that a pdf integrates to 1: |∫ pdf ds dt - 1| <= 1e-6.
 CheckResult check_pdf_integral(const OwnDensity& own);

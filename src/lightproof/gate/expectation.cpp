@@ -21,6 +21,26 @@ double squared_sine_area(Extent extent, int y) {
   return (primitive(high) - primitive(low)) / (kPi * extent.width);
 }
 
+/// The same where texels are no rows of latitude and longitude: 1/p(omega) is the Jacobian times
+/// the texel's area over its mass, and the density that it is averaged by takes one of them back.
+reference::EstimatorMoments mapped_inverse_pdf_moments(const Expectation& expectation) {
+  const Extent extent = expectation.masses.extent();
+  reference::EstimatorMoments moments;
+  for (int y = 0; y < extent.height; ++y) {
+    for (int x = 0; x < extent.width; ++x) {
+      if (!expectation.is_bright(expectation.luminance(x, y))) continue;
+      const SquareCell texel = texel_cell(extent, x, y);
+      const double per_density = texel.area() / expectation.masses(x, y);
+      const double jacobian = reference::largest_jacobian(expectation.mapping, extent, texel);
+      moments.raw[0] += reference::cell_solid_angle(expectation.mapping, texel);
+      moments.raw[1] +=
+          per_density * reference::jacobian_integral(expectation.mapping, extent, texel);
+      moments.largest = std::max(moments.largest, per_density * jacobian);
+    }
+  }
+  return moments;
+}
+
 /// First and second moment of 1/p(omega) over the bright texels. Under A and C the density over
 /// (s,t) is constant in a texel and 1/p(omega) = 2 pi^2 sin(theta) / p(s,t); under B p(omega) is.
 reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) {
@@ -29,8 +49,11 @@ reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) 
         expectation.luminance, expectation.density_space,
         [&](double radiance) { return expectation.is_bright(radiance); });
   }
+  if (expectation.mapping.kind != MappingKind::lat_long) {
+    return mapped_inverse_pdf_moments(expectation);
+  }
   const Extent extent = expectation.masses.extent();
-  const bool is_flat = position_measure(expectation.density_space) == MapMeasure::square;
+  const bool is_flat = expectation.positions() == MapMeasure::square;
   reference::EstimatorMoments moments;
   for (int y = 0; y < extent.height; ++y) {
     const double solid_angle = texel_solid_angle(extent, y);
@@ -54,13 +77,14 @@ reference::LightMoments light_moments(const Expectation& expectation, Direction 
   const reference::Kernel kernel = reference::cosine_kernel(normal);
   return expectation.lookup == Lookup::bilinear
              ? reference::bilinear_light_moments(kernel, expectation.luminance)
-             : reference::light_moments(kernel, {&expectation.luminance, 1})[0];
+             : reference::light_moments(kernel, {&expectation.luminance, 1},
+                                        expectation.mapping)[0];
 }
 
 void set_transform(Expectation& expectation, const EnvironmentMap& map, TargetDensity target) {
   if (target.lookup == Lookup::nearest) {
     const auto transform = std::make_shared<const reference::RosenblattTransform>(
-        expectation.masses, target.density_space);
+        expectation.masses, expectation.positions());
     expectation.transform = [transform](std::span<const TexelSample> samples,
                                         std::span<const double> cosines,
                                         std::span<reference::RosenblattPoint> points) {
@@ -95,6 +119,13 @@ const std::array<MeanCase, kMeanCaseCount> kMeanCases = {{
     {"irradiance, normal +x", {1.0, 0.0, 0.0}},
 }};
 
+Grid<double> Expectation::bins_of(const Grid<double>& texel_masses) const {
+  if (shares) return shares->masses(texel_masses);
+  return mapping.shift == 0.0
+             ? reference::bin_masses(texel_masses, density_space, kGateBins)
+             : reference::turned_bin_masses(texel_masses, mapping.shift, kGateBins);
+}
+
 void Expectation::set_flags() {
   flags = Grid<std::uint8_t>(masses.extent());
   for (std::size_t i = 0; i < flags.values().size(); ++i) {
@@ -112,10 +143,17 @@ Extent Expectation::smooth_cells() const {
 Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
   Expectation expectation;
   expectation.density_space = target.density_space;
+  expectation.mapping = map.mapping;
   expectation.lookup = target.lookup;
   expectation.luminance = luminance_of(map, target.weights);
   expectation.masses = reference::texel_masses(map, target);
-  expectation.bins = reference::bin_masses(map, target, kGateBins);
+  if (!is_plain(map.mapping) && expectation.positions() == MapMeasure::square) {
+    expectation.shares =
+        std::make_shared<const reference::BinShares>(map.mapping, map.radiance.extent(), kGateBins);
+  }
+  expectation.bins = target.lookup == Lookup::bilinear
+                         ? reference::bin_masses(map, target, kGateBins)
+                         : expectation.bins_of(expectation.masses);
   expectation.rows = reference::row_marginal(expectation.masses);
   expectation.columns = reference::column_marginal(expectation.masses);
   set_transform(expectation, map, target);

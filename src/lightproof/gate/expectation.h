@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "lightproof/image/target_density.h"
 #include "lightproof/samplers/sampler.h"
 #include "reference/estimator_moments.h"
+#include "reference/mapped_texels.h"
 #include "reference/rosenblatt_transform.h"
 
 namespace lightproof {
@@ -33,10 +35,11 @@ extern const std::array<MeanCase, kMeanCaseCount> kMeanCases;
 /// The exact side of one test case.
 struct Expectation {
   DensitySpace density_space = DensitySpace::solid_angle;  ///< how the mass lies inside a texel
+  Mapping mapping = {};             ///< how the square of the texels lies on the sphere
   Lookup lookup = Lookup::nearest;  ///< how the estimators look `luminance` up
   Grid<double> luminance;           ///< radiance that the estimators gather
   Grid<double> masses;              ///< probabilities of texels
-  Grid<double> bins;                ///< probabilities of kGateBins
+  Grid<double> bins;                ///< probabilities of kGateBins, over (phi, theta)
   std::vector<double> rows;         ///< probabilities of the rows of texels
   std::vector<double> columns;      ///< probabilities of the columns of texels
   /// Writes the transformed coordinates of samples, cos(theta) of whose positions are known; all
@@ -66,6 +69,10 @@ struct Expectation {
     counts_as_bright = 2,  ///< see is_bright
   };
   Grid<std::uint8_t> flags;  ///< for each texel the sum of its TexelFlag values
+  /// Where texels are no rows and columns of bins: which of their shares lie in which bin.
+  std::shared_ptr<const reference::BinShares> shares = {};
+  /// The masses of kGateBins, given masses of texels that are spread inside them as these are.
+  Grid<double> bins_of(const Grid<double>& texel_masses) const;
   /// Sets the flags, once masses, luminance and mean_luminance are known.
   void set_flags();
 
@@ -76,6 +83,9 @@ struct Expectation {
   /// Cells over the square in which the density is smooth: it may have edges between texels, or
   /// between the quarters around their centres.
   Extent smooth_cells() const;
+
+  /// The measure in which positions inside a texel are uniform.
+  MapMeasure positions() const { return position_measure(density_space, mapping); }
 
   /// Whether samplers of this distribution add up its masses and search the sums.
   bool is_summed = false;

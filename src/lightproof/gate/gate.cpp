@@ -311,7 +311,10 @@ GateResult run_gate(std::span<const EnvironmentMap> maps,
                     std::span<const SamplerUnderTest> samplers_under_test,
                     const GateOptions& options, const Progress& progress,
                     const Communicator& communicator) {
-  return run_gate(test_cases_of(maps, samplers_under_test), options, progress, communicator);
+  GateResult result =
+      run_gate(test_cases_of(maps, samplers_under_test), options, progress, communicator);
+  result.left_out = left_out_on(maps, samplers_under_test);
+  return result;
 }
 
 }  // namespace lightproof

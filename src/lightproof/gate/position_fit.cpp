@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lightproof/core/measure.h"
+#include "lightproof/gate/density_check.h"
 #include "lightproof/gate/distribution_fit.h"
 #include "lightproof/gate/row_bands.h"
 #include "lightproof/stats/goodness_of_fit.h"
@@ -33,8 +34,7 @@ struct Rows {
 
 /// Probabilities of kPositionCells in a band of rows, of positions by the other measure.
 std::vector<double> cells_by_other_measure(const Expectation& expectation, const RowBand& band) {
-  const Rows rows = {expectation.masses.extent().height,
-                     position_measure(expectation.density_space)};
+  const Rows rows = {expectation.masses.extent().height, expectation.positions()};
   std::vector<double> cells;
   for (int j = 0; j < kPositionCells.height; ++j) {
     const double from = static_cast<double>(j) / kPositionCells.height;
@@ -58,7 +58,8 @@ bool PositionFit::named() const {
 
 PositionFit fit_of_other_measure(const Expectation& expectation, const Draws& draws) {
   PositionFit fit;
-  const bool of_texels = expectation.lookup == Lookup::nearest && !expectation.density;
+  const bool of_texels = expectation.lookup == Lookup::nearest && !expectation.density &&
+                         has_two_measures(expectation.mapping);
   if (!of_texels) return fit;
   for (std::size_t b = 0; b < expectation.bands.size(); ++b) {
     const RowBand& band = expectation.bands[b];

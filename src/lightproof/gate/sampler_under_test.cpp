@@ -27,6 +27,7 @@ std::vector<Alternative> alternatives_on(const EnvironmentMap& map, TargetDensit
   std::vector<Alternative> alternatives;
   for (const AlternativeDistribution& distribution : alternative_distributions()) {
     if (distribution.is_example) continue;
+    if (!why_meaningless(distribution.need, map.mapping).empty()) continue;
     alternatives.push_back({distribution.name, distribution.diagnosis,
                             [declared, &map, target, masses = distribution.masses] {
                               return masses({declared.get(), &map, target});
@@ -58,6 +59,7 @@ std::vector<TargetDensity> targets_of(std::span<const SamplerUnderTest> samplers
                                       const EnvironmentMap& map) {
   std::vector<TargetDensity> targets;
   for (const SamplerUnderTest& under_test : samplers_under_test) {
+    if (!why_left_out(under_test, map).empty()) continue;
     const TargetDensity target = on_map(under_test.target, map);
     if (std::find(targets.begin(), targets.end(), target) == targets.end()) {
       targets.push_back(target);
@@ -109,6 +111,26 @@ std::vector<SamplerUnderTest> all_samplers_under_test() {
   return samplers_under_test;
 }
 
+std::string_view why_left_out(const SamplerUnderTest& under_test, const EnvironmentMap& map) {
+  const std::string_view reason = why_not_declared(under_test.target, map.mapping);
+  if (!reason.empty() || !under_test.why_meaningless) return reason;
+  return under_test.why_meaningless(map.mapping);
+}
+
+std::vector<LeftOut> left_out_on(std::span<const EnvironmentMap> maps,
+                                 std::span<const SamplerUnderTest> samplers_under_test) {
+  std::vector<LeftOut> left_out;
+  for (const EnvironmentMap& map : maps) {
+    for (const SamplerUnderTest& under_test : samplers_under_test) {
+      const std::string_view reason = why_left_out(under_test, map);
+      if (reason.empty()) continue;
+      left_out.push_back({under_test.name, std::string(to_string(under_test.target.density_space)),
+                          map.name, std::string(reason)});
+    }
+  }
+  return left_out;
+}
+
 std::vector<TestCase> test_cases_of(std::span<const EnvironmentMap> maps,
                                     std::span<const SamplerUnderTest> samplers_under_test) {
   std::vector<TestCase> test_cases;
@@ -117,6 +139,7 @@ std::vector<TestCase> test_cases_of(std::span<const EnvironmentMap> maps,
       TestCase test_case = test_case_of(map, target);
       for (const SamplerUnderTest& under_test : samplers_under_test) {
         if (!(on_map(under_test.target, map) == target)) continue;
+        if (!why_left_out(under_test, map).empty()) continue;
         test_case.instances.push_back(instance_of(under_test, map));
         if (under_test.inverts_shared_cdf)
           test_case.reference_implementation = linear_scan_of(map, target);

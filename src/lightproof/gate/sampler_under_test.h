@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lightproof/gate/test_case.h"
+#include "lightproof/results/gate_result.h"
 #include "lightproof/samplers/registry.h"
 
 namespace lightproof {
@@ -26,7 +27,18 @@ struct SamplerUnderTest {
   /// The rounding of its probabilities on a map of this size; null: it claims the declared density
   /// exactly.
   MassRounding (*rounding)(Extent map) = nullptr;
+  /// Empty if it can be told from a correct sampler on maps of this mapping; else why not. Null: it
+  /// always can.
+  std::function<std::string_view(const Mapping&)> why_meaningless = {};
 };
+
+/// Empty if a sampler is tested on a map; else why not: its density cannot be declared there, or it
+/// has no meaning.
+std::string_view why_left_out(const SamplerUnderTest& under_test, const EnvironmentMap& map);
+
+/// The samplers under test that are left out on some of these maps.
+std::vector<LeftOut> left_out_on(std::span<const EnvironmentMap> maps,
+                                 std::span<const SamplerUnderTest> samplers_under_test);
 
 /// A sampler of the registry as one under test, under one density.
 SamplerUnderTest sampler_under_test(const SamplerInfo& sampler, DensitySpace density_space);
@@ -34,7 +46,8 @@ SamplerUnderTest sampler_under_test(const SamplerInfo& sampler, DensitySpace den
 /// Every sampler of the registry under all densities.
 std::vector<SamplerUnderTest> all_samplers_under_test();
 
-/// The test cases of every sampler under test on every map, one for each map and target density.
+/// The test cases of every sampler under test on every map that it is not left out on, one for each
+/// map and target density.
 /// The maps must outlive them.
 std::vector<TestCase> test_cases_of(std::span<const EnvironmentMap> maps,
                                     std::span<const SamplerUnderTest> samplers_under_test);

@@ -8,12 +8,14 @@
 #include "lightproof/core/grid.h"
 #include "lightproof/image/luminance.h"
 #include "lightproof/image/map_origin.h"
+#include "lightproof/warp/mapping.h"
 
 namespace lightproof {
 
 /// Radiance over all directions, constant inside each texel unless a Lookup says that it is
 /// interpolated: column x covers s in [x/W, (x+1)/W), row y covers t in [y/H, (y+1)/H), in the
-/// `z-up` mapping s = 1/2 - phi/2pi, t = 1 - theta/pi. Every value is finite and not negative.
+/// square of the map's mapping, which is `z-up` unless the file has another one: s = 1/2 - phi/2pi,
+/// t = 1 - theta/pi. Every value is finite and not negative.
 struct EnvironmentMap {
   std::string name;
   Grid<Rgb> radiance;
@@ -25,6 +27,8 @@ struct EnvironmentMap {
   /// follow them.
   LuminanceWeights weights = kRec709;
   MapOrigin origin = {};
+  /// How the square of the texels lies on the sphere.
+  Mapping mapping = {};
 };
 
 /// The luminance of every texel by the map's own weights, a grid of the map's extent.

@@ -40,6 +40,7 @@ Json object_of(const MapDescription& map) {
           {"height", picture.extent.height},
           {"preset", info(map.origin.preset).name},
           {"preset_reason", map.origin.why_preset},
+          {"mapping", describe(map.mapping)},
           {"parts", picture.parts},
           {"part", picture.part},
           {"channels", picture.channels},
@@ -94,6 +95,9 @@ void add_picture(Lines& lines, const MapDescription& map) {
   lines.add("orientation", picture.orientation);
   lines.add("convention",
             fmt::format("{} ({})", info(map.origin.preset).name, map.origin.why_preset));
+  lines.add("mapping", map.origin.is_resampled
+                           ? describe(map.mapping) + ", resampled if the picture's is another"
+                           : describe(map.mapping));
   lines.add("parts", picture.parts.size() > 1 ? parts_text(picture) : "");
   lines.add("channels", listed(picture.channels));
   lines.add("layers", listed(picture.layers));
@@ -121,20 +125,21 @@ void add_light(Lines& lines, const MapDescription& map) {
 MapDescription describe(const EnvironmentMap& map) {
   const MapFigures figures = figures_of(map);
   const Extent texels = map.radiance.extent();
-  MapDescription description = {
-      .name = map.name,
-      .file = map.source.empty() ? map.name : map.source,
-      .origin = map.origin,
-      .texels = texels,
-      .weights = map.weights,
-      .figures = figures,
-      .peak = {},
-      .peak_direction = direction_of_texel(texels, figures.peak_column, figures.peak_row),
-      .notes = map.notes};
+  MapDescription description = {.name = map.name,
+                                .file = map.source.empty() ? map.name : map.source,
+                                .origin = map.origin,
+                                .texels = texels,
+                                .mapping = map.mapping,
+                                .weights = map.weights,
+                                .figures = figures,
+                                .peak = {},
+                                .peak_direction = direction_of_texel(texels, figures.peak_column,
+                                                                     figures.peak_row, map.mapping),
+                                .notes = map.notes};
   Extent& picture = description.origin.picture.extent;
   if (picture == Extent{}) picture = texels;  // a built-in map
-  description.peak =
-      place_in_picture(map.origin.preset, picture, figures.peak_column, figures.peak_row);
+  const auto place = map.origin.is_resampled ? place_in_picture : own_place_in_picture;
+  description.peak = place(map.origin.preset, picture, figures.peak_column, figures.peak_row);
   return description;
 }
 

@@ -17,6 +17,7 @@ struct MapDescription {
   std::string file;  ///< what the user called it: a path, or the name of a built-in map
   MapOrigin origin;
   Extent texels;  ///< extent of the map that the picture became
+  Mapping mapping = {};
   LuminanceWeights weights = kRec709;
   MapFigures figures;
   PicturePlace peak;         ///< the brightest texel's column and row in the file
@@ -28,11 +29,11 @@ struct MapDescription {
 MapDescription describe(const EnvironmentMap& map);
 
 /// A description as one JSON object. Keys: name, file, format, width and height (in pixels of the
-/// file), preset, preset_reason, parts, part, channels, layers, read, left_out, orientation,
-/// primaries, exposure, luminance_weights, mean_luminance (over solid angle), peak_luminance,
-/// peak_texel (column and row of the file), peak_direction, effective_fraction (null if black),
-/// faults: [kind, count, column, row, message], refused (null, or why other commands refuse the
-/// file), notes. Text that is not UTF-8 has its bad bytes replaced by U+FFFD.
+/// file), preset, preset_reason, mapping, parts, part, channels, layers, read, left_out,
+/// orientation, primaries, exposure, luminance_weights, mean_luminance (over solid angle),
+/// peak_luminance, peak_texel (column and row of the file), peak_direction, effective_fraction
+/// (null if black), faults: [kind, count, column, row, message], refused (null, or why other
+/// commands refuse the file), notes. Text that is not UTF-8 has its bad bytes replaced by U+FFFD.
 std::string json_of(const MapDescription& description);
 
 /// The objects that json_of() writes, each with format_version and, of `run`, version, commit and

@@ -1,7 +1,7 @@
 #include "lightproof/image/map_figures.h"
 
 #include "lightproof/core/measure.h"
-#include "lightproof/warp/lat_long.h"
+#include "lightproof/warp/mapping.h"
 
 namespace lightproof {
 
@@ -11,8 +11,8 @@ MapFigures figures_of(const EnvironmentMap& map) {
   double second = 0.0;
   const Extent extent = map.radiance.extent();
   for (int y = 0; y < extent.height; ++y) {
-    const double solid_angle = texel_solid_angle(extent, y);
     for (int x = 0; x < extent.width; ++x) {
+      const double solid_angle = texel_solid_angle(map.mapping, extent, x, y);
       const double luminance = luminance_of(map.radiance(x, y), map.weights);
       first += luminance * solid_angle;
       second += luminance * luminance * solid_angle;
@@ -27,8 +27,8 @@ MapFigures figures_of(const EnvironmentMap& map) {
   return figures;
 }
 
-Direction direction_of_texel(Extent map, int column, int row) {
-  return direction_from_square({(column + 0.5) / map.width, (row + 0.5) / map.height});
+Direction direction_of_texel(Extent map, int column, int row, const Mapping& mapping) {
+  return direction_at(mapping, {(column + 0.5) / map.width, (row + 0.5) / map.height});
 }
 
 }  // namespace lightproof

@@ -21,6 +21,6 @@ struct MapFigures {
 MapFigures figures_of(const EnvironmentMap& map);
 
 /// World direction of a texel's centre, z up.
-Direction direction_of_texel(Extent map, int column, int row);
+Direction direction_of_texel(Extent map, int column, int row, const Mapping& mapping = {});
 
 }  // namespace lightproof

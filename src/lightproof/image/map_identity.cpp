@@ -16,6 +16,10 @@ std::string identity_of(const EnvironmentMap& map) {
   const Extent extent = map.radiance.extent();
   writer.add(extent.width);
   writer.add(extent.height);
+  if (!is_plain(map.mapping)) {
+    writer.add(info(map.mapping.kind).name);
+    writer.add(map.mapping.shift);
+  }
   const std::span<const Rgb> texels = map.radiance.values();
   writer.add(hash_text({reinterpret_cast<const char*>(texels.data()), texels.size_bytes()}));
   return writer.take();

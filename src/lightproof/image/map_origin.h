@@ -34,6 +34,8 @@ struct MapOrigin {
                            .orientation = {}};
   Preset preset = Preset::z_up;
   std::string why_preset = "built-in maps follow it";
+  /// Whether the map has texels of latitude and longitude whatever the picture had.
+  bool is_resampled = false;
   /// What was found wrong with the file, repaired or not.
   std::vector<MapFault> faults = {};
   /// The message with which read_environment_map() refuses the file; empty if it does not.

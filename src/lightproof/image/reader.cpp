@@ -40,16 +40,36 @@ bool is_two_to_one(Extent extent, const PresetInfo& preset) {
          (preset.lattice == Lattice::node_centred && extent.width - 1 == 2 * (extent.height - 1));
 }
 
+bool shows_six_faces(Extent extent) {
+  return extent.width == 6 * extent.height || extent.height == 6 * extent.width;
+}
+
 void refuse_what_has_no_texel(const fs::path& file, Extent extent, const PresetInfo& preset) {
+  if (preset.preset == Preset::cube && !shows_six_faces(extent)) {
+    refuse(file,
+           fmt::format("{} pixels, but preset {} needs six square faces side by side or below "
+                       "each other: choose another --preset NAME",
+                       size_text(extent), preset.name));
+  }
   if (preset.lattice != Lattice::node_centred || (extent.width >= 2 && extent.height >= 2)) return;
   refuse(file, fmt::format("{} pixels, but preset {} needs at least 2 x 2: choose another "
                            "--preset NAME",
                            size_text(extent), preset.name));
 }
 
+/// Which preset a picture that is not of latitude and longitude may need.
+std::string_view hint_for(Extent extent) {
+  if (extent.width == extent.height) return ", --preset pbrt-v4 if it is octahedral";
+  if (shows_six_faces(extent)) {
+    return ", --preset cube if it shows the faces of one";
+  }
+  return "";
+}
+
 /// What is wrong with the shape; empty if the convention of the preset allows it.
 std::string aspect_fault(Extent extent, const PresetInfo& preset, bool any_aspect) {
   const bool square = extent.width == extent.height;
+  if (preset.preset == Preset::cube) return "";
   if (preset.aspect == 1.0) {
     if (square) return "";
     return fmt::format(
@@ -61,7 +81,7 @@ std::string aspect_fault(Extent extent, const PresetInfo& preset, bool any_aspec
   return fmt::format(
       "{} pixels, but a latitude-longitude map is twice as wide as high: "
       "--any-aspect reads it all the same{}",
-      size_text(extent), square ? ", --preset pbrt-v4 if it is octahedral" : "");
+      size_text(extent), hint_for(extent));
 }
 
 std::vector<MapFault> faults_of(const TexelScan& scan) {
@@ -79,12 +99,19 @@ void refuse_later(MapOrigin& origin, std::string reason) {
   if (origin.refusal.empty()) origin.refusal = std::move(reason);
 }
 
+/// The texels of the map's mapping.
+Grid<Rgb> texels_of(const EnvironmentMap& map, const Grid<Rgb>& picture) {
+  return map.origin.is_resampled ? map_from_picture(map.origin.preset, picture)
+                                 : own_texels_of(map.origin.preset, picture);
+}
+
 /// The only note that needs the map itself: how much of its light was put in.
 std::string clamp_note(const EnvironmentMap& map, const TexelScan& scan,
                        const Grid<Rgb>& infinite) {
   const EnvironmentMap put_in{.name = {},
-                              .radiance = map_from_picture(map.origin.preset, infinite),
-                              .weights = map.weights};
+                              .radiance = texels_of(map, infinite),
+                              .weights = map.weights,
+                              .mapping = map.mapping};
   const double share = static_cast<double>(scan.brightest) * figures_of(put_in).mean_luminance /
                        figures_of(map).mean_luminance;
   return fmt::format(
@@ -123,7 +150,7 @@ void take_pixels(EnvironmentMap& map, Grid<Rgb> picture, Repair repair) {
     map.origin.faults.push_back({.kind = "black", .message = reason});
     refuse_later(map.origin, reason);
   }
-  map.radiance = map_from_picture(map.origin.preset, picture);
+  map.radiance = texels_of(map, picture);
   if (clamps) {
     map.notes.push_back(clamp_note(map, scan, infinite));
   } else if (!scan.clean() && repair != Repair::refuse) {
@@ -135,13 +162,18 @@ void note_mapping(EnvironmentMap& map) {
   const Extent picture = map.origin.picture.extent;
   const PresetInfo& chosen = info(map.origin.preset);
   const Extent texels = map.radiance.extent();
-  if (chosen.lattice == Lattice::node_centred) {
+  if (!map.origin.is_resampled) {
+    if (!is_plain(map.mapping)) {
+      map.notes.push_back(fmt::format("{} texels of the file's own mapping, {}, each as it is.",
+                                      size_text(texels), describe(map.mapping)));
+    }
+  } else if (chosen.lattice == Lattice::node_centred) {
     map.notes.push_back(fmt::format("{} nodes interpolated bilinearly to {} texels.",
                                     size_text(picture), size_text(texels)));
   } else if (texels != picture) {
     map.notes.push_back(
-        fmt::format("{} octahedral pixels brought to {} texels, nearest pixel each.",
-                    size_text(picture), size_text(texels)));
+        fmt::format("{} {} pixels brought to {} texels, nearest pixel each.", size_text(picture),
+                    info(own_texels(chosen.preset, picture).mapping.kind).name, size_text(texels)));
   } else if (picture.width % 2 != 0 &&
              (chosen.preset == Preset::pbrt_v3 || chosen.preset == Preset::z_up_half_turn)) {
     map.notes.emplace_back("The width is odd: the half turn moved the columns by half a texel.");
@@ -216,6 +248,8 @@ EnvironmentMap read_map(const fs::path& file, const ReadOptions& options, Purpos
   map.notes.insert(map.notes.begin(), header_notes.begin(), header_notes.end());
   origin.picture.notes.clear();
   choose_weights(file, map, options.luminance);
+  origin.is_resampled = options.resample;
+  if (!options.resample) map.mapping = own_texels(origin.preset, extent).mapping;
   take_pixels(map, std::move(picture), options.repair);
   if (purpose == Purpose::sampling && !origin.refusal.empty()) refuse(file, origin.refusal);
   note_mapping(map);

@@ -30,6 +30,9 @@ struct ReadOptions {
   /// What of the file is read.
   ChannelSelection selection = {};
   LuminanceChoice luminance = LuminanceChoice::rec709;
+  /// Bring octahedral pictures, cubes and nodes to texels of latitude and longitude; else a map
+  /// keeps the texels of its file.
+  bool resample = false;
 };
 
 /// Reads OpenEXR, Radiance .hdr, or PNG/JPEG (8 and 16 bits, decoded by ^2.2 or by the gamma that a

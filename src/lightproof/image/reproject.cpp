@@ -116,6 +116,24 @@ Grid<Rgb> interpolated(Preset preset, const Grid<Rgb>& picture, Extent extent) {
 
 bool is_square(Preset preset) { return info(preset).aspect == 1.0; }
 
+constexpr int kFaces = 6;
+
+/// Whether the faces of a cube stand below each other.
+bool is_column(Extent picture) { return picture.height == kFaces * picture.width; }
+
+/// The faces of a cube, in a picture with row 0 at its top.
+Grid<Rgb> side_by_side(const Grid<Rgb>& picture) {
+  if (!is_column(picture.extent())) return picture;
+  const int size = picture.extent().width;
+  Grid<Rgb> strip({kFaces * size, size});
+  for (int y = 0; y < strip.extent().height; ++y) {
+    for (int x = 0; x < strip.extent().width; ++x) {
+      strip(x, y) = picture(x % size, x / size * size + y);
+    }
+  }
+  return strip;
+}
+
 bool has_nodes(Preset preset) { return info(preset).lattice == Lattice::node_centred; }
 
 }  // namespace
@@ -123,6 +141,10 @@ bool has_nodes(Preset preset) { return info(preset).lattice == Lattice::node_cen
 Extent map_extent(Preset preset, Extent picture) {
   if (has_nodes(preset)) return {picture.width - 1, picture.height - 1};
   if (is_square(preset)) return {2 * picture.width, picture.height};
+  if (preset == Preset::cube) {
+    const int face = std::min(picture.width, picture.height);
+    return {4 * face, 2 * face};
+  }
   return picture;
 }
 
@@ -131,7 +153,47 @@ Grid<Rgb> map_from_picture(Preset preset, const Grid<Rgb>& picture) {
   assert(extent.width >= 1 && extent.height >= 1);
   if (has_nodes(preset)) return interpolated(preset, picture, extent);
   if (is_square(preset)) return nearest(preset, picture, extent);
+  if (preset == Preset::cube) return nearest(preset, side_by_side(picture), extent);
   return permuted(preset, picture);
+}
+
+OwnTexels own_texels(Preset preset, Extent picture) {
+  if (has_nodes(preset)) {
+    const Extent texels = {picture.width - 1, picture.height};
+    return {node_mapping(texels), texels};
+  }
+  if (is_square(preset)) return {{MappingKind::octahedral}, picture};
+  if (preset == Preset::cube) {
+    const int face = std::min(picture.width, picture.height);
+    return {{MappingKind::cube_strip}, {kFaces * face, face}};
+  }
+  const double half_texel = picture.width % 2 != 0 ? 0.5 / picture.width : 0.0;
+  if (preset == Preset::z_up_half_turn) return {{.shift = half_texel}, picture};
+  if (preset == Preset::pbrt_v3) return {{.shift = -half_texel}, picture};
+  return {{}, picture};
+}
+
+Grid<Rgb> own_texels_of(Preset preset, const Grid<Rgb>& picture) {
+  const OwnTexels own = own_texels(preset, picture.extent());
+  if (own.mapping.kind == MappingKind::lat_long) return permuted(preset, picture);
+  const Grid<Rgb> strip = preset == Preset::cube ? side_by_side(picture) : picture;
+  Grid<Rgb> map(own.extent);
+  for_each_row(own.extent, [&](int y) {
+    std::ranges::copy(strip.row(own.extent.height - 1 - y).first(map.row(y).size()),
+                      map.row(y).begin());
+  });
+  return map;
+}
+
+PicturePlace own_place_in_picture(Preset preset, Extent picture, int column, int row) {
+  const OwnTexels own = own_texels(preset, picture);
+  if (own.mapping.kind == MappingKind::lat_long) {
+    return place_in_picture(preset, picture, column, row);
+  }
+  const int from_top = own.extent.height - 1 - row;
+  if (preset != Preset::cube || !is_column(picture)) return {column, from_top};
+  const int size = picture.width;
+  return {column % size, column / size * size + from_top};
 }
 
 PicturePlace place_in_picture(Preset preset, Extent picture, int column, int row) {

@@ -3,6 +3,7 @@
 
 #include "lightproof/core/direction.h"
 #include "lightproof/core/grid.h"
+#include "lightproof/warp/mapping.h"
 #include "lightproof/warp/preset.h"
 
 namespace lightproof {
@@ -16,6 +17,21 @@ Extent map_extent(Preset preset, Extent picture);
 /// texel centres.
 Grid<Rgb> map_from_picture(Preset preset, const Grid<Rgb>& picture);
 
+/// The texels that the pixels of a picture are.
+struct OwnTexels {
+  Mapping mapping;
+  Extent extent;
+};
+
+/// The texels that the pixels of a picture of this size are: nodes are texels around them, of which
+/// the last column is the first; the faces of a cube stand side by side. Presets that turn an odd
+/// number of columns by half a turn shift the mapping by half a texel.
+OwnTexels own_texels(Preset preset, Extent picture);
+
+/// The pixels of a picture (row 0 at its top) as texels of own_texels(), row 0 at the bottom. None
+/// is changed.
+Grid<Rgb> own_texels_of(Preset preset, const Grid<Rgb>& picture);
+
 /// Column and row of a picture, from its top left.
 struct PicturePlace {
   int column = 0;
@@ -25,5 +41,8 @@ struct PicturePlace {
 /// The pixel of a picture that holds, or for nodes is nearest to, the centre of texel
 /// (column, row) of the map that it becomes.
 PicturePlace place_in_picture(Preset preset, Extent picture, int column, int row);
+
+/// The pixel of a picture that is texel (column, row) of own_texels().
+PicturePlace own_place_in_picture(Preset preset, Extent picture, int column, int row);
 
 }  // namespace lightproof

@@ -73,6 +73,17 @@ constexpr MapMeasure position_measure(DensitySpace density_space) {
   return describe(density_space).position_measure;
 }
 
+/// texel_measure() on a map of this mapping: where equal areas are equal solid angles the two
+/// measures are one, and all densities too.
+constexpr MapMeasure texel_measure(DensitySpace density_space, const Mapping& mapping) {
+  return is_equal_area(mapping) ? MapMeasure::square : texel_measure(density_space);
+}
+
+/// position_measure() on a map of this mapping.
+constexpr MapMeasure position_measure(DensitySpace density_space, const Mapping& mapping) {
+  return is_equal_area(mapping) ? MapMeasure::square : position_measure(density_space);
+}
+
 /// Whether texels have weights that positions inside them do not share. The density is then that of
 /// the luminance times these weights; else it is, in the measure of positions, that of luminance.
 constexpr bool weighs_texels(DensitySpace density_space) {
@@ -102,6 +113,22 @@ struct TargetDensity {
   Lookup lookup = Lookup::nearest;
   friend bool operator==(TargetDensity, TargetDensity) = default;
 };
+
+/// Empty if a density can be declared on maps of this mapping; else why it cannot. Positions
+/// uniform in solid angle are drawn in rows of one height between parallels; a look-up that
+/// interpolates between neighbours knows those of latitude and longitude.
+constexpr std::string_view why_not_declared(TargetDensity target, const Mapping& mapping) {
+  if (target.lookup == Lookup::bilinear && !is_plain(mapping)) {
+    return "the bilinear look-up interpolates between neighbours in latitude and longitude";
+  }
+  const bool has_equal_rows = mapping.kind == MappingKind::lat_long;
+  if (position_measure(target.density_space, mapping) == MapMeasure::solid_angle &&
+      !has_equal_rows) {
+    return "positions uniform in solid angle need rows of one height between two parallels; "
+           "density C draws the same texels";
+  }
+  return "";
+}
 
 /// The density that is declared on this map: by the map's own luminance weights, unless weights
 /// other than Rec. 709 were declared.

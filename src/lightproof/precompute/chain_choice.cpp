@@ -7,6 +7,7 @@
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/random.h"
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/image/level_look_up.h"
 #include "lightproof/precompute/levels.h"
 #include "lightproof/prefilter/irradiance_map.h"
@@ -161,6 +162,7 @@ class Chooser {
 
 ChainChoice choose_chain(const EnvironmentMap& map, const PrecomputeRequest& request,
                          Product product, double largest_error, std::uint64_t seed) {
+  require_lat_long(map, "a map for real-time rendering");
   return Chooser(map, request, product, seed).choose(largest_error);
 }
 

@@ -7,6 +7,7 @@
 
 #include "lightproof/core/moments.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/warp/lat_long.h"
 #include "reference/texel_integrals.h"
 
@@ -121,6 +122,7 @@ std::string error_measure() {
 
 LevelError check_level(const EnvironmentMap& map, Projection projection, const LevelPlan& plan,
                        const MapLevel& level, const RandomStream& stream, std::size_t texels) {
+  require_lat_long(map, "a map for real-time rendering");
   std::vector<glm::dvec3> differences(texels);
   parallel_for(texels, [&](std::size_t i) {
     const LevelTexel texel = texel_at(projection, plan.extent, uniform_direction(stream.point(i)));

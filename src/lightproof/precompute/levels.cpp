@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/prefilter/irradiance_map.h"
 
 namespace lightproof {
@@ -75,6 +76,7 @@ std::vector<std::vector<LevelPlan>> work_units(const PrecomputeRequest& request)
 
 std::vector<MapLevel> make_levels(const EnvironmentMap& map, const PrecomputeRequest& request,
                                   std::span<const LevelPlan> plans) {
+  require_lat_long(map, "a map for real-time rendering");
   if (!is_cube(request.projection)) return lat_long_levels(map, request, plans);
   std::vector<MapLevel> levels;
   for (const LevelPlan& plan : plans) levels.push_back(cube_level(map, request, plan));

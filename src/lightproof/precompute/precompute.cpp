@@ -6,6 +6,7 @@
 #include <string>
 
 #include "lightproof/core/random.h"
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/precompute/level_check.h"
 #include "lightproof/precompute/levels.h"
 
@@ -113,6 +114,7 @@ void check_levels(const EnvironmentMap& map, Projection projection,
 Precomputation precompute(const EnvironmentMap& map, const PrecomputeRequest& request,
                           const PartialLevels& partial, const CheckOptions& check,
                           const Progress& progress) {
+  require_lat_long(map, "a map for real-time rendering");
   Precomputation result{map.source.empty() ? map.name : map.source, {}};
   if (check.texels > 0) result.error_measure = error_measure();
   const std::vector<std::vector<LevelPlan>> units = work_units(request);

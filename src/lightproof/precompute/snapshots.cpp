@@ -8,6 +8,7 @@
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/precompute/levels.h"
 #include "lightproof/prefilter/irradiance_map.h"
 #include "lightproof/prefilter/progressive.h"
@@ -166,6 +167,7 @@ std::vector<PrecomputedMap> make_snapshots(const EnvironmentMap& map,
                                            const PrecomputeRequest& request,
                                            const SnapshotOptions& options,
                                            const Progress& progress) {
+  require_lat_long(map, "a map for real-time rendering");
   std::vector<PrecomputedMap> all;
   for (const ProductRequest& product : request.products) {
     if (product.product != Product::irradiance && product.product != Product::reflectivity)

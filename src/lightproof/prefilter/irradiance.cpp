@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lightproof/core/measure.h"
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/prefilter/cosine_band.h"
 
 namespace lightproof {
@@ -33,6 +34,7 @@ glm::dvec3 weighted_sum(std::span<const Rgb> row, std::span<const Meridian> edge
 }  // namespace
 
 Irradiance irradiance(const EnvironmentMap& map, Direction normal) {
+  require_lat_long(map, "irradiance");
   const auto [width, height] = map.radiance.extent();
   const NormalTilt tilt = tilt_of(normal);
   const std::vector<Meridian> edges = column_edges(normal, tilt, width);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "lightproof/core/measure.h"
+#include "lightproof/image/lat_long_texels.h"
 
 namespace lightproof {
 namespace {
@@ -115,6 +116,7 @@ class CosineBounds {
 
 IrradianceBracket irradiance_bracket(const EnvironmentMap& map, Direction normal, int divisions) {
   assert(divisions >= 0);
+  require_lat_long(map, "irradiance");
   const auto [width, height] = map.radiance.extent();
   const CosineBounds bounds(normal);
   IrradianceBracket bracket{{glm::dvec3(0.0)}, {glm::dvec3(0.0)}};

@@ -6,6 +6,7 @@
 
 #include "lightproof/core/direction.h"
 #include "lightproof/image/environment_map.h"
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/image/look_up.h"
 #include "lightproof/warp/lat_long.h"
 
@@ -20,7 +21,8 @@ concept RadianceFunction = requires(const Function& radiance, Direction directio
 /// A map's texels, each constant. The map must outlive it.
 class NearestRadiance {
  public:
-  explicit NearestRadiance(const EnvironmentMap& map) : radiance_(map.radiance) {}
+  explicit NearestRadiance(const EnvironmentMap& map)
+      : radiance_(lat_long_radiance(map, "prefiltering")) {}
 
   glm::dvec3 operator()(Direction direction) const {
     return look_up_nearest(radiance_, square_from_direction(direction));

@@ -12,6 +12,7 @@
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/prefilter/legendre.h"
 
 namespace lightproof {
@@ -155,6 +156,7 @@ glm::dvec3 evaluate(const SphericalHarmonics& function, Direction direction) {
 
 SphericalHarmonics project(const EnvironmentMap& map, int degree) {
   check_degree(degree);
+  require_lat_long(map, "a projection onto spherical harmonics");
   const auto [width, height] = map.radiance.extent();
   const ColumnIntegrals columns(width);
   const LegendreFunctions legendre(degree);

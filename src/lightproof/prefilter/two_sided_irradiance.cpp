@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lightproof/core/parallel.h"
+#include "lightproof/image/lat_long_texels.h"
 
 namespace lightproof {
 namespace {
@@ -211,6 +212,7 @@ std::size_t batch_size(const FoldedLattice& lattice, int teeth) {
 std::vector<TwoSidedIrradiance> two_sided_irradiance(const EnvironmentMap& source,
                                                      const FoldedLattice& lattice,
                                                      std::span<const NormalComb> combs) {
+  require_lat_long(source, "irradiance");
   std::vector<TwoSidedIrradiance> result;
   if (combs.empty()) return result;
   const std::size_t size = batch_size(lattice, combs[0].teeth);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "lightproof/image/environment_map.h"
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/render/direction_source.h"
 #include "lightproof/samplers/guide_table.h"
 
@@ -16,6 +17,7 @@ class EnvironmentLight {
  public:
   EnvironmentLight(const EnvironmentMap& map, DirectionSource source)
       : map_(&map), source_(source) {
+    require_lat_long(map, "light on a scene");
     if (const auto* density = std::get_if<MapDensity>(&source)) {
       sampler_.emplace(map, on_map({density->density_space}, map));
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lightproof/core/parallel.h"
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/samplers/sampler.h"
 #include "lightproof/warp/lat_long.h"
 
@@ -26,6 +27,7 @@ Grid<Rgb> backdrop(const Grid<Rgb>& radiance, Extent extent) {
 Grid<Rgb> render_picture(const EnvironmentMap& map, const Scene& scene,
                          const ReceiverInfo& receiver, Extent extent, const RandomStream& stream,
                          const Shade& shade) {
+  require_lat_long(map, "a render");
   Grid<Rgb> picture = backdrop(map.radiance, extent);
   const std::vector<Pixel> pixels = visible_pixels(receiver, scene, extent);
   constexpr std::size_t kPixelsPerTask = 64;

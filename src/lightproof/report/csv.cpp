@@ -153,10 +153,13 @@ std::string renders_csv(const std::vector<RenderRecord>& records) {
 }
 
 std::string maps_csv(const std::vector<MapRecord>& records) {
-  std::string csv = "map,source,width,height,mean_luminance,peak_ratio,effective_fraction,notes\n";
+  std::string csv =
+      "map,source,width,height,mapping,own_width,own_height,mean_luminance,peak_ratio,"
+      "effective_fraction,notes\n";
   for (const MapRecord& r : records) {
     const Extent extent = r.map.radiance.extent();
-    csv += row(r.map.name, r.source, extent.width, extent.height, r.mean_luminance, r.peak_ratio,
+    csv += row(r.map.name, r.source, extent.width, extent.height, describe(r.own_mapping),
+               r.own_texels.width, r.own_texels.height, r.mean_luminance, r.peak_ratio,
                r.effective_fraction, joined(r.map.notes));
   }
   return csv;

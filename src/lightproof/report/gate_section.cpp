@@ -1,5 +1,6 @@
 // The gate: every sampler against every map, and each test behind a verdict.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +43,18 @@ std::string direction_verdicts(const std::vector<GateCell>& cells) {
   return cells.empty() ? "" : "<h4>Warps and materials</h4>\n" + table.html();
 }
 
-std::string matrix(const std::vector<GateCell>& cells) {
+/// What stands where a sampler has no verdict on a map.
+Cell absent_cell(const std::vector<LeftOut>& left_out, const std::string& sampler_and_density,
+                 const std::string& map) {
+  for (const LeftOut& each : left_out) {
+    if (each.map == map && each.sampler + " " + each.density_space == sampler_and_density) {
+      return {"\u2013 left out", "absent", each.reason};
+    }
+  }
+  return {"\u2013 not run", "absent", ""};
+}
+
+std::string matrix(const std::vector<GateCell>& cells, const std::vector<LeftOut>& left_out) {
   if (cells.empty()) return "";
   std::vector<std::string> maps;
   std::vector<std::string> tested;
@@ -60,8 +72,7 @@ std::string matrix(const std::vector<GateCell>& cells) {
       const auto found = std::find_if(cells.begin(), cells.end(), [&](const GateCell& c) {
         return c.sampler_and_density == name && c.map == map;
       });
-      row.push_back(found == cells.end() ? Cell{"\u2013 not run", "absent", ""}
-                                         : tally_cell(*found));
+      row.push_back(found == cells.end() ? absent_cell(left_out, name, map) : tally_cell(*found));
     }
     table.add(row);
   }
@@ -192,6 +203,18 @@ std::string diagnoses(const GateResult& gate) {
   return "<h4>Diagnosis</h4>\n" + table.html();
 }
 
+/// Samplers that a map's own texels do not allow, and why.
+std::string left_out_table(const GateResult& gate) {
+  if (gate.left_out.empty()) return "";
+  Table table("Samplers that were left out", {"Map", "Why", "Samplers"});
+  for (const LeftOutGroup& group : left_out_groups(gate)) {
+    table.add({text_cell(group.map),
+               {group.reason, "detail", ""},
+               {fmt::format("{}", fmt::join(group.samplers, ", ")), "detail", ""}});
+  }
+  return "<h4>Left out</h4>\n" + table.html();
+}
+
 std::string tests_that_are(const GateResult& gate, Outcome outcome, const std::string& heading) {
   const auto selected = [&](const TestRecord& test) { return test.outcome == outcome; };
   if (std::none_of(gate.tests.begin(), gate.tests.end(), selected)) return "";
@@ -199,22 +222,22 @@ std::string tests_that_are(const GateResult& gate, Outcome outcome, const std::s
 }
 
 /// Verdicts, diagnoses, and the tests behind those that are not accepted.
-std::string verdicts(const GateResult& gate) {
+std::string verdicts(const GateResult& gate, const std::vector<LeftOut>& left_out) {
   std::vector<GateCell> cells = summarise(gate);
   const auto directions = std::stable_partition(
       cells.begin(), cells.end(), [](const GateCell& cell) { return cell.map != kDirections; });
   const std::vector<GateCell> of_directions(directions, cells.end());
   cells.erase(directions, cells.end());
-  return matrix(cells) + direction_verdicts(of_directions) + diagnoses(gate) +
+  return matrix(cells, left_out) + direction_verdicts(of_directions) + diagnoses(gate) +
          tests_that_are(gate, Outcome::reject, "Rejected tests") +
          tests_that_are(gate, Outcome::inconclusive, "Inconclusive tests") +
          tests_that_are(gate, Outcome::resolution_limited, "Resolution-limited tests");
 }
 
 /// Closed, so that nobody takes a demonstration for the verdict.
-std::string demonstration(const GateResult& known_defects) {
+std::string demonstration(const GateResult& known_defects, const std::vector<LeftOut>& left_out) {
   if (known_defects.tests.empty()) return "";
-  return collapsible(kDemonstration, verdicts(known_defects));
+  return collapsible(kDemonstration, verdicts(known_defects, left_out));
 }
 
 constexpr std::string_view kLegend =
@@ -238,8 +261,8 @@ std::string gate_section(const GateResult& gate, const std::string& directions_o
   }
   html += fmt::format("<h3>{}</h3>\n", escaped(gate_title(gate)));
   const SplitGate split = split_gate(gate, false);
-  html +=
-      paragraph(kLegend, "note") + verdicts(split.deciding) + demonstration(split.known_defects);
+  html += paragraph(kLegend, "note") + verdicts(split.deciding, gate.left_out) +
+          left_out_table(gate) + demonstration(split.known_defects, gate.left_out);
   if (!directions_origin.empty()) {
     html += paragraph(
         fmt::format("Warps and materials, which need no map: tested by this program on {}.",

@@ -109,4 +109,16 @@ std::string outcome_text(Outcome outcome) {
   return "";
 }
 
+std::vector<LeftOutGroup> left_out_groups(const GateResult& gate) {
+  std::vector<LeftOutGroup> groups;
+  for (const LeftOut& each : gate.left_out) {
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const LeftOutGroup& other) {
+      return other.map == each.map && other.reason == each.reason;
+    });
+    if (group == groups.end()) group = groups.insert(groups.end(), {each.map, each.reason, {}});
+    group->samplers.push_back(fmt::format("{} {}", each.sampler, each.density_space));
+  }
+  return groups;
+}
+
 }  // namespace lightproof

@@ -42,6 +42,16 @@ inline constexpr std::string_view kDemonstration =
 /// Splits a result into what decides and what does not; all of it decides if `count_known_defects`.
 SplitGate split_gate(const GateResult& gate, bool count_known_defects);
 
+/// Samplers, with their densities, that were left out on a map for one reason.
+struct LeftOutGroup {
+  std::string map;
+  std::string reason;
+  std::vector<std::string> samplers;  ///< "alias B"
+};
+
+/// What was left out, grouped by map and reason, in the order of its first.
+std::vector<LeftOutGroup> left_out_groups(const GateResult& gate);
+
 /// One of the 32x16 bins over (phi, theta), and how far it is off in standard deviations.
 struct WorstBin {
   int x;

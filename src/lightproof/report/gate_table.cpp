@@ -1,7 +1,9 @@
 #include "lightproof/report/gate_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "lightproof/core/text_escapes.h"
@@ -103,6 +105,14 @@ std::string limited_lines(const GateResult& gate) {
   return text.empty() ? "" : "\nResolution-limited tests\n" + text;
 }
 
+std::string left_out_lines(const GateResult& gate) {
+  std::string text;
+  for (const LeftOutGroup& group : left_out_groups(gate)) {
+    text += fmt::format("  {}: {}: {}\n", group.map, group.reason, fmt::join(group.samplers, ", "));
+  }
+  return text.empty() ? "" : "\nLeft out\n" + text;
+}
+
 std::string all_lines(const GateResult& gate, Colour colour) {
   return summary_lines(gate, colour) + rejected_lines(gate, colour) + limited_lines(gate) +
          diagnosis_lines(gate);
@@ -139,8 +149,9 @@ std::string gate_table(const GateResult& gate, bool count_known_defects, Colour 
       "seed {}",
       outcome_text(all.outcome()), counted(all.tests, "test"), all.rejected, all.inconclusive,
       limited_text(all), significant(gate.family_alpha), with_thousands(gate.samples), gate.seed);
-  return all_lines(split.deciding, colour) + demonstration_lines(split.known_defects) + "\n" +
-         painted(total, all.outcome(), colour) + power_text(split.deciding) + "\n";
+  return all_lines(split.deciding, colour) + demonstration_lines(split.known_defects) +
+         left_out_lines(gate) + "\n" + painted(total, all.outcome(), colour) +
+         power_text(split.deciding) + "\n";
 }
 
 }  // namespace lightproof

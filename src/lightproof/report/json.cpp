@@ -118,6 +118,17 @@ Json rejections_json(const GateResult& gate) {
   return list;
 }
 
+Json left_out_json(const std::vector<LeftOut>& left_out) {
+  Json list = Json::array();
+  for (const LeftOut& each : left_out) {
+    list.push_back({{"sampler", each.sampler},
+                    {"density", each.density_space},
+                    {"map", each.map},
+                    {"reason", each.reason}});
+  }
+  return list;
+}
+
 /// What the gate says of itself in its own document and in a study's.
 Json json_of(const GateResult& gate, GateVerdict verdict) {
   const SplitGate split = split_gate(gate, verdict.count_known_defects);
@@ -128,6 +139,7 @@ Json json_of(const GateResult& gate, GateVerdict verdict) {
           {"tests", list_of(gate.tests)},
           {"rejections", rejections_json(split.deciding)},
           {"known_defects", rejections_json(split.known_defects)},
+          {"left_out", left_out_json(gate.left_out)},
           {"recognised", list_of(gate.recognitions)}};
 }
 
@@ -239,6 +251,8 @@ Json json_of(const MapRecord& r) {
   return {{"name", r.map.name},
           {"source", r.source},
           {"size", json_of(r.map.radiance.extent())},
+          {"mapping", describe(r.own_mapping)},
+          {"own_size", json_of(r.own_texels)},
           {"mean_luminance", number(r.mean_luminance)},
           {"peak_ratio", number(r.peak_ratio)},
           {"effective_fraction", number(r.effective_fraction)},

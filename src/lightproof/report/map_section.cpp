@@ -39,11 +39,26 @@ std::string overlay(const MapRecord& record) {
       kUnits, height, path, path);
 }
 
+/// "512 × 512, octahedral".
+std::string own_texels(const MapRecord& record) {
+  return extent_text(record.own_texels) + ", " + describe(record.own_mapping);
+}
+
+/// What the picture shows, where that is not the texels of the file.
+std::string drawn_as(const MapRecord& record) {
+  if (is_plain(record.own_mapping)) return "";
+  return fmt::format(
+      "The file has other texels ({}), in which the gate judged the samplers; the picture and all "
+      "other parts of the report are of these, made of them. ",
+      own_texels(record));
+}
+
 std::string quantities(const MapRecord& record) {
   return fmt::format(
-      "{}, {} texels. Mean luminance over the sphere {}; the brightest texel is {} times the "
+      "{}, {} texels of latitude and longitude. {}Mean luminance over the sphere {}; the brightest "
+      "texel is {} times the "
       "mean. ",
-      record.source, extent_text(record.map.radiance.extent()),
+      record.source, extent_text(record.map.radiance.extent()), drawn_as(record),
       format_number(record.mean_luminance), format_number(record.peak_ratio));
 }
 
@@ -57,8 +72,8 @@ std::string map_figure(const MapRecord& record) {
   const Grid<Rgb> picture = flip_rows(record.map.radiance);
   const double scale = grey_exposure(picture);
   const std::string alternative =
-      fmt::format("Environment map {}, with {} drawn over it", record.map.name,
-                  counted(record.drawn.size(), "sample"));
+      fmt::format("Environment map {} in latitude and longitude, with {} drawn over it",
+                  record.map.name, counted(record.drawn.size(), "sample"));
   return fmt::format("<figure class=\"map\">\n<h3>{}</h3>\n<div class=\"picture\">{}{}</div>\n",
                      escaped(record.map.name),
                      image_html(tone_mapped(shrunk(picture, kWidth), scale), alternative),
@@ -70,7 +85,8 @@ std::string map_figure(const MapRecord& record) {
 }
 
 constexpr std::string_view kIntroduction =
-    "Each map as it is read, zenith at the top. At 0 EV the geometric mean of the luminances is "
+    "Each map in latitude and longitude, zenith at the top. At 0 EV the geometric mean of the "
+    "luminances is "
     "middle grey; values are clipped and sRGB-encoded. Dots are samples that the binary search "
     "drew in proportion to luminance times solid angle: they gather where the light is.";
 
@@ -85,12 +101,14 @@ std::string map_section(const std::vector<MapRecord>& maps) {
       "Show the samples</label></p>\n<div class=\"maps\">\n";
   for (const MapRecord& record : maps) html += map_figure(record);
   html += "</div>\n";
-  Table table("The maps in numbers", {"Map", "Source", "Size", "Mean luminance",
-                                      "Brightest texel / mean", "Effective fraction"});
+  Table table("The maps in numbers",
+              {"Map", "Source", "Size", "Texels of the gate", "Mean luminance",
+               "Brightest texel / mean", "Effective fraction"});
   for (const MapRecord& r : maps) {
     table.add({text_cell(r.map.name),
                text_cell(r.source),
                {extent_text(r.map.radiance.extent()), "number", ""},
+               text_cell(own_texels(r)),
                number_cell(r.mean_luminance),
                number_cell(r.peak_ratio),
                number_cell(r.effective_fraction)});

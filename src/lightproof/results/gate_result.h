@@ -31,6 +31,15 @@ struct Rejection {
   }
 };
 
+/// A sampler that was not tested on a map, under one density.
+struct LeftOut {
+  std::string sampler;
+  std::string density_space;
+  std::string map;
+  std::string reason;  ///< what of the map's mapping does not allow it, in words
+  friend bool operator==(const LeftOut&, const LeftOut&) = default;
+};
+
 /// What one run of the gate found.
 struct GateResult {
   double family_alpha = 0.0;  ///< probability that a run over correct samplers rejects anything
@@ -41,7 +50,8 @@ struct GateResult {
   std::string input_options = {};  ///< options of the command line for reading the maps
   std::uint64_t family = 0;        ///< p-values, or instances if sequential, that share the error
   bool sequential = false;
-  double must_detect = kMustDetect;  ///< deviation of the bins that had to be detectable
+  std::vector<LeftOut> left_out = {};  ///< what the maps' mappings did not allow
+  double must_detect = kMustDetect;    ///< deviation of the bins that had to be detectable
   /// The command line that gives the same result again, where it is not `lightproof gate` on one
   /// sampler and map.
   std::string replay = {};

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "lightproof/core/grid.h"
 #include "lightproof/core/measure.h"
 #include "lightproof/image/environment_map.h"
 
@@ -11,7 +12,9 @@ namespace lightproof {
 
 /// A map as the report shows it.
 struct MapRecord {
-  EnvironmentMap map;
+  EnvironmentMap map;               ///< in texels of latitude and longitude
+  Mapping own_mapping = {};         ///< of the file's texels, in which the gate judges samplers
+  Extent own_texels = {};           ///< how many these are
   std::string source;               ///< the map's name, unique in the study
   double mean_luminance = 0.0;      ///< mean over the sphere by solid angle
   double peak_ratio = 0.0;          ///< luminance of the brightest texel / mean luminance

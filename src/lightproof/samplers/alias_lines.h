@@ -52,7 +52,7 @@ class AliasLines {
   std::size_t table_bytes() const { return lines_.bytes() + table_.bytes() + positions_.bytes(); }
 
  private:
-  AliasLines(const Grid<double>& weights, DensitySpace density_space);
+  AliasLines(const Grid<double>& weights, DensitySpace density_space, const Mapping& mapping);
 
   CdfLines lines_;
   AliasTable table_;

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <variant>
 
 #include "lightproof/core/random.h"
@@ -87,7 +88,10 @@ template <EnvSampler Sampler, class Output>
 std::size_t draw_batch(const Sampler& sampler, const BatchPoints& points, const Output& output) {
   std::size_t by_vectors = 0;
   if constexpr (requires { sampler.view(); }) {
-    by_vectors = sample_vectors(sampler.view(), points, output);
+    // Vectors know the directions of one mapping.
+    if (std::is_same_v<Output, std::span<TexelSample>> || is_on_plain_map(sampler)) {
+      by_vectors = sample_vectors(sampler.view(), points, output);
+    }
   }
   std::size_t done = by_vectors;
   alignas(64) std::array<double, kBatchBlock> s;

@@ -48,7 +48,9 @@ template <CellFinder Finder>
 class CdfInversion {
  public:
   CdfInversion(const EnvironmentMap& map, TargetDensity target)
-      : table_(map, target), finder_(table_), positions_(table_.extent(), target.density_space) {}
+      : table_(map, target),
+        finder_(table_),
+        positions_(table_.extent(), target.density_space, map.mapping) {}
 
   TexelDraw draw(SquarePoint u) const {
     const double scaled_t = u.t * kCdfOne;

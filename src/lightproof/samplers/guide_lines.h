@@ -58,7 +58,7 @@ class GuideLines {
   }
 
  private:
-  GuideLines(const Grid<double>& weights, DensitySpace density_space);
+  GuideLines(const Grid<double>& weights, DensitySpace density_space, const Mapping& mapping);
 
   CdfLines lines_;
   CdfTable table_;  ///< distribution of the runs

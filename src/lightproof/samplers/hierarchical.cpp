@@ -27,7 +27,7 @@ Grid<double> halved(const Grid<double>& fine) {
 }  // namespace
 
 Hierarchical::Hierarchical(const EnvironmentMap& map, TargetDensity target)
-    : positions_(map.radiance.extent(), target.density_space) {
+    : positions_(map.radiance.extent(), target.density_space, map.mapping) {
   std::vector<Grid<double>> pyramid;
   pyramid.push_back(texel_weights(map, target));
   while (pyramid.back().extent().count() > 1) pyramid.push_back(halved(pyramid.back()));

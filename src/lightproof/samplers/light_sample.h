@@ -25,6 +25,16 @@ concept PrefetchingSampler = EnvSampler<T> && requires(const T sampler, SquarePo
   sampler.prefetch(u);
 };
 
+/// Whether the map of a sampler has the mapping of Lightproof's own frame.
+template <EnvSampler Sampler>
+bool is_on_plain_map(const Sampler& sampler) {
+  if constexpr (TexelSampler<Sampler>) {
+    return is_plain(sampler.positions().mapping());
+  } else {
+    return true;
+  }
+}
+
 /// The sampler's sample at a point as a direction: that of its position and density over the
 /// square, to some roundings. Samplers of whole texels need no position for it, and so no inverse
 /// trigonometry.
@@ -32,6 +42,10 @@ template <EnvSampler Sampler>
 LightSample sample_direction(const Sampler& sampler, SquarePoint u) {
   if constexpr (TexelSampler<Sampler>) {
     return sampler.positions().direction(sampler.draw(u));
+  } else if constexpr (requires { sampler.mapping(); }) {
+    const TexelSample sample = sampler.sample(u);
+    return {direction_at(sampler.mapping(), sample.at),
+            to_solid_angle(sampler.mapping(), sample.pdf, sample.at), sample.x, sample.y};
   } else {
     const TexelSample sample = sampler.sample(u);
     return {direction_from_square(sample.at), to_solid_angle(sample.pdf, sample.at), sample.x,

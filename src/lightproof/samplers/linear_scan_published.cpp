@@ -34,16 +34,20 @@ float to_shader_random(double u) { return static_cast<float>(std::floor(u * 0x1p
 
 LinearScanPublished::LinearScanPublished(const EnvironmentMap& map, TargetDensity target)
     : map_(&map),
-      position_measure_(position_measure(target.density_space)),
+      position_measure_(position_measure(target.density_space, map.mapping)),
       solid_angle_rows_(map.radiance.extent()),
-      weights_(target.weights.red, target.weights.green, target.weights.blue) {
+      weights_(target.weights.red, target.weights.green, target.weights.blue),
+      weighs_each_texel_(texel_measure(target.density_space, map.mapping) ==
+                             MapMeasure::solid_angle &&
+                         !rows_are_parallels(map.mapping)) {
   const Extent extent = map.radiance.extent();
   const auto columns = static_cast<float>(extent.width);
   float total = 0.0F;
   for (int y = 0; y < extent.height; ++y) {
-    row_factor_.push_back(texel_measure(target.density_space) == MapMeasure::square
-                              ? 1.0F
-                              : static_cast<float>(texel_solid_angle(extent, y)));
+    const bool is_one = weighs_each_texel_ ||
+                        texel_measure(target.density_space, map.mapping) == MapMeasure::square;
+    row_factor_.push_back(
+        is_one ? 1.0F : static_cast<float>(texel_solid_angle(map.mapping, extent, 0, y)));
     float sum = 0.0F;
     for (int x = 0; x < extent.width; ++x) sum += weight(x, y);
     row_average_.push_back(sum / columns);
@@ -54,7 +58,11 @@ LinearScanPublished::LinearScanPublished(const EnvironmentMap& map, TargetDensit
 }
 
 float LinearScanPublished::weight(int x, int y) const {
-  return glm::dot(weights_, map_->radiance(x, y)) * row_factor_[static_cast<std::size_t>(y)];
+  const float factor =
+      weighs_each_texel_
+          ? static_cast<float>(texel_solid_angle(map_->mapping, map_->radiance.extent(), x, y))
+          : row_factor_[static_cast<std::size_t>(y)];
+  return glm::dot(weights_, map_->radiance(x, y)) * factor;
 }
 
 float LinearScanPublished::average_of(int y) const {

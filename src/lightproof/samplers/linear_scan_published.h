@@ -21,6 +21,7 @@ class LinearScanPublished {
   PerSquare pdf(SquarePoint at) const;
   /// Bytes of the table, which is the map itself (12 bytes a texel) and the averages of rows.
   std::size_t table_bytes() const;
+  const Mapping& mapping() const { return map_->mapping; }
 
  private:
   float weight(int x, int y) const;
@@ -31,7 +32,9 @@ class LinearScanPublished {
   MapMeasure position_measure_;
   SolidAngleRows solid_angle_rows_;
   glm::vec3 weights_;
-  std::vector<float> row_factor_;   ///< 1 under A; the texel's solid angle under B and C
+  /// 1 under A; the texel's solid angle under B and C, where a row shares it.
+  std::vector<float> row_factor_;
+  bool weighs_each_texel_;          ///< by a solid angle of its own
   std::vector<float> row_average_;  ///< mean of the weights of each row
   float total_average_ = 0.0F;
 };

@@ -19,11 +19,20 @@ std::string text_of(const EnvironmentMap& map) {
                      map.radiance.extent().height);
 }
 
+void refuse_undeclared(const EnvironmentMap& map, TargetDensity target) {
+  const std::string_view reason = why_not_declared(target, map.mapping);
+  if (reason.empty()) return;
+  throw InputError(fmt::format("{}: density {} on texels of mapping {}: {}", map.name,
+                               to_string(target.density_space), describe(map.mapping), reason));
+}
+
 template <class Sampler, const LuminanceWeights& kWeights, Lookup kLookup = Lookup::nearest>
 AnySampler make(const EnvironmentMap& map, DensitySpace density_space) {
   return with_memory_for([&] { return "the table of a sampler of " + text_of(map); },
                          [&]() -> AnySampler {
-                           return Sampler(map, on_map({density_space, kWeights, kLookup}, map));
+                           const TargetDensity target = {density_space, kWeights, kLookup};
+                           refuse_undeclared(map, target);
+                           return Sampler(map, on_map(target, map));
                          });
 }
 

@@ -1,6 +1,22 @@
 #include "lightproof/samplers/texel_positions.h"
 
+#include <fmt/format.h>
+
+#include "lightproof/core/error.h"
+
 namespace lightproof {
+namespace {
+
+MapMeasure declared_measure(DensitySpace density_space, const Mapping& mapping) {
+  const std::string_view reason = why_not_declared({density_space}, mapping);
+  if (!reason.empty()) {
+    throw InputError(fmt::format("density {} on a map of mapping {}: {}", to_string(density_space),
+                                 describe(mapping), reason));
+  }
+  return position_measure(density_space, mapping);
+}
+
+}  // namespace
 
 SolidAngleRows::SolidAngleRows(Extent extent)
     : height_(extent.height),
@@ -17,9 +33,14 @@ SolidAngleRows::SolidAngleRows(Extent extent)
   }
 }
 
-TexelPositions::TexelPositions(Extent extent, MapMeasure measure)
+TexelPositions::TexelPositions(Extent extent, DensitySpace density_space, const Mapping& mapping)
+    : TexelPositions(extent, declared_measure(density_space, mapping), mapping) {}
+
+TexelPositions::TexelPositions(Extent extent, MapMeasure measure, const Mapping& mapping)
     : extent_(extent),
       measure_(measure),
+      is_plain_(lightproof::is_plain(mapping)),
+      mapping_(mapping),
       texel_width_(1.0 / extent.width),
       texel_height_(1.0 / extent.height),
       texels_(static_cast<double>(extent.count())),

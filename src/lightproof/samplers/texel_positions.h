@@ -11,6 +11,7 @@
 
 #include "lightproof/core/select.h"
 #include "lightproof/samplers/sampler.h"
+#include "lightproof/warp/mapping.h"
 #include "lightproof/warp/sin_cos.h"
 
 namespace lightproof {
@@ -175,15 +176,17 @@ struct TexelIndex {
 /// solid angle under B.
 class TexelPositions {
  public:
-  /// Positions that are uniform in this measure.
-  TexelPositions(Extent extent, MapMeasure measure);
-  /// The positions of a density.
-  TexelPositions(Extent extent, DensitySpace density_space)
-      : TexelPositions(extent, position_measure(density_space)) {}
+  /// Positions that are uniform in this measure: in solid angle only where rows are those of a
+  /// latitude-longitude mapping.
+  TexelPositions(Extent extent, MapMeasure measure, const Mapping& mapping = {});
+  /// The positions of a density on maps of this mapping. Throws InputError if there are none, see
+  /// why_not_declared().
+  TexelPositions(Extent extent, DensitySpace density_space, const Mapping& mapping = {});
 
   Extent extent() const { return extent_; }
   /// The measure in which positions are uniform.
   MapMeasure measure() const { return measure_; }
+  const Mapping& mapping() const { return mapping_; }
 
   /// Column and row of a texel, of texels counted row by row: exact below 2^48, and quicker than
   /// the processor's division.
@@ -207,6 +210,7 @@ class TexelPositions {
 
   /// The drawn texel's sample as a direction: that of sample(), to some roundings.
   LightSample direction(const TexelDraw& draw) const {
+    if (!is_plain_) return mapped(sample(draw));
     const SinCosOfTurns azimuth =
         sin_cos_of_turns(position_in_cell(draw.x, draw.across, texel_width_));
     double sine;
@@ -225,6 +229,12 @@ class TexelPositions {
       pdf = draw.mass / solid_angle_rows_.texel_solid_angle(draw.y);
     }
     return {{-sine * azimuth.cos, sine * azimuth.sin, z}, {pdf}, draw.x, draw.y};
+  }
+
+  /// A point of the square as a direction.
+  LightSample mapped(const TexelSample& sample) const {
+    return {direction_at(mapping_, sample.at), to_solid_angle(mapping_, sample.pdf, sample.at),
+            sample.x, sample.y};
   }
 
   /// Density over the square at `at`, inside a texel of row y that is drawn with this probability.
@@ -249,6 +259,8 @@ class TexelPositions {
  private:
   Extent extent_;
   MapMeasure measure_;
+  bool is_plain_;
+  Mapping mapping_;
   double texel_width_;
   double texel_height_;
   double texels_;

@@ -10,7 +10,7 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/samplers/weight_vectors.h"
-#include "lightproof/warp/lat_long.h"
+#include "lightproof/warp/mapping.h"
 
 namespace lightproof {
 namespace {
@@ -23,13 +23,20 @@ struct Texel {
 /// Weights of texels of one row, from the first on.
 void weigh_part(const EnvironmentMap& map, TargetDensity target, Texel first,
                 std::span<double> weights) {
-  const double area = texel_measure(target.density_space) == MapMeasure::solid_angle
-                          ? texel_solid_angle(map.radiance.extent(), first.y)
-                          : 1.0;
+  const Extent extent = map.radiance.extent();
+  const bool by_solid_angle =
+      texel_measure(target.density_space, map.mapping) == MapMeasure::solid_angle;
+  const bool has_rows = rows_are_parallels(map.mapping);
+  const double area =
+      by_solid_angle && has_rows ? texel_solid_angle(map.mapping, extent, 0, first.y) : 1.0;
   const auto offset =
       static_cast<std::size_t>(first.y) * static_cast<std::size_t>(map.radiance.extent().width) +
       static_cast<std::size_t>(first.x);
   weigh(map.radiance.values().subspan(offset), target.weights, area, weights);
+  if (!by_solid_angle || has_rows) return;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    weights[i] *= texel_solid_angle(map.mapping, extent, first.x + static_cast<int>(i), first.y);
+  }
 }
 
 bool any_light(std::span<const double> weights) {

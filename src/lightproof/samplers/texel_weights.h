@@ -15,7 +15,7 @@ namespace lightproof {
 Grid<double> texel_weights(const EnvironmentMap& map, TargetDensity target);
 
 /// Writes the weights of the texels of row y, as many as the map has columns: their luminance,
-/// under B and C times their solid angle.
+/// under B and C times their solid angle, unless all texels have the same.
 void weigh_row(const EnvironmentMap& map, TargetDensity target, int y, std::span<double> weights);
 
 /// Weights of cells, >= 0, to be had a block at a time and as often as wanted: stored ones, or

@@ -163,8 +163,8 @@ void return_pdf_of_next_column(TexelSample& sample, const DiscreteSampler& distr
   if (next.value > 0.0) sample.pdf = next;
 }
 
-void return_pdf_per_steradian(TexelSample& sample, const DiscreteSampler& /*distribution*/) {
-  sample.pdf = {to_solid_angle(sample.pdf, sample.at).value};
+void return_pdf_per_steradian(TexelSample& sample, const DiscreteSampler& distribution) {
+  sample.pdf = {to_solid_angle(distribution.mapping(), sample.pdf, sample.at).value};
 }
 
 void make_pdf_noisy(TexelSample& sample, const DiscreteSampler& /*distribution*/) {
@@ -179,7 +179,7 @@ void move_one_texel(TexelSample& sample, const DiscreteSampler& distribution) {
 }
 
 PerSquare pdf_per_steradian(const DiscreteSampler& distribution, SquarePoint at) {
-  return {to_solid_angle(distribution.pdf(at), at).value};
+  return {to_solid_angle(distribution.mapping(), distribution.pdf(at), at).value};
 }
 
 PerSquare pdf_upside_down(const DiscreteSampler& distribution, SquarePoint at) {

@@ -15,10 +15,10 @@ BoundSampler bind(const Mutant& mutant, TargetDensity target, const EnvironmentM
   Grid<double> masses = reference::texel_masses(map, target);
   if (!mutant.distribution.empty())
     masses = alternative_distribution(mutant.distribution).masses({&masses, &map, target});
-  const bool is_square =
-      (position_measure(target.density_space) == MapMeasure::square) != mutant.other_measure;
+  const bool is_square = (position_measure(target.density_space, map.mapping) ==
+                          MapMeasure::square) != mutant.other_measure;
   const auto correct = std::make_shared<const DiscreteSampler>(
-      std::move(masses), is_square ? MapMeasure::square : MapMeasure::solid_angle);
+      std::move(masses), is_square ? MapMeasure::square : MapMeasure::solid_angle, map.mapping);
   const double factor = mutant.pdf_factor ? mutant.pdf_factor(*correct) : 1.0;
   return {[correct, &mutant, factor](std::span<const SquarePoint> points,
                                      std::span<TexelSample> samples) {
@@ -47,7 +47,13 @@ SamplerUnderTest sampler_under_test(const Mutant& mutant, DensitySpace density_s
             return bind(mutant, on_map(target, map), map);
           },
           kSumResolution,
-          true};
+          true,
+          nullptr,
+          [&mutant](const Mapping& mapping) {
+            const std::string_view reason = why_meaningless(mutant.mapping_need, mapping);
+            if (!reason.empty() || mutant.distribution.empty()) return reason;
+            return why_meaningless(alternative_distribution(mutant.distribution).need, mapping);
+          }};
 }
 
 }  // namespace lightproof

@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "lightproof/gate/alternative_distribution.h"
 #include "lightproof/gate/discrete_sampler.h"
 #include "lightproof/gate/sampler_under_test.h"
 #include "lightproof/results/test_id.h"
@@ -19,6 +20,8 @@ struct Mutant {
   Oracle oracle;               ///< the oracle that must reject it
   /// What a map must have for the defect to do harm; empty: nothing that real maps lack.
   std::string_view needs = {};
+  /// What the mapping of a map must have besides what the distribution that is drawn needs.
+  MappingNeed mapping_need = MappingNeed::none;
   /// An alternative distribution that is drawn, its density returned; empty: the declared one.
   std::string_view distribution = {};
   /// Whether positions inside texels are drawn uniformly in the other measure than the declared

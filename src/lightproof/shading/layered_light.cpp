@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/image/look_up.h"
 #include "lightproof/materials/fresnel.h"
 #include "lightproof/warp/hemisphere.h"
@@ -67,7 +68,9 @@ glm::dvec3 reflected_cosine(const LayeredSurface& surface, const ShadingPoint& a
 }
 
 LayeredLight::LayeredLight(const EnvironmentMap& map, const Scene& scene)
-    : map_(&map), scene_(&scene), sampler_(map, on_map({DensitySpace::solid_angle}, map)) {}
+    : map_(&map), scene_(&scene), sampler_(map, on_map({DensitySpace::solid_angle}, map)) {
+  require_lat_long(map, "layered light");
+}
 
 glm::dvec3 LayeredLight::contribution(const LayeredSurface& surface, const ShadingPoint& at,
                                       Direction light) const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/materials/fresnel.h"
 #include "lightproof/prefilter/irradiance_map.h"
 #include "lightproof/prefilter/radiance_look_up.h"
@@ -73,7 +74,8 @@ ScaleBias look_up(const Grid<ScaleBias>& map, double cosine, double roughness) {
 
 MetallicRoughnessMaps::MetallicRoughnessMaps(const EnvironmentMap& environment, Extent extent,
                                              int levels)
-    : chain_(ggx_chain(environment.radiance, extent, levels)),
+    : chain_(
+          ggx_chain(lat_long_radiance(environment, "shading by precomputed maps"), extent, levels)),
       brdf_(brdf_map(kBrdfExtent, Masking::height_correlated)),
       diffuse_(rounded(diffuse_map(irradiance_map(environment, kDiffuseExtent)).radiance)) {}
 

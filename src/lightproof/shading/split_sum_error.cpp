@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/materials/fresnel.h"
 #include "lightproof/materials/ggx.h"
 #include "lightproof/materials/half_vector.h"
@@ -252,6 +253,7 @@ std::vector<SplitSumKernel> split_sum_kernels(double roughness, double cosine,
 }
 
 AngularPower luminance_power(const EnvironmentMap& map, int degree) {
+  require_lat_long(map, "the error of the split sum");
   const Extent extent = map.radiance.extent();
   if (extent.width > kSplitSumWidth) {
     const int height = std::max(1, extent.height * kSplitSumWidth / extent.width);

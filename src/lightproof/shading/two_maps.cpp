@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/materials/fresnel.h"
 #include "lightproof/prefilter/diffuse_shading.h"
 #include "lightproof/prefilter/irradiance_map.h"
@@ -65,7 +66,9 @@ double white_reflectivity(double roughness, TwoMapsForm form) {
 
 TwoMaps::TwoMaps(const EnvironmentMap& environment, Extent extent, int levels, TwoMapsForm form)
     : form_(form),
-      reflectivity_(reflectivity_chain(environment.radiance, extent, levels, geometry_of(form))),
+      reflectivity_(
+          reflectivity_chain(lat_long_radiance(environment, "shading by precomputed maps"), extent,
+                             levels, geometry_of(form))),
       irradiance_(rounded(irradiance_map(environment, kIrradianceExtent).irradiance)) {
   for (int level = 0; level < levels; ++level) {
     const auto white =

@@ -13,6 +13,7 @@
 #include "lightproof/core/moments.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/image/map_identity.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/prefilter/brdf_map.h"
@@ -228,6 +229,7 @@ ThreadGain gain_of(const SharedWork& work, int runs) {
 
 std::vector<LevelCost> measure_level_costs(const EnvironmentMap& map,
                                            const LevelCostOptions& options) {
+  require_lat_long(map, "a map for real-time rendering");
   std::vector<LevelCost> all;
   for (const LevelKind& kind : {irradiance_kind(), ggx_kind()}) {
     for (LevelCost& cost : costs_of(map, kind, options)) all.push_back(std::move(cost));

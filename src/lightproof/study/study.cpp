@@ -5,12 +5,14 @@
 #include <iterator>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "lightproof/accuracy/method_costs.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/machine.h"
 #include "lightproof/core/random.h"
 #include "lightproof/gate/direction_sampler.h"
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/image/map_figures.h"
 #include "lightproof/recommend/recommend.h"
 #include "lightproof/samplers/binary_search.h"
@@ -26,9 +28,12 @@ constexpr std::uint64_t kDrawnPoints = 400;
 
 }  // namespace
 
-MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed) {
+MapRecord describe_map(EnvironmentMap own, std::uint64_t seed) {
   MapRecord record;
-  record.map = map;
+  record.own_mapping = own.mapping;
+  record.own_texels = own.radiance.extent();
+  record.map = resampled_to_lat_long(std::move(own));
+  const EnvironmentMap& map = record.map;
   record.source = map.name;
   const MapFigures figures = figures_of(map);
   record.mean_luminance = figures.mean_luminance;
@@ -113,6 +118,8 @@ StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& opti
   result.directions_origin = directions.origin;
   result.gate = run_gate(test_cases_of(maps, all_samplers_under_test(), direction_samplers()),
                          options.gate, part_of(progress, 0.2, 0.5), {}, directions.value);
+  result.gate.left_out = left_out_on(maps, all_samplers_under_test());
+  for (EnvironmentMap& map : maps) map = resampled_to_lat_long(std::move(map));
   result.convergence = study_convergence(maps, options.convergence, part_of(progress, 0.5, 0.75));
   study_accuracy(maps, options, part_of(progress, 0.75, 0.93), result);
   result.warps = study_warp_grids(maps);

@@ -31,14 +31,16 @@ struct StudyOptions {
   MeasurementCache cache = {};
 };
 
-/// A map's figures and some hundred points that binary_search draws from it.
-MapRecord describe_map(const EnvironmentMap& map, std::uint64_t seed);
+/// A map, resampled to latitude and longitude if it is not there, its figures, and some hundred
+/// points that binary_search draws from it.
+MapRecord describe_map(EnvironmentMap map, std::uint64_t seed);
 
 /// Puts what was measured into the study, and how it grows.
 void set_throughput(StudyResult& study, Throughput measured);
 
 /// Runs the gate, measures convergence, speed against accuracy, renders, the error of the split sum
-/// and, if it is asked for, throughput.
+/// and, if it is asked for, throughput. The gate judges samplers in the maps' own texels; all else
+/// takes maps that are resampled to latitude and longitude, and results say which.
 StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& options,
                       const Progress& progress = {});
 

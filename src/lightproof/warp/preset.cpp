@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lightproof/warp/lat_long.h"
+#include "lightproof/warp/mapping.h"
 #include "lightproof/warp/octahedral.h"
 
 namespace lightproof {
@@ -34,6 +35,10 @@ constexpr std::array kPresets = {
     PresetInfo{Preset::mitsuba, "mitsuba",
                "y up: u = frac(atan2(X,-Z)/2pi), v = acos(Y)/pi from the top", Lattice::texel_area,
                2.0},
+    PresetInfo{Preset::cube, "cube",
+               "six faces of a cube side by side or below each other: +X, -X, +Y, -Y, +Z, -Z as "
+               "OpenGL and KTX hold them, Y up, each as seen from inside; -X is +x, +Y is +z",
+               Lattice::texel_area, 6.0},
 };
 
 constexpr double kBelowOne = 0x1.fffffffffffffp-1;
@@ -80,6 +85,9 @@ SquarePoint image_from_direction(Preset preset, Direction direction) {
     const SquarePoint at = square_from_octahedral(direction);
     return below_one({at.s, 1.0 - at.t});
   }
+  if (preset == Preset::cube) {
+    return below_one(square_point_of({MappingKind::cube_strip}, direction));
+  }
   const SquarePoint at = square_from_direction(direction);
   const SquarePoint image = {exchange_s(preset, at.s), at.t};
   return info(preset).lattice == Lattice::node_centred ? image : below_one(image);
@@ -87,6 +95,7 @@ SquarePoint image_from_direction(Preset preset, Direction direction) {
 
 Direction direction_from_image(Preset preset, SquarePoint at) {
   if (preset == Preset::pbrt_v4) return octahedral_from_square({at.s, 1.0 - at.t});
+  if (preset == Preset::cube) return direction_at({MappingKind::cube_strip}, at);
   return direction_from_square({exchange_s(preset, at.s), at.t});
 }
 

@@ -19,6 +19,7 @@ enum class Preset {
   pbrt_v3,
   pbrt_v4,
   mitsuba,
+  cube,
 };
 
 /// How pixels sit on the image square.
@@ -33,7 +34,9 @@ struct PresetInfo {
   std::string_view name;         ///< name on the command line: `z-up-half-turn`
   std::string_view description;  ///< axes and formula, one line
   Lattice lattice;
-  double aspect;  ///< width / height that the convention asks for: 2, or 1 for octahedral
+  /// Width / height that the convention asks for: 2, 1 for octahedral pictures, 6 for the faces of
+  /// a cube, which may stand below each other as well.
+  double aspect;
 };
 
 /// All presets, in the order of their enumeration.
