@@ -48,6 +48,28 @@ function(lightproof_precompiled target)
   endif()
 endfunction()
 
+# lightproof_in_groups(TARGET): with LIGHTPROOF_UNITY, the sources of TARGET, which are all of the current
+# folder, are compiled in the groups that ci/unity.mjs finds.
+function(lightproof_in_groups target)
+  if(NOT LIGHTPROOF_UNITY)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources EXCLUDE REGEX "^(/|\\.\\.)|<")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${sources}
+    ${PROJECT_SOURCE_DIR}/ci/unity.mjs)
+  execute_process(
+    COMMAND ${NODE_PROGRAM} ${PROJECT_SOURCE_DIR}/ci/unity.mjs ${sources}
+    WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
+    OUTPUT_VARIABLE lines OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "\n" ";" lines "${lines}")
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  foreach(line ${lines})
+    string(REGEX MATCH "^([0-9]+) (.+)$" line "${line}")
+    set_source_files_properties(${CMAKE_MATCH_2} PROPERTIES UNITY_GROUP ${target}_${CMAKE_MATCH_1})
+  endforeach()
+endfunction()
+
 # What only the build of a folder needs: nothing of it is left in what is installed.
 set(lightproof_build_only
   lightproof_settings lightproof_glue lightproof_vectors Boost::headers nlohmann_json::nlohmann_json)
@@ -72,5 +94,9 @@ function(lightproof_module name)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/lightproof>)
   target_link_libraries(lightproof_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${private})
   lightproof_precompiled(lightproof_${name} ${ARG_PRIVATE})
+  # The speed of what has vectors is measured: it must not depend on how much the compiler sees at once.
+  if(NOT lightproof_vectors IN_LIST ARG_PRIVATE)
+    lightproof_in_groups(lightproof_${name})
+  endif()
   set_property(GLOBAL APPEND PROPERTY LIGHTPROOF_MODULES lightproof_${name})
 endfunction()

@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <sstream>
+#include <string>
 
 #include "lightproof/image/reader.h"
 #include "tests/cli/program.h"
@@ -25,9 +27,9 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-const Words kStudy = {
-    "study",          "constant",     "--size",     "32x16", "-n", "65536", "--no-throughput",
-    "--no-self-test", "--no-regimes", "--progress", "0",     "-o", "report"};
+const Words kStudy = {"study",        "constant", "--size",          "32x16",
+                      "-n",           "65536",    "--no-throughput", "--no-self-test",
+                      "--no-regimes", "-o",       "report"};
 constexpr auto kLimit = std::chrono::seconds(1000);
 
 /// A disk of 64 kB, on which an earlier report lies; then what is on it.
@@ -51,7 +53,9 @@ Studies::Studies() {
   for (const char* name : {"plain", "full", "full/report"}) fs::create_directory(folder / name);
   Process first(lightproof_command(kStudy, folder / "plain"));
   if (has_mount_namespaces()) {
-    full = Process(in_mount_namespace(kOnFullDisk, kStudy, folder / "full")).wait(kLimit);
+    Words quiet = kStudy;
+    quiet.insert(quiet.end(), {"--progress", "0"});
+    full = Process(in_mount_namespace(kOnFullDisk, quiet, folder / "full")).wait(kLimit);
   }
   plain = first.wait(kLimit);
 }
@@ -77,7 +81,17 @@ class Study : public testing::Test {
 TEST_F(Study, EndsWithThePathOfItsReport) {
   EXPECT_EQ(plain().exit_code, 0);
   EXPECT_EQ(plain().out, "report/report.html\n");
-  EXPECT_THAT(plain().err, IsEmpty());
+}
+
+TEST_F(Study, SaysHowLongEachStepTookWhereNobodySeesABar) {
+  for (const char* step : {"exact light", "convergence"}) {
+    EXPECT_THAT(plain().err,
+                testing::ContainsRegex(std::string("(^|\n)") + step + ": done in [0-9.]+ s\n"));
+  }
+  std::istringstream lines(plain().err);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_THAT(line, testing::MatchesRegex("[a-z -]+: (done in [0-9.]+ s|[0-9]+ %.*)"));
+  }
 }
 
 TEST_F(Study, WritesOneSelfContainedPage) {

@@ -105,19 +105,6 @@ TEST(ProgressLines, ArePrintedWhereNobodySeesABar) {
   EXPECT_THAT(Process(lightproof_command(words)).wait(std::chrono::seconds(600)).err, IsEmpty());
 }
 
-TEST(ProgressLines, SayHowLongEachStepOfAStudyTook) {
-  const TemporaryFolder folder;
-  const Finished study = Process(lightproof_command({"study", "sun-sky", "--size", "64x32", "-n",
-                                                     "4096", "--no-throughput", "--no-self-test",
-                                                     "--no-accuracy", "-o", folder / "study"}))
-                             .wait(std::chrono::seconds(600));
-  EXPECT_EQ(study.exit_code, 0);
-  for (const char* step : {"exact light", "convergence"}) {
-    EXPECT_THAT(study.err,
-                testing::ContainsRegex(std::string("(^|\n)") + step + ": done in [0-9.]+ s\n"));
-  }
-}
-
 TEST(ProgressLines, AreNotPrintedIfQuiet) {
   const Finished gate = Process(lightproof_command({"gate", "sun-sky", "--size", "64x32", "-n",
                                                     "2^21", "--progress", "1", "-q"}))

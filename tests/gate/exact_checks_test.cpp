@@ -9,6 +9,7 @@
 #include "lightproof/core/random.h"
 #include "lightproof/gate/exact_checks.h"
 #include "lightproof/gate/sampler_under_test.h"
+#include "tests/core/thorough.h"
 
 namespace lightproof {
 namespace {
@@ -75,24 +76,32 @@ TEST(ExactChecks, AcceptLightInTheRowOfAPole) {
   }
 }
 
+// In the quick form every height gets one of the three kinds of light, in turn.
 TEST(ExactChecks, AcceptEveryHeightFrom1To70WithLightAnywhere) {
+  const auto takes = [](int height, int kind) { return test::is_thorough() || height % 3 == kind; };
   for (int height = 1; height <= 70; ++height) {
     const RandomStream stream("ExactChecks.AcceptEveryHeight", static_cast<std::uint64_t>(height));
     const int width = 1 + static_cast<int>(140.0 * stream.point(0).s);
     const Extent extent = {width, height};
     const int lit_x = static_cast<int>(width * stream.point(1).s);
     const int lit_y = static_cast<int>(height * stream.point(1).t);
-    expect_accepted(
-        map_of(extent, [&](int x, int y) { return x == lit_x && y == lit_y ? 3.0F : 0.0F; }),
-        "one lit texel");
-    expect_accepted(map_of(extent, [&](int, int y) { return y == height - 1 ? 1e4F : 1.0F; }),
-                    "a bright last row");
-    expect_accepted(map_of(extent,
-                           [&](int x, int y) {
-                             const auto i = static_cast<std::uint64_t>(2 + x + y * width);
-                             return static_cast<float>(std::exp(8.0 * stream.point(i).s));
-                           }),
-                    "noise over three orders of magnitude");
+    if (takes(height, 0)) {
+      expect_accepted(
+          map_of(extent, [&](int x, int y) { return x == lit_x && y == lit_y ? 3.0F : 0.0F; }),
+          "one lit texel");
+    }
+    if (takes(height, 1)) {
+      expect_accepted(map_of(extent, [&](int, int y) { return y == height - 1 ? 1e4F : 1.0F; }),
+                      "a bright last row");
+    }
+    if (takes(height, 2)) {
+      expect_accepted(map_of(extent,
+                             [&](int x, int y) {
+                               const auto i = static_cast<std::uint64_t>(2 + x + y * width);
+                               return static_cast<float>(std::exp(8.0 * stream.point(i).s));
+                             }),
+                      "noise over three orders of magnitude");
+    }
   }
 }
 

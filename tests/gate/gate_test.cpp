@@ -18,6 +18,7 @@
 #include "lightproof/gate/sequential_gate.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/report/json.h"
+#include "tests/core/thorough.h"
 #include "tests/gate/rejections.h"
 
 namespace lightproof {
@@ -41,7 +42,8 @@ TEST(Gate, AcceptsCorrectSamplersOnEveryMapAndSize) {
   for (const Extent extent : {Extent{1, 1}, Extent{2, 1}, Extent{5, 3}, Extent{128, 64}}) {
     std::vector<EnvironmentMap> maps;
     for (const SyntheticMap& entry : synthetic_maps()) maps.push_back(entry.make(extent));
-    const GateResult result = run_gate(maps, correct, {.samples = 1U << 18U});
+    const GateResult result =
+        run_gate(maps, correct, {.samples = test::is_thorough() ? 1U << 18U : 1U << 16U});
     EXPECT_EQ(overall_outcome(result, true), Outcome::accept)
         << extent.width << "x" << extent.height << ": "
         << testing::PrintToString(rejections(result));

@@ -6,6 +6,7 @@
 #include "lightproof/core/parallel.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/report/json.h"
+#include "tests/core/thorough.h"
 
 namespace lightproof {
 namespace {
@@ -51,13 +52,14 @@ TEST(SequentialGate, AcceptsCorrectSamplersAfterAllSamples) {
   std::vector<EnvironmentMap> maps;
   for (const SyntheticMap& entry : synthetic_maps()) maps.push_back(entry.make(kExtent));
   const std::vector<SamplerUnderTest> samplers_under_test = correct_samplers();
+  const std::uint64_t samples = test::is_thorough() ? 1U << 18U : 1U << 16U;
   const GateResult result =
-      run_sequential_gate(test_cases_of(maps, samplers_under_test), {.samples = 1U << 18U});
+      run_sequential_gate(test_cases_of(maps, samplers_under_test), {.samples = samples});
   const auto counted = std::count_if(result.tests.begin(), result.tests.end(), is_sequential);
   EXPECT_EQ(static_cast<std::size_t>(counted), maps.size() * samplers_under_test.size());
   EXPECT_EQ(overall_outcome(result, true), Outcome::accept);
   EXPECT_TRUE(result.rejections.empty());
-  for (const TestRecord& test : result.tests) EXPECT_EQ(test.samples, 1U << 18U);
+  for (const TestRecord& test : result.tests) EXPECT_EQ(test.samples, samples);
 }
 
 // The evidence grows by about N w^2 / 2 nats; between the densities of the constant map

@@ -8,6 +8,7 @@
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
+#include "lightproof/core/random_batch.h"
 #include "lightproof/samplers/sampler.h"
 #include "lightproof/stats/uniformity.h"
 
@@ -16,6 +17,8 @@ namespace {
 
 constexpr std::size_t kReplicates = 2000;
 constexpr std::uint64_t kSamples = 16 * kUniformCells / 2;  // two coordinates a point
+constexpr std::uint64_t kBatch = 1024;
+static_assert(kSamples % kBatch == 0);
 
 /// Largest distance of the distribution of the p-values from uniform.
 double distance_from_uniform(std::vector<double> p_values) {
@@ -35,10 +38,13 @@ TEST(Uniformity, HasUniformPValuesWithManySamplesInEachCell) {
   parallel_for(kReplicates, [&](std::size_t i) {
     const RandomStream stream("many samples in each cell", 1, i);
     std::vector<std::uint64_t> counts(kUniformCells);
-    for (std::uint64_t k = 0; k < kSamples; ++k) {
-      const SquarePoint u = stream.point(k);
-      ++counts[static_cast<std::size_t>(cell_of(u.s, static_cast<int>(kUniformCells)))];
-      ++counts[static_cast<std::size_t>(cell_of(u.t, static_cast<int>(kUniformCells)))];
+    std::vector<SquarePoint> points(kBatch);
+    for (std::uint64_t first = 0; first < kSamples; first += kBatch) {
+      fill_points(stream, first, points);
+      for (const SquarePoint u : points) {
+        ++counts[static_cast<std::size_t>(cell_of(u.s, static_cast<int>(kUniformCells)))];
+        ++counts[static_cast<std::size_t>(cell_of(u.t, static_cast<int>(kUniformCells)))];
+      }
     }
     kuiper[i] = std::pow(10.0, kuiper_test(counts).log10_p);
     anderson[i] = std::pow(10.0, anderson_darling_test(counts).log10_p);

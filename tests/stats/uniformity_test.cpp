@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -82,6 +83,37 @@ std::vector<std::uint64_t> counts_of(const RandomStream& stream, std::uint64_t s
     ++counts[static_cast<std::size_t>(u * static_cast<double>(kUniformCells))];
   }
   return counts;
+}
+
+// With the same operations in the same order at every edge: not a bit differs.
+TEST(Uniformity, IsItsDefinitionAtEveryEdge) {
+  const RandomStream stream("Uniformity at every edge", 1);
+  for (const std::size_t cells :
+       {std::size_t{2}, std::size_t{7}, std::size_t{1000}, kUniformCells}) {
+    for (const std::uint64_t samples : {1ULL, 50ULL, 200000ULL}) {
+      std::vector<std::uint64_t> counts(cells);
+      for (std::uint64_t i = 0; i < samples; ++i) {
+        ++counts[static_cast<std::size_t>(stream.point(i).s * static_cast<double>(cells))];
+      }
+      const auto total = static_cast<double>(samples);
+      const auto number = static_cast<double>(cells);
+      double above = 0.0;
+      double below = 0.0;
+      double sum = 0.0;
+      std::uint64_t counted = 0;
+      for (std::size_t cell = 0; cell + 1 < cells; ++cell) {
+        counted += counts[cell];
+        const double exact = static_cast<double>(cell + 1) / number;
+        const double d = static_cast<double>(counted) / total - exact;
+        above = std::max(above, d);
+        below = std::max(below, -d);
+        sum += d * d / (exact * (1.0 - exact));
+      }
+      EXPECT_EQ(kuiper_test(counts).distance, above + below) << cells << ", " << samples;
+      EXPECT_EQ(anderson_darling_test(counts).distance, std::sqrt(sum / number))
+          << cells << ", " << samples;
+    }
+  }
 }
 
 TEST(UniformityCalibration, PValuesOfUniformNumbersAreUniform) {

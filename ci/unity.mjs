@@ -1,0 +1,76 @@
+// Which sources of a folder one compiler run can take together, one included after the other.
+//
+// Two files stay apart where a name that one of them declares outside of functions occurs in the
+// other: there it would be defined twice, hidden or taken for another. So nobody has to keep names
+// apart between files. As a program: node ci/unity.mjs FILE… prints a line for each file that goes
+// with others: the number of its group and its path.
+import { readFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+
+/** More files save little, and keep a core busy at the end of a build while the other is idle. */
+const largestGroup = 8;
+
+/**
+ * Highway compiles a file several times, and the order of macros and includes tells; GCC warns of a
+ * class with members of hidden types, unless they stand in the main file.
+ */
+const standsAlone =
+  /^#(define|undef)\b|^#include HWY|^using namespace|foreach_target|^(struct|class) \w+::/m;
+
+/** The code without comments, strings and characters; `hidden_end` ends what a file keeps to itself. */
+function bare(text) {
+  const skipped =
+    /R"(\w*)\([\s\S]*?\)\1"|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])'|\/\/[^\n]*|\/\*[\s\S]*?\*\//g;
+  return text.replace(/^\} {2}\/\/ namespace$/gm, "} hidden_end").replace(skipped, " ");
+}
+
+/**
+ * The names that declarations give which begin a line (the body of a namespace is not indented),
+ * but for functions that other files may call: a header declares these.
+ */
+function declared(code) {
+  const names = new Set();
+  const begins =
+    /^namespace \{|^\} hidden_end|^(?!#|\}|namespace\b|(?:TYPED_)?TEST|INSTANTIATE)(?=[A-Za-z_[])[\s\S]*?[;{]/gm;
+  let hidden = false;
+  for (const [declaration] of code.matchAll(begins)) {
+    if (/^namespace|^\}/.test(declaration)) hidden = declaration.startsWith("namespace");
+    if (/^namespace|^\}|^using [\w:]+;/.test(declaration)) continue;
+    let head = declaration;
+    for (let inner = ""; inner !== head; head = head.replace(/<[^<>;]*>/g, " ")) inner = head;
+    if (!hidden && /^[^=]*\(/.test(head)) continue;
+    const patterns = [
+      /\b(?:using|struct|class|enum(?: class)?|union)\s+(\w+)/g,
+      /(\w+)\s*(?:\(|=|\{|;|\[)/g,
+    ];
+    for (const pattern of patterns) {
+      for (const [, name] of head.matchAll(pattern)) names.add(name);
+    }
+  }
+  return names;
+}
+
+/** The files in groups, in their order; a file that must be alone is a group of its own. */
+export function groupsOf(files) {
+  const groups = [];
+  for (const file of files) {
+    const text = readFileSync(file, "utf8");
+    const code = bare(text);
+    const source = { file, names: declared(code), words: new Set(code.match(/\b[A-Za-z_]\w*/g)) };
+    const occursIn = (one, other) => [...one.names].some((name) => other.words.has(name));
+    const goesWith = (other) => !occursIn(source, other) && !occursIn(other, source);
+    const fits = ({ alone, sources }) =>
+      !alone && sources.length < largestGroup && sources.every(goesWith);
+    const alone = standsAlone.test(text);
+    const group = alone ? undefined : groups.find(fits);
+    if (group) group.sources.push(source);
+    else groups.push({ alone, sources: [source] });
+  }
+  return groups.map(({ sources }) => sources.map((source) => source.file));
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  groupsOf(process.argv.slice(2)).forEach((files, number) => {
+    if (files.length > 1) for (const file of files) console.log(`${number} ${file}`);
+  });
+}
