@@ -61,7 +61,7 @@ TEST(Numbers, GroupThousands) {
 
 TEST(SecondsText, TakesTheUnitThatSuits) {
   EXPECT_EQ(seconds_text(9.5e-8), "95\u00a0ns");
-  EXPECT_EQ(seconds_text(9.999e-7), "1\u00a0\u00b5s");
+  EXPECT_EQ(seconds_text(9.999e-7), "1.0\u00a0\u00b5s");
   EXPECT_EQ(seconds_text(1.34e-6), "1.3\u00a0\u00b5s");
   EXPECT_EQ(seconds_text(0.0042), "4.2\u00a0ms");
   EXPECT_EQ(seconds_text(2.0), "2\u00a0s");

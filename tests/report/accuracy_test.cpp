@@ -51,7 +51,7 @@ TEST(SlopeFinding, SetsTheAliasTableAgainstTheMonotoneOne) {
   alias.slope = -0.5;
   monotone.slope_error = alias.slope_error = 0.01;
   EXPECT_EQ(slope_finding(chart_of({monotone, alias})),
-            "Error falls as N to the power of: sobol points \u22120.800 \u00b1 0.010 by the "
+            "The error falls with a slope of: sobol points \u22120.800 \u00b1 0.010 by the "
             "monotone table, \u22120.500 \u00b1 0.010 by the alias table");
 }
 

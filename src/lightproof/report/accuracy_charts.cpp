@@ -52,7 +52,8 @@ std::vector<SeriesStyle> family_styles(const std::vector<AccuracyChart>& charts)
 /// All layers share one legend, so all say the same of it.
 Json family_encoding(const std::vector<SeriesStyle>& styles, std::string SeriesStyle::*property) {
   Json encoding =
-      series(styles, property, {{"title", "families (click to show one)"}, {"columns", 5}});
+      series(styles, property,
+             {{"title", "families (click to show one)"}, {"titleLimit", 400}, {"columns", 5}});
   encoding["field"] = "family";
   return encoding;
 }

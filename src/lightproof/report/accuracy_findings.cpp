@@ -126,7 +126,7 @@ std::string slope_finding(const AccuracyChart& chart) {
     const AccuracyLine* alias = by_alias_table(chart, line);
     if (alias == nullptr || !std::isfinite(line.slope) || !std::isfinite(alias->slope)) continue;
     text += fmt::format("{}{} points {} by the monotone table, {} by the alias table",
-                        text.empty() ? "Error falls as N to the power of: " : "; ",
+                        text.empty() ? "The error falls with a slope of: " : "; ",
                         line.estimator.substr(std::string_view("environment B ").size()),
                         with_error(line.slope, line.slope_error),
                         with_error(alias->slope, alias->slope_error));

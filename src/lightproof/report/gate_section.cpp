@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lightproof/page/chart_parts.h"
 #include "lightproof/page/html.h"
@@ -35,12 +36,12 @@ Cell tally_cell(const GateCell& cell) {
 }
 
 /// Samplers of directions have no map: one verdict each.
-std::string direction_verdicts(const std::vector<GateCell>& cells) {
+std::string direction_table(const std::vector<GateCell>& cells) {
   Table table("Verdict of every warp and material", {"Sampler", "Verdict"}, "matrix");
   for (const GateCell& cell : cells) {
     table.add({text_cell(cell.sampler_and_density), tally_cell(cell)});
   }
-  return cells.empty() ? "" : "<h4>Warps and materials</h4>\n" + table.html();
+  return cells.empty() ? "" : table.html();
 }
 
 /// What stands where a sampler has no verdict on a map.
@@ -77,6 +78,30 @@ std::string matrix(const std::vector<GateCell>& cells, const std::vector<LeftOut
     table.add(row);
   }
   return table.html();
+}
+
+std::size_t count_tested(const std::vector<GateCell>& cells) {
+  std::vector<std::string> names;
+  for (const GateCell& cell : cells) names.push_back(cell.sampler_and_density);
+  return unique_names(names).size();
+}
+
+/// What is accepted everywhere is a number, which opens on a click.
+template <class AsTable>
+std::string folded(std::vector<GateCell> cells, std::string_view noun, const AsTable& table) {
+  const std::vector<GateCell> all = cells;
+  const auto is_open = [&](const GateCell& cell) {
+    return std::any_of(all.begin(), all.end(), [&](const GateCell& c) {
+      return c.sampler_and_density == cell.sampler_and_density &&
+             c.tally.outcome() != Outcome::accept;
+    });
+  };
+  const auto accepted = std::stable_partition(cells.begin(), cells.end(), is_open);
+  const std::vector<GateCell> closed(accepted, cells.end());
+  cells.erase(accepted, cells.end());
+  if (closed.empty()) return table(cells);
+  return table(cells) +
+         collapsible(counted(count_tested(closed), noun) + " accepted everywhere", table(closed));
 }
 
 std::vector<std::string> test_columns() {
@@ -228,7 +253,12 @@ std::string verdicts(const GateResult& gate, const std::vector<LeftOut>& left_ou
       cells.begin(), cells.end(), [](const GateCell& cell) { return cell.map != kDirections; });
   const std::vector<GateCell> of_directions(directions, cells.end());
   cells.erase(directions, cells.end());
-  return matrix(cells, left_out) + direction_verdicts(of_directions) + diagnoses(gate) +
+  const auto matrix_of = [&](const std::vector<GateCell>& shown) {
+    return matrix(shown, left_out);
+  };
+  return folded(std::move(cells), "sampler", matrix_of) +
+         (of_directions.empty() ? "" : "<h4>Warps and materials</h4>\n") +
+         folded(of_directions, "sampler", direction_table) + diagnoses(gate) +
          tests_that_are(gate, Outcome::reject, "Rejected tests") +
          tests_that_are(gate, Outcome::inconclusive, "Inconclusive tests") +
          tests_that_are(gate, Outcome::resolution_limited, "Resolution-limited tests");

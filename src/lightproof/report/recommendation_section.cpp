@@ -41,9 +41,8 @@ std::string rival_text(const std::optional<RecommendedMethod>& rival) {
 }
 
 std::string recommendation_table(const std::vector<Recommendation>& recommendations) {
-  Table table("Recommendations",
-              {"Map", "Receiver, material", "Take", "Error", "Time of a shading point", "Set-up",
-               "Memory", "Runner-up", "Why"});
+  Table table("Recommendations", {"Map", "Receiver, material", "Take", "Error", "Time", "Set-up",
+                                  "Memory", "Runner-up", "Why"});
   for (const Recommendation& r : recommendations) {
     const std::string why = r.warning.empty() ? r.reason : r.reason + " Note: " + r.warning;
     table.add({text_cell(r.map),
@@ -104,7 +103,9 @@ constexpr std::string_view kMeasuredNote =
     "shading points, bias included, over the mean), as it was measured here, without its set-up.";
 constexpr std::string_view kRecommendedNote =
     "The cheapest method that reaches the error (root mean square over the receiver's pixels, bias "
-    "included, over the mean of the reference), predicted from the map and checked by a short run.";
+    "included, over the mean of the reference), predicted from the map and checked by a short run. "
+    "Time "
+    "is that of one shading point, without set-up.";
 
 }  // namespace
 
