@@ -41,13 +41,13 @@ std::string rival_text(const std::optional<RecommendedMethod>& rival) {
 }
 
 std::string recommendation_table(const std::vector<Recommendation>& recommendations) {
-  Table table("Recommendations", {"Map", "Receiver, material", "Take", "Error", "Time", "Set-up",
+  Table table("Recommendations", {"Map", "Take", "Receiver, material", "Error", "Time", "Set-up",
                                   "Memory", "Runner-up", "Why"});
   for (const Recommendation& r : recommendations) {
     const std::string why = r.warning.empty() ? r.reason : r.reason + " Note: " + r.warning;
     table.add({text_cell(r.map),
+               {choice_text(r.choice, r.error), "take", ""},
                text_cell(r.receiver + ", " + r.material),
-               text_cell(choice_text(r.choice, r.error)),
                error_cell(r.choice),
                {seconds_text(1e-3 * r.choice.milliseconds), "number", ""},
                {seconds_text(1e-3 * r.choice.set_up_milliseconds), "number", ""},
@@ -77,7 +77,7 @@ std::string unreached_html(const std::vector<Recommendation>& recommendations) {
 /// Without recommendations: what was fastest as it was measured.
 std::string measured_table(const std::vector<AccuracyChart>& charts) {
   Table table("Fastest as measured",
-              {"Map", "Receiver, material", "Take", "Time of a shading point", "Set-up", "Memory"});
+              {"Map", "Take", "Receiver, material", "Time of a shading point", "Set-up", "Memory"});
   for (const AccuracyChart& chart : charts) {
     const std::optional<FastestLine> fastest = fastest_to(chart, kUsualError);
     if (!fastest) continue;
@@ -89,8 +89,8 @@ std::string measured_table(const std::vector<AccuracyChart>& charts) {
             : fmt::format("{}, {}, {} error", line.estimator, counted(samples, "sample"),
                           percent(kUsualError));
     table.add({text_cell(chart.map),
+               {take, "take", ""},
                text_cell(chart.receiver + ", " + chart.material),
-               text_cell(take),
                {seconds_text(fastest->place.seconds), "number", ""},
                {seconds_text(line.set_up_seconds), "number", ""},
                {bytes_text(static_cast<double>(line.bytes)), "number", ""}});
