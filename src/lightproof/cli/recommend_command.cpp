@@ -157,7 +157,7 @@ void add_recommend(CLI::App& app, const CommandLine& line, int& exit_code) {
   command->add_flag("--no-verify", options->no_verify, "predict only, run nothing");
   command->add_flag("--measure-again", options->measure_again,
                     "measure what estimators take on this machine anew");
-  add_output(*command, "--json", options->json, "write the recommendation as JSON; - is stdout");
+  add_output(*command, "--json", options->json, "write the recommendation as JSON");
   command->footer(
       "What is in the way of light is not predicted, but measured. What estimators take on this\n"
       "machine is measured at the first call, some seconds, and kept. Exit codes: 0 done, 2 usage "
