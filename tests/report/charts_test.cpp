@@ -164,7 +164,8 @@ TEST(ThroughputChart, ShowsTheFastestTheSlowestAndTheUsualSamplerFirst) {
   StudyResult study = testing::synthetic_study();
   study.throughput.push_back({"middling", "sun-sky", {4096, 2048}, 40.0, 39.0, 41.0, 1.0, 1.0});
   std::set<std::string> leading;
-  for (const json& row : json::parse(throughput_chart(study))["data"]["values"]) {
+  const json rows = json::parse(throughput_chart(study))["data"]["values"];
+  for (const json& row : rows) {
     if (row["leads"]) leading.insert(row["sampler"]);
   }
   EXPECT_EQ(leading,

@@ -16,7 +16,7 @@ std::ptrdiff_t lines(const std::string& csv) { return std::count(csv.begin(), cs
 
 TEST(Csv, HasOneRowPerRecordBelowItsHeading) {
   const StudyResult study = testing::synthetic_study();
-  EXPECT_EQ(lines(gate_csv(study.gate)), 1 + 704);
+  EXPECT_EQ(lines(gate_csv(study.gate)), 1 + 696);
   EXPECT_EQ(lines(convergence_csv(study.convergence)), 1 + 128 * 6);
   EXPECT_EQ(lines(variance_csv(study.convergence)), 1 + 128);
   EXPECT_EQ(lines(throughput_csv(study.throughput)), 1 + 15);

@@ -41,7 +41,7 @@ TEST(GateJson, HasItsKeys) {
   EXPECT_EQ(keys_of(document),
             (std::set<std::string>{"format_version", "version", "commit", "command", "maps",
                                    "outcome", "family_alpha", "samples", "seed", "tests",
-                                   "rejections", "known_defects", "recognised"}));
+                                   "rejections", "known_defects", "recognised", "left_out"}));
   EXPECT_EQ(
       keys_of(document["tests"][0]),
       (std::set<std::string>{"sampler", "density", "map", "oracle", "test", "samples", "statistic",
