@@ -92,7 +92,7 @@ void summarise(std::vector<SurveyCase> cases) {
       "at most 1.5 times that of the best in {:.1f} %\n",
       cases.size(), share([](const SurveyCase& one) { return one.error_is_kept(); }),
       share([](const SurveyCase& one) { return one.time_is_kept(); }));
-  std::ranges::stable_sort(cases, std::greater(), badness);
+  std::ranges::sort(cases, std::greater(), badness);
   fmt::print("the worst five:\n");
   for (std::size_t i = 0; i < std::min<std::size_t>(5, cases.size()); ++i) {
     if (badness(cases[i]) > 0.0) print(cases[i]);

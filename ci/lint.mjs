@@ -82,7 +82,8 @@ function units() {
   const alike = new Map();
   for (const unit of commandsOfSources()) {
     const key = `${dirname(unit.file)} ${unit.command.replaceAll(unit.file, "")}`;
-    if (!isTest(unit.file)) singles.push({ ...unit, parts: [{ file: unit.file }] });
+    const isAlone = !isTest(unit.file) || /^int main\(/m.test(content(unit.file).toString());
+    if (isAlone) singles.push({ ...unit, parts: [{ file: unit.file }] });
     else alike.set(key, [...(alike.get(key) ?? []), unit]);
   }
   const groups = [...alike.values()].flatMap((members) => {

@@ -194,9 +194,9 @@ std::vector<SmoothPart> smooth_parts(const Mapping& mapping, const SquareCell& c
                          {cell.left, cell.top}};
   constexpr SquarePoint kNone = {-1.0, -1.0};
   if (mapping.kind != MappingKind::octahedral) return {{whole, kNone}};
-  static const std::vector<std::array<SquarePoint, 3>> kTriangles = octahedral_triangles();
+  static const std::vector<std::array<SquarePoint, 3>> triangles = octahedral_triangles();
   std::vector<SmoothPart> parts;
-  for (const auto& [pole, second, third] : kTriangles) {
+  for (const auto& [pole, second, third] : triangles) {
     Polygon part = left_of(whole, pole, second);
     part = left_of(part, second, third);
     part = left_of(part, third, pole);
@@ -334,8 +334,8 @@ std::vector<Polygon> cut_along_edges(const Mapping& mapping, const SquareCell& c
 }
 
 const GaussRule<3>& rule() {
-  static const GaussRule<3> kRule;
-  return kRule;
+  static const GaussRule<3> gauss;
+  return gauss;
 }
 
 /// How a texel is divided.
@@ -410,6 +410,25 @@ int depth_of_parts(const Mapping& mapping, Extent texels) {
   return std::max(2, static_cast<int>(std::ceil(quarters)));
 }
 
+namespace {
+
+/// Adds a part's share of a texel's mass, and where it may lie as well.
+void add_part(BinnedMasses& binned, const BinnedPart& part, double share) {
+  const Extent bins = binned.masses.extent();
+  binned.masses(part.column, part.row) += share;
+  if (part.is_whole) return;
+  // It may lie in any of the neighbours as well.
+  const bool at_pole = part.row == 0 || part.row + 1 == bins.height;
+  for (int j = std::max(part.row - 1, 0); j <= std::min(part.row + 1, bins.height - 1); ++j) {
+    for (int i = 0; i < bins.width; ++i) {
+      const int apart = std::abs(i - part.column);
+      if (at_pole || std::min(apart, bins.width - apart) <= 1) binned.bound(i, j) += share;
+    }
+  }
+}
+
+}  // namespace
+
 BinnedMasses binned_masses(const Grid<double>& texel_masses, const Mapping& mapping, Extent bins) {
   const Extent extent = texel_masses.extent();
   const int depth = depth_of_parts(mapping, extent);
@@ -423,17 +442,7 @@ BinnedMasses binned_masses(const Grid<double>& texel_masses, const Mapping& mapp
       const SquareCell texel = texel_cell(extent, x, y);
       const double density = mass / texel.area();
       visit_binned_parts(mapping, texel, depth, bins, [&](const BinnedPart& part) {
-        const double share = density * part.area;
-        rows[row].masses(part.column, part.row) += share;
-        if (part.is_whole) return;
-        // It may lie in any of the neighbours as well.
-        for (int j = std::max(part.row - 1, 0); j <= std::min(part.row + 1, bins.height - 1); ++j) {
-          const bool at_pole = part.row == 0 || part.row + 1 == bins.height;
-          for (int i = 0; i < bins.width; ++i) {
-            const int apart = std::abs(i - part.column);
-            if (at_pole || std::min(apart, bins.width - apart) <= 1) rows[row].bound(i, j) += share;
-          }
-        }
+        add_part(rows[row], part, density * part.area);
       });
     }
   });
@@ -447,27 +456,32 @@ BinnedMasses binned_masses(const Grid<double>& texel_masses, const Mapping& mapp
   return all;
 }
 
+std::vector<BinShares::Share> BinShares::shares_of(const Mapping& mapping, const SquareCell& cell,
+                                                   int depth, std::size_t texel) const {
+  std::vector<Share> shares;
+  visit_binned_parts(mapping, cell, depth, bins_, [&](const BinnedPart& part) {
+    const auto bin = static_cast<std::size_t>(part.row * bins_.width + part.column);
+    const auto found = std::find_if(shares.begin(), shares.end(),
+                                    [&](const Share& share) { return share.bin == bin; });
+    if (found == shares.end()) {
+      shares.push_back({texel, bin, part.area / cell.area()});
+    } else {
+      found->share += part.area / cell.area();
+    }
+  });
+  return shares;
+}
+
 BinShares::BinShares(const Mapping& mapping, Extent texels, Extent bins)
     : bins_(bins), bin_of_texel_(texels.count(), -1) {
   const int depth = depth_of_parts(mapping, texels);
   std::vector<std::vector<Share>> rows(static_cast<std::size_t>(texels.height));
   parallel_for(rows.size(), [&](std::size_t row) {
-    std::vector<Share> shares;
     for (int x = 0; x < texels.width; ++x) {
       const std::size_t texel =
           row * static_cast<std::size_t>(texels.width) + static_cast<std::size_t>(x);
       const SquareCell cell = texel_cell(texels, x, static_cast<int>(row));
-      shares.clear();
-      visit_binned_parts(mapping, cell, depth, bins, [&](const BinnedPart& part) {
-        const auto bin = static_cast<std::size_t>(part.row * bins.width + part.column);
-        const auto found = std::find_if(shares.begin(), shares.end(),
-                                        [&](const Share& share) { return share.bin == bin; });
-        if (found == shares.end()) {
-          shares.push_back({texel, bin, part.area / cell.area()});
-        } else {
-          found->share += part.area / cell.area();
-        }
-      });
+      const std::vector<Share> shares = shares_of(mapping, cell, depth, texel);
       if (shares.size() == 1) {
         bin_of_texel_[texel] = static_cast<std::int32_t>(shares.front().bin);
       } else {

@@ -72,6 +72,10 @@ class BinShares {
     double share;
   };
 
+  /// The shares of one texel's area that lie in each of the bins that it touches.
+  std::vector<Share> shares_of(const Mapping& mapping, const SquareCell& cell, int depth,
+                               std::size_t texel) const;
+
   Extent bins_;
   std::vector<std::int32_t> bin_of_texel_;  ///< -1 for one that lies in several
   std::vector<Share> shares_;               ///< of those

@@ -397,7 +397,8 @@ std::vector<WarpGrid> warps() {
       WarpGrid grid{kMaps[map], is_monotone ? "binary_search" : "alias", is_monotone, 8, {}, 3.0};
       for (int i = 0; i < 64; ++i) {
         const int column = is_monotone ? i % 8 : i * 3 % 8;
-        grid.points.push_back({(column + 0.5) / 8.0, (i / 8 + 0.5) / 8.0});
+        const int row = i / 8;
+        grid.points.push_back({(column + 0.5) / 8.0, (row + 0.5) / 8.0});
       }
       if (!is_monotone) grid.neighbour_degrees = map == 0 ? 12.0 : 45.0;
       grids.push_back(grid);

@@ -45,38 +45,39 @@ void add_combined(std::span<const EstimatorInfo* const> asked, const reference::
   }
 }
 
-/// Densities that depend on the map and not on the point, by estimator.
-using MapDensities = std::vector<std::pair<std::string_view, std::function<double(Direction)>>>;
+/// Densities of directions, per steradian, by estimator.
+using Densities = std::vector<std::pair<std::string_view, std::function<double(Direction)>>>;
 
-MapDensities map_densities(std::span<const EstimatorInfo* const> asked, const EnvironmentMap& map) {
-  MapDensities densities;
+/// Those that depend on the map and not on the point.
+Densities map_densities(std::span<const EstimatorInfo* const> asked, const EnvironmentMap& map) {
+  Densities densities;
   for (const EstimatorInfo* info : asked) {
     if (info->map_pdf != nullptr) densities.emplace_back(info->name, info->map_pdf(map));
   }
   return densities;
 }
 
-void add_other_densities(std::span<const EstimatorInfo* const> asked, const MapDensities& of_map,
-                         const reference::Kernel& kernel, const Grid<double>& luminance,
-                         const Material& material, const ShadingPoint& at,
-                         MomentsAtPoint& moments) {
-  std::vector<std::string_view> names;
-  std::vector<std::function<double(Direction)>> pdfs;
+/// All of them at a point.
+Densities densities_at(std::span<const EstimatorInfo* const> asked, const Densities& of_map,
+                       const Material& material, const ShadingPoint& at) {
+  Densities densities = of_map;
   for (const EstimatorInfo* info : asked) {
     if (info->pdf == nullptr || !info->serves(material)) continue;
-    names.push_back(info->name);
-    pdfs.emplace_back([pdf = info->pdf, &material, &at](Direction direction) {
+    densities.emplace_back(info->name, [pdf = info->pdf, &material, &at](Direction direction) {
       return pdf(material, at, direction);
     });
   }
-  for (const auto& [name, pdf] : of_map) {
-    names.push_back(name);
-    pdfs.push_back(pdf);
-  }
-  if (names.empty()) return;
+  return densities;
+}
+
+void add_other_densities(const Densities& densities, const reference::Kernel& kernel,
+                         const Grid<double>& luminance, MomentsAtPoint& moments) {
+  if (densities.empty()) return;
+  std::vector<std::function<double(Direction)>> pdfs;
+  for (const auto& [name, pdf] : densities) pdfs.push_back(pdf);
   const auto found =
       reference::density_moments(kernel, {&luminance, 1}, pdfs, reference::CellRule::midpoint);
-  for (std::size_t i = 0; i < names.size(); ++i) moments[names[i]] = found[i][0];
+  for (std::size_t i = 0; i < densities.size(); ++i) moments[densities[i].first] = found[i][0];
 }
 
 /// Estimators that are asked for.
@@ -118,14 +119,15 @@ LitReceiver::LitReceiver(const EnvironmentMap& map, const ReceiverInfo& receiver
         fmt::format("{}: no light of this map reaches the receiver '{}'", map.name, receiver.name));
   }
   const std::vector<const EstimatorInfo*> asked = asked_for(filter);
-  const MapDensities of_map = asked.empty() ? MapDensities() : map_densities(asked, map);
+  const Densities of_map = asked.empty() ? Densities() : map_densities(asked, map);
   std::vector<MomentsAtPoint> moments(pixels_.size());
   parallel_for(pixels_.size(), [&](std::size_t i) {
     const ShadingPoint& at = pixels_[i].point;
     const auto kernel = kernel_at(receiver, scene_, material_.material, at);
     add_densities(asked, light[i], moments[i]);
     add_combined(asked, kernel, luminance, moments[i]);
-    add_other_densities(asked, of_map, kernel, luminance, material_.material, at, moments[i]);
+    add_other_densities(densities_at(asked, of_map, material_.material, at), kernel, luminance,
+                        moments[i]);
   });
   for (const MomentsAtPoint& at_point : moments) {
     for (const auto& [name, exact] : at_point) {

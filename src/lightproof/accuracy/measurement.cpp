@@ -110,12 +110,13 @@ RoundOfLevel measure_level(const Course& course, const RandomStream& stream, std
   const double seconds = thread_seconds() - begin;
   RoundOfLevel level{std::vector<Moments>(pixels), std::vector<Moments>(pixels),
                      seconds / static_cast<double>(found.size())};
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const std::size_t pixel = i % pixels;
-    const double error =
-        (luminance_of(found[i], lit.map().weights) - lit.exact(pixel)) / lit.mean();
-    level.errors[pixel].add(error);
-    level.squared_errors[pixel].add(error * error);
+  for (std::uint64_t i = 0; i < estimates; ++i) {
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+      const double luminance = luminance_of(found[i * pixels + pixel], lit.map().weights);
+      const double error = (luminance - lit.exact(pixel)) / lit.mean();
+      level.errors[pixel].add(error);
+      level.squared_errors[pixel].add(error * error);
+    }
   }
   return level;
 }

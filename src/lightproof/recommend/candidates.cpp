@@ -39,7 +39,8 @@ std::optional<Obstacle> obstacle_of(const MethodDemand& demand, const Candidate&
     return Obstacle{floor / demand.error,
                     fmt::format("the floor of {} is {}", info.name, percent(floor))};
   }
-  const double most = static_cast<double>(kMostDirections / info.candidates);
+  const std::uint64_t most_samples = kMostDirections / info.candidates;
+  const auto most = static_cast<double>(most_samples);
   if (static_cast<double>(samples) > most) {
     return Obstacle{
         static_cast<double>(samples) / most,

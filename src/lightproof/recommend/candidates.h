@@ -21,8 +21,8 @@ inline constexpr std::uint64_t kMostDirections = 65536;
 struct MethodDemand {
   double error = 0.05;           ///< root mean square over the points, bias included, over the mean
   double budget_seconds = 1e-3;  ///< a shading point, set-up shared out
-  std::optional<std::size_t> memory = {};      ///< beside the map itself, in bytes
-  std::uint64_t shading_points = 1920 * 1080;  ///< over which a set-up is shared out
+  std::optional<std::size_t> memory = {};                     ///< beside the map itself, in bytes
+  std::uint64_t shading_points = std::uint64_t{1920} * 1080;  ///< over which a set-up is shared out
   bool is_occluded = false;  ///< whether something blocks light: what ignores that is no choice
   /// Whether methods of which only an upper bound is predicted are given the benefit of the doubt:
   /// they will be tried.

@@ -246,8 +246,8 @@ class Predictor {
     const LobeReach lobe = lobe_of(material_, at);
     const bool has_table_of_lobes =
         std::holds_alternative<Ggx>(material_) || std::holds_alternative<ModifiedPhong>(material_);
-    const ScatteredLight light =
-        scattered(*summary_, material_, at, lobe, has_table_of_lobes ? lobe.place.axis : Direction(0.0));
+    const ScatteredLight light = scattered(*summary_, material_, at, lobe,
+                                           has_table_of_lobes ? lobe.place.axis : Direction(0.0));
     add_lobes(light, at, errors);
     add_tables(light, errors);
     add_combined(light, errors);
@@ -606,12 +606,13 @@ class Predictor {
       biased("tabulated irradiance", lambert->albedo * diffuse(), light, errors);
     } else if (const auto* ggx = std::get_if<Ggx>(&material_)) {
       double sum = 0.0;
-      for (const Level& level : chain_) sum += level.share * chain_value(level, light, lobe.place.axis);
+      for (const Level& level : chain_)
+        sum += level.share * chain_value(level, light, lobe.place.axis);
       biased("split-sum", sum * reflected_of_white_sky(*ggx, cosine).front(), light, errors);
     } else if (const auto* phong = std::get_if<ModifiedPhong>(&material_)) {
       const PhongLobe wanted = prefilter_lobe(*phong);
-      const double glossy =
-          looked_up(prefilter_extent(wanted), lobe.place.axis, [&](Direction centre, const Tap& /*tap*/) {
+      const double glossy = looked_up(
+          prefilter_extent(wanted), lobe.place.axis, [&](Direction centre, const Tap& /*tap*/) {
             return light_under(ModifiedPhong{0.0, 1.0, wanted.exponent}, centre, light.nodes,
                                [](double pdf, double /*cosine*/) { return pdf; });
           });

@@ -52,8 +52,9 @@ constexpr double kOffShare = 0.1;
 /// The numbers of samples at which a candidate is run.
 std::vector<std::uint64_t> search_samples(const Candidate& candidate, const MethodDemand& demand) {
   if (!is_uncertain(candidate.error, demand)) return {candidate.samples};
+  const std::uint64_t most_samples = kMostDirections / candidate.info->candidates;
   const double most =
-      std::min(static_cast<double>(kMostDirections / candidate.info->candidates),
+      std::min(static_cast<double>(most_samples),
                static_cast<double>(candidate.samples) * (demand.is_occluded ? 4.0 : 1.0));
   std::vector<std::uint64_t> samples;
   for (double n = static_cast<double>(fewest_samples(candidate, demand)); n < most * kSearchStep;

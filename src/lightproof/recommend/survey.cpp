@@ -99,7 +99,7 @@ std::vector<SurveyCase> survey(const EnvironmentMap& map, const NamedMaterial& m
     try {
       one.choice = recommend(map, asked, costs).choice;
     } catch (const InputError&) {
-      // No method reaches the error, it says.
+      one.choice.reset();  // no method reaches the error, it says
     }
     if (one.choice) {
       measure(*one.choice, lit, options.seed + 2);

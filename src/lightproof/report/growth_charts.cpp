@@ -130,7 +130,8 @@ std::vector<std::string> leading_samplers(const std::vector<ThroughputRecord>& r
 void mark_leading(Json& rows, const StudyResult& study) {
   const std::vector<std::string> leading = leading_samplers(study.throughput);
   for (Json& row : rows) {
-    row["leads"] = std::find(leading.begin(), leading.end(), row["sampler"]) != leading.end();
+    row["leads"] = std::find(leading.begin(), leading.end(), row["sampler"].get<std::string>()) !=
+                   leading.end();
   }
 }
 
