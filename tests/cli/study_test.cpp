@@ -90,7 +90,7 @@ TEST_F(Study, SaysHowLongEachStepTookWhereNobodySeesABar) {
   }
   std::istringstream lines(plain().err);
   for (std::string line; std::getline(lines, line);) {
-    EXPECT_THAT(line, testing::MatchesRegex("[a-z -]+: (done in [0-9.]+ s|[0-9]+ %.*)"));
+    EXPECT_THAT(line, testing::MatchesRegex(".+: (done in [0-9.]+ s|[0-9]+ %.*)"));
   }
 }
 
