@@ -6,10 +6,10 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <iterator>
 #include <memory>
 
+#include "lightproof/accuracy/timing.h"
 #include "lightproof/estimators/registry.h"
 #include "lightproof/materials/material.h"
 #include "lightproof/render/picture.h"
@@ -55,12 +55,6 @@ void compare(RenderRecord& record, std::span<const Pixel> pixels, LuminanceWeigh
     squared += error * error;
   }
   record.rmse = std::sqrt(squared / count);
-}
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// An estimator that is ready for a scene.
