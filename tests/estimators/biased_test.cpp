@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightproof/accuracy/exact_light.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/estimators/diffuse_tables.h"
@@ -18,7 +19,6 @@
 #include "lightproof/prefilter/specular_chain.h"
 #include "lightproof/prefilter/spherical_harmonics.h"
 #include "lightproof/render/receiver.h"
-#include "lightproof/accuracy/exact_light.h"
 #include "lightproof/warp/lat_long.h"
 
 namespace lightproof {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "lightproof/accuracy/exact_light.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/moments.h"
 #include "lightproof/core/parallel.h"
@@ -13,7 +14,6 @@
 #include "lightproof/image/synthetic.h"
 #include "lightproof/render/receiver.h"
 #include "lightproof/stats/tails.h"
-#include "lightproof/accuracy/exact_light.h"
 
 namespace lightproof {
 namespace {

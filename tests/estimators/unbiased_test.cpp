@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "lightproof/accuracy/exact_light.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/moments.h"
 #include "lightproof/core/parallel.h"
@@ -17,7 +18,6 @@
 #include "lightproof/render/receiver.h"
 #include "lightproof/stats/moment_tests.h"
 #include "lightproof/stats/tails.h"
-#include "lightproof/accuracy/exact_light.h"
 
 namespace lightproof {
 namespace {

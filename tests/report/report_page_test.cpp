@@ -61,8 +61,7 @@ TEST(Page, SaysWhatWasNotMeasured) {
 
 TEST(Page, SaysInWhichTexelsAMapIsDrawnAndJudgedAndWhatTheseLeaveOut) {
   const std::string page = report_page(testing::synthetic_study());
-  EXPECT_EQ(occurrences(page, "The file has other texels (32\u00d732, octahedral)"),
-            1U);
+  EXPECT_EQ(occurrences(page, "The file has other texels (32\u00d732, octahedral)"), 1U);
   EXPECT_EQ(occurrences(page, "\u2013 left out"), 1U);
   EXPECT_EQ(occurrences(page, "no such look-up on its texels"), 2U)
       << "beside the cell, in the list";

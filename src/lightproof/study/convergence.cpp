@@ -7,13 +7,13 @@
 #include <limits>
 #include <memory>
 
+#include "lightproof/accuracy/exact_light.h"
 #include "lightproof/core/executor.h"
 #include "lightproof/core/moments.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/estimators/registry.h"
 #include "lightproof/render/receiver.h"
 #include "lightproof/stats/power_law.h"
-#include "lightproof/accuracy/exact_light.h"
 
 namespace lightproof {
 namespace {
