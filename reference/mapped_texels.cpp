@@ -410,6 +410,20 @@ int depth_of_parts(const Mapping& mapping, Extent texels) {
   return std::max(2, static_cast<int>(std::ceil(quarters)));
 }
 
+std::vector<BinnedPart> binned_parts(const Mapping& mapping, Extent texels, Extent bins) {
+  const int depth = depth_of_parts(mapping, texels);
+  std::vector<std::vector<BinnedPart>> rows(static_cast<std::size_t>(texels.height));
+  parallel_for(rows.size(), [&](std::size_t row) {
+    for (int x = 0; x < texels.width; ++x) {
+      visit_binned_parts(mapping, texel_cell(texels, x, static_cast<int>(row)), depth, bins,
+                         [&](const BinnedPart& part) { rows[row].push_back(part); });
+    }
+  });
+  std::vector<BinnedPart> all;
+  for (const std::vector<BinnedPart>& row : rows) all.insert(all.end(), row.begin(), row.end());
+  return all;
+}
+
 namespace {
 
 /// Adds a part's share of a texel's mass, and where it may lie as well.

@@ -43,6 +43,9 @@ void visit_binned_parts(const Mapping& mapping, const SquareCell& texel, int dep
 /// curvature of the edge.
 int depth_of_parts(const Mapping& mapping, Extent texels);
 
+/// The parts of all texels of a map, row by row, as visit_binned_parts() gives them.
+std::vector<BinnedPart> binned_parts(const Mapping& mapping, Extent texels, Extent bins);
+
 /// Masses of bins over (phi, theta).
 struct BinnedMasses {
   Grid<double> masses;

@@ -168,6 +168,16 @@ double integral_over(const Piece& piece, const BoundSampler& sampler) {
 
 namespace {
 
+/// Masses of bins, given the parts that lie in them.
+Grid<double> bins_of_parts(const BoundSampler& sampler,
+                           std::span<const reference::BinnedPart> parts) {
+  Grid<double> bins(kGateBins);
+  for (const reference::BinnedPart& part : parts) {
+    bins(part.column, part.row) += part.area * sampler.pdf(part.centre).value;
+  }
+  return bins;
+}
+
 /// Masses of bins that are cut out of the cells of a square.
 Grid<double> mapped_bins(const BoundSampler& sampler, Extent cells, const Mapping& mapping) {
   const int depth = reference::depth_of_parts(mapping, cells);
@@ -190,7 +200,8 @@ Grid<double> mapped_bins(const BoundSampler& sampler, Extent cells, const Mappin
 
 }  // namespace
 
-OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells, const Mapping& mapping) {
+OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells, const Mapping& mapping,
+                         const std::vector<reference::BinnedPart>* parts) {
   const std::vector<double> across = edges(cells.width, kGateBins.width);
   const int pieces = (kFewestPieces + cells.height - 1) / cells.height;
   const std::vector<double> along = edges(cells.height * pieces, kGateBins.height);
@@ -204,7 +215,10 @@ OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells, const Mappin
       own.bins(cell_of(s, kGateBins.width), cell_of(t, kGateBins.height)) += mass;
     }
   }
-  if (!is_plain(mapping)) own.bins = mapped_bins(sampler, cells, mapping);
+  if (!is_plain(mapping)) {
+    own.bins =
+        parts != nullptr ? bins_of_parts(sampler, *parts) : mapped_bins(sampler, cells, mapping);
+  }
   for (double& mass : own.bins.values()) mass /= own.integral;
   return own;
 }
@@ -320,7 +334,8 @@ Inspection inspect(const BoundSampler& sampler, const Expectation& expectation,
                    .has_weights = sampler.has_weights,
                    .takes_points = sampler.takes_points()};
   if (found.has_pdf) {
-    found.own = integrate_pdf(sampler, expectation.smooth_cells(), expectation.mapping);
+    found.own = integrate_pdf(sampler, expectation.smooth_cells(), expectation.mapping,
+                              expectation.parts.get());
     found.density = compare_density(sampler, expectation, rounding);
   }
   if (found.takes_points) found.edges = check_edges(sampler, expectation);

@@ -12,6 +12,7 @@
 #include "lightproof/gate/density_check.h"
 #include "lightproof/gate/expectation.h"
 #include "lightproof/results/test_id.h"
+#include "reference/mapped_texels.h"
 
 namespace lightproof {
 
@@ -35,7 +36,9 @@ struct OwnDensity {
 /// as well as it is smooth inside a cell.
 /// On maps of another mapping than Lightproof's own frame bins are cut out of texels by
 /// reference::visit_binned_parts(), and the pdf is that of the centre of each part.
-OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells, const Mapping& mapping = {});
+/// `parts` are all of these, if they are kept.
+OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells, const Mapping& mapping = {},
+                         const std::vector<reference::BinnedPart>* parts = nullptr);
 
 /// Checks that a pdf integrates to 1: |∫ pdf ds dt - 1| <= 1e-6.
 CheckResult check_pdf_integral(const OwnDensity& own);

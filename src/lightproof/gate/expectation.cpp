@@ -13,6 +13,9 @@
 namespace lightproof {
 namespace {
 
+/// Of so many texels parts are kept: those of a cube take some 30 MB then.
+constexpr std::size_t kMostKeptTexels = std::size_t{1} << 16U;
+
 /// ∫ sin^2(theta) ds dt over one texel of row y.
 double squared_sine_area(Extent extent, int y) {
   const auto primitive = [](double theta) { return 0.5 * theta - 0.25 * std::sin(2.0 * theta); };
@@ -150,6 +153,10 @@ Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
   if (!is_plain(map.mapping) && expectation.positions() == MapMeasure::square) {
     expectation.shares =
         std::make_shared<const reference::BinShares>(map.mapping, map.radiance.extent(), kGateBins);
+  }
+  if (!is_plain(map.mapping) && map.radiance.extent().count() <= kMostKeptTexels) {
+    expectation.parts = std::make_shared<const std::vector<reference::BinnedPart>>(
+        reference::binned_parts(map.mapping, map.radiance.extent(), kGateBins));
   }
   expectation.bins = target.lookup == Lookup::bilinear
                          ? reference::bin_masses(map, target, kGateBins)

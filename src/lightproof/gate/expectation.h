@@ -71,6 +71,9 @@ struct Expectation {
   Grid<std::uint8_t> flags;  ///< for each texel the sum of its TexelFlag values
   /// Where texels are no rows and columns of bins: which of their shares lie in which bin.
   std::shared_ptr<const reference::BinShares> shares = {};
+  /// The parts of texels that lie in one bin each, for integrals of many pdfs; null on a map whose
+  /// bins are rows and columns, or that has too many texels to keep them.
+  std::shared_ptr<const std::vector<reference::BinnedPart>> parts = {};
   /// The masses of kGateBins, given masses of texels that are spread inside them as these are.
   Grid<double> bins_of(const Grid<double>& texel_masses) const;
   /// Sets the flags, once masses, luminance and mean_luminance are known.
