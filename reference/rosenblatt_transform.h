@@ -30,8 +30,9 @@ class RosenblattTransform {
   /// and in t or cos(theta) by position_measure() of the density.
   RosenblattTransform(const Grid<double>& masses, DensitySpace density_space)
       : RosenblattTransform(masses, position_measure(density_space)) {}
-  /// As above, uniform inside a texel in this measure; in solid angle only in rows of latitude and
-  /// longitude. Coordinates are those of the square of any mapping.
+  /// The transform of a distribution with these masses of texels, uniform inside a texel in this
+  /// measure; in solid angle only in rows of latitude and longitude. Coordinates are those of the
+  /// square of any mapping.
   RosenblattTransform(const Grid<double>& masses, MapMeasure positions);
 
   /// The transformed coordinates of `at`, which lies in texel (x, y).

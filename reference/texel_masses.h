@@ -16,8 +16,9 @@ Grid<double> texel_masses(const EnvironmentMap& map, TargetDensity target);
 /// position_measure() of the density.
 Grid<double> bin_masses(const Grid<double>& texel_masses, DensitySpace density_space, Extent bins);
 
-/// The same of positions that are uniform in solid angle, in columns that are shifted: their s is
-/// less than that of the bins by `shift`, from -1 to 1.
+/// Probability of every bin of a `bins` grid over (s,t), of texels with these masses inside of
+/// which positions are uniform in solid angle, in columns that are shifted: their s is less than
+/// that of the bins by `shift`, from -1 to 1.
 Grid<double> turned_bin_masses(const Grid<double>& texel_masses, double shift, Extent bins);
 
 /// Probability of every bin of a `bins` grid laid over (s,t) of Lightproof's own frame, which is to

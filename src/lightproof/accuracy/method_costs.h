@@ -49,7 +49,8 @@ struct MethodCosts {
 MethodCosts measure_method_costs(const Material& material, const ReceiverInfo& receiver,
                                  const Progress& progress = {});
 
-/// The same, kept for this machine: materials of one kind share their costs.
+/// What measure_method_costs() returns, kept for this machine: materials of one kind share their
+/// costs.
 KeptMeasurement<MethodCosts> kept_method_costs(const Material& material,
                                                const ReceiverInfo& receiver,
                                                const MeasurementCache& cache,

@@ -103,8 +103,8 @@ struct EstimatorInfo {
   /// The density per steradian with which it draws a direction, if it is a mean over independent
   /// samples of one density that is none of `density`'s. The direction is above the surface.
   double (*pdf)(const Material& material, const ShadingPoint& at, Direction direction) = nullptr;
-  /// The same, if it depends on the map and on nothing else; none of `density`'s either. What it
-  /// returns refers to nothing.
+  /// The density per steradian with which it draws a direction, if that depends on the map alone
+  /// and is none of `density`'s. The function that is returned refers to nothing outside of it.
   std::function<double(Direction)> (*map_pdf)(const EnvironmentMap& map) = nullptr;
   /// The row that draws the same at independent points; empty for one whose points are.
   std::string_view at_independent_points = {};

@@ -22,7 +22,8 @@ Extent prefilter_extent(const PhongLobe& lobe);
 
 /// What the material reflects of a white sky at these cosines of the view to the normal.
 std::vector<double> reflected_of_white_sky(const Ggx& ggx, std::span<const double> cosines);
-/// The same of Phong's lobe of unit reflectance, with the material's exponent.
+/// The light that Phong's lobe of unit reflectance, with the material's exponent, reflects of a
+/// white sky of radiance 1, at each of these cosines of the view.
 std::vector<double> reflected_of_white_sky(const ModifiedPhong& phong,
                                            std::span<const double> cosines);
 

@@ -24,8 +24,9 @@ double squared_sine_area(Extent extent, int y) {
   return (primitive(high) - primitive(low)) / (kPi * extent.width);
 }
 
-/// The same where texels are no rows of latitude and longitude: 1/p(omega) is the Jacobian times
-/// the texel's area over its mass, and the density that it is averaged by takes one of them back.
+/// Moments of 1/p(omega) under p where texels are no rows of latitude and longitude: it is the
+/// Jacobian times the texel's area over its mass, and the density that it is averaged by takes one
+/// of them back.
 reference::EstimatorMoments mapped_inverse_pdf_moments(const Expectation& expectation) {
   const Extent extent = expectation.masses.extent();
   reference::EstimatorMoments moments;

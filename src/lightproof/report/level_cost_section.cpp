@@ -130,6 +130,16 @@ Json filtered(Json layer, const char* filter) {
   return layer;
 }
 
+/// Shows the rows of one map at a time, which the reader chooses, if there are several.
+void choose_map(Json& chart, const std::vector<std::string>& maps) {
+  if (maps.size() < 2) return;
+  chart["params"] =
+      Json::array({{{"name", "chosen_map"},
+                    {"value", maps.front()},
+                    {"bind", {{"input", "select"}, {"options", maps}, {"name", "Map"}}}}});
+  chart["transform"] = Json::array({{{"filter", "datum.map === chosen_map"}}});
+}
+
 std::string level_chart(const Levels& level) {
   Json rows = Json::array();
   LogRange times;
@@ -150,13 +160,7 @@ std::string level_chart(const Levels& level) {
   const Json colour = series(styles, &SeriesStyle::colour, legend);
   Json chart = base_chart(360);
   chart["data"] = {{"values", rows}};
-  if (maps = unique_names(maps); maps.size() > 1) {
-    chart["params"] =
-        Json::array({{{"name", "chosen_map"},
-                      {"value", maps.front()},
-                      {"bind", {{"input", "select"}, {"options", maps}, {"name", "Map"}}}}});
-    chart["transform"] = Json::array({{{"filter", "datum.map === chosen_map"}}});
-  }
+  choose_map(chart, unique_names(maps));
   chart["encoding"] = {{"x", log_quantity("ms", "time to make the level (ms, log)", times)},
                        {"y", log_quantity("error", "relative RMS error (log)", errors)}};
   const char* on_front = "datum.front == 'on the front'";
