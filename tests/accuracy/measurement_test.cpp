@@ -161,6 +161,34 @@ TEST(Accuracy, OfDifferentSeedsDiffers) {
   EXPECT_NE(rmse(1), rmse(2));
 }
 
+// Random points fall by the square root of their number. Sobol's do better where a monotone table
+// keeps their strata: the integrand of a diffuse sphere is smooth but for its horizon.
+TEST(Accuracy, FallsWithTheSlopeOfItsPoints) {
+  const auto chosen = [](const EstimatorInfo& info) {
+    return info.name == "environment B" || info.name == "environment B sobol";
+  };
+  const AccuracyChart chart =
+      chart_of(make_synthetic_map("gradient", {64, 32}), scene("sphere", "lambert"),
+               {.quality = {"", 1024, 16, 12}, .select = chosen});
+  const AccuracyLine& random = line_of(chart, "environment B");
+  EXPECT_NEAR(random.slope, -0.5, 5.0 * random.slope_error);
+  EXPECT_LT(random.slope_error, 0.02);
+  const AccuracyLine& sobol = line_of(chart, "environment B sobol");
+  EXPECT_LT(sobol.slope + 5.0 * sobol.slope_error, random.slope);
+}
+
+TEST(Accuracy, OfRoundsDiffersFromRoundToRound) {
+  const auto is_uniform = [](const EstimatorInfo& info) { return info.name == "uniform"; };
+  const auto rmse = [&](int rounds) {
+    return line_of(chart_of(make_synthetic_map("gradient", {32, 16}), scene("sphere", "lambert"),
+                            {.quality = {"", 1, rounds, 12}, .select = is_uniform}),
+                   "uniform")
+        .points.front()
+        .rmse;
+  };
+  EXPECT_GT(std::abs(rmse(3) / rmse(6) - 1.0), 1e-6);
+}
+
 TEST(Accuracy, RefusesAReceiverThatNoLightReaches) {
   EnvironmentMap map = make_synthetic_map("constant", {32, 16});
   for (Rgb& texel : map.radiance.values()) texel = Rgb(0.0F);

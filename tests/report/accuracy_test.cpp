@@ -50,9 +50,16 @@ TEST(SlopeFinding, SetsTheAliasTableAgainstTheMonotoneOne) {
   monotone.slope = -0.8;
   alias.slope = -0.5;
   monotone.slope_error = alias.slope_error = 0.01;
-  EXPECT_EQ(slope_finding(chart_of({monotone, alias})),
-            "The error falls with a slope of: sobol points \u22120.800 \u00b1 0.010 by the "
-            "monotone table, \u22120.500 \u00b1 0.010 by the alias table");
+  const std::string finding =
+      "sobol points fall with \u22120.800 \u00b1 0.010 by the monotone table and with "
+      "\u22120.500 \u00b1 0.010 by the alias table";
+  EXPECT_EQ(slope_finding(chart_of({monotone, alias})), finding);
+  AccuracyLine even = falling("environment B R2", "point sets");
+  AccuracyLine even_alias = falling("environment B alias R2", "point sets");
+  even.slope = even_alias.slope = -0.6;
+  even.slope_error = even_alias.slope_error = 0.01;
+  EXPECT_EQ(slope_finding(chart_of({even, even_alias, monotone, alias})),
+            finding + ": the largest difference of 2 sets");
 }
 
 TEST(AccuracyChartSpec, MarksWhatLeadsAndDashesWhatWasNotMeasured) {

@@ -15,7 +15,6 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/text_escapes.h"
-#include "lightproof/estimators/registry.h"
 #include "lightproof/recommend/recommend.h"
 #include "lightproof/report/recommendation_json.h"
 #include "outputs.h"
@@ -59,7 +58,7 @@ std::string percent(double share) {
 }
 
 std::string samples_text(const RecommendedMethod& method) {
-  if (estimator_by_name(method.estimator).ignores_budget) return "";
+  if (!method.has_samples) return "";
   return method.samples == 1 ? ", 1 sample" : fmt::format(", {} samples", method.samples);
 }
 

@@ -210,6 +210,7 @@ RecommendedMethod method_of(const Verified& verified, Extent map) {
   RecommendedMethod method;
   method.estimator = candidate.info->name;
   method.samples = candidate.samples;
+  method.has_samples = !candidate.info->ignores_budget;
   method.bytes = static_cast<std::size_t>(candidate.cost.bytes);
   method.table = table_of(*candidate.info, map);
   method.predicted_error = candidate.error.at(candidate.samples);

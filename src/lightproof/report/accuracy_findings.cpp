@@ -121,18 +121,27 @@ std::string regime_finding(const MethodRegimes& regimes) {
 }
 
 std::string slope_finding(const AccuracyChart& chart) {
-  std::string text;
+  const AccuracyLine* worst = nullptr;
+  double largest = 0.0;
+  std::size_t pairs = 0;
   for (const AccuracyLine& line : chart.lines) {
     const AccuracyLine* alias = by_alias_table(chart, line);
     if (alias == nullptr || !std::isfinite(line.slope) || !std::isfinite(alias->slope)) continue;
-    text += fmt::format("{}{} points {} by the monotone table, {} by the alias table",
-                        text.empty() ? "The error falls with a slope of: " : "; ",
-                        line.estimator.substr(std::string_view("environment B ").size()),
-                        with_error(line.slope, line.slope_error),
-                        with_error(alias->slope, alias->slope_error));
+    const double loss = alias->slope - line.slope;
+    if (pairs++ == 0 || loss > largest) {
+      worst = &line;
+      largest = loss;
+    }
   }
-  return text.empty() ? "No slopes of the same points by both kinds of table could be fitted"
-                      : text;
+  if (worst == nullptr) {
+    return "No slopes of the same points by both kinds of table could be fitted";
+  }
+  const AccuracyLine& alias = *by_alias_table(chart, *worst);
+  return fmt::format(
+      "{} points fall with {} by the monotone table and with {} by the alias table{}",
+      worst->estimator.substr(std::string_view("environment B ").size()),
+      with_error(worst->slope, worst->slope_error), with_error(alias.slope, alias.slope_error),
+      pairs == 1 ? "" : fmt::format(": the largest difference of {} sets", pairs));
 }
 
 }  // namespace lightproof

@@ -22,12 +22,13 @@ struct Slope {
   const AccuracyLine* line;
 };
 
-/// "sobol" of "brdf sobol" after "brdf"; "random" of "brdf" itself; empty of others.
-std::string points_after(std::string_view estimator, std::string_view source) {
+/// "sobol" of the point set "brdf sobol" after "brdf"; "random" of "brdf" itself; empty of others.
+std::string points_after(const AccuracyLine& line, std::string_view source) {
+  const std::string_view estimator = line.estimator;
   if (estimator == source) return kIndependent;
-  if (!estimator.starts_with(source) || estimator[source.size()] != ' ') return "";
+  if (line.family != "point sets" || !estimator.starts_with(source)) return "";
   const std::string_view rest = estimator.substr(source.size() + 1);
-  return rest.find(' ') == std::string_view::npos && rest != "alias" ? std::string(rest) : "";
+  return rest.find(' ') == std::string_view::npos ? std::string(rest) : "";
 }
 
 std::vector<Slope> slopes_of(const AccuracyChart& chart) {
@@ -35,7 +36,7 @@ std::vector<Slope> slopes_of(const AccuracyChart& chart) {
   for (const AccuracyLine& line : chart.lines) {
     if (!std::isfinite(line.slope)) continue;
     const auto add = [&](std::string_view source, const char* name) {
-      std::string points = points_after(line.estimator, source);
+      std::string points = points_after(line, source);
       if (!points.empty()) slopes.push_back({std::move(points), name, &line});
     };
     add(kMonotone, "monotone table of the map");

@@ -22,9 +22,14 @@ Cell error_cell(const RecommendedMethod& method) {
           "number", percent(method.predicted_error) + " predicted"};
 }
 
+/// "environment B, 64 samples".
+std::string name_of(const RecommendedMethod& method) {
+  if (!method.has_samples) return method.estimator;
+  return fmt::format("{}, {}", method.estimator, counted(method.samples, "sample"));
+}
+
 std::string choice_text(const RecommendedMethod& method, double error) {
-  return fmt::format("{}, {}, {} error", method.estimator, counted(method.samples, "sample"),
-                     percent(error));
+  return fmt::format("{}, {} error", name_of(method), percent(error));
 }
 
 /// "3 MiB, 512×256".
@@ -36,8 +41,7 @@ std::string memory_text(const RecommendedMethod& method) {
 
 std::string rival_text(const std::optional<RecommendedMethod>& rival) {
   if (!rival) return "none";
-  return fmt::format("{}, {}, {}", rival->estimator, counted(rival->samples, "sample"),
-                     seconds_text(1e-3 * rival->milliseconds));
+  return fmt::format("{}, {}", name_of(*rival), seconds_text(1e-3 * rival->milliseconds));
 }
 
 std::string recommendation_table(const std::vector<Recommendation>& recommendations) {
@@ -52,7 +56,7 @@ std::string recommendation_table(const std::vector<Recommendation>& recommendati
                {seconds_text(1e-3 * r.choice.milliseconds), "number", ""},
                {seconds_text(1e-3 * r.choice.set_up_milliseconds), "number", ""},
                {memory_text(r.choice), "number", ""},
-               text_cell(rival_text(r.runner_up)),
+               {rival_text(r.runner_up), "detail", ""},
                {why, "detail", ""}});
   }
   return table.html();

@@ -58,10 +58,11 @@ std::string pair_of(const std::vector<WarpGrid>& grids, const std::string& map) 
 }
 
 constexpr std::string_view kNote =
-    "A grid of 32\u00d732 points of the unit square, where the table takes them on the map (zenith "
+    "A grid of 31\u00d731 points of the unit square, where the table takes them on the map (zenith "
     "at the top); the colour tells the column of the grid, from blue to orange. A monotone table "
     "bends the grid, and neighbours stay neighbours: what was spread evenly stays so where the "
-    "light is. An alias table draws the same density, and tears the grid apart.";
+    "light is. An alias table draws the same density, and tears the grid apart: one of the two "
+    "numbers chooses the texel, so that a column of the grid falls on one texel and its alias.";
 
 }  // namespace
 

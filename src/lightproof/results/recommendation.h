@@ -15,7 +15,8 @@ namespace lightproof {
 /// An estimator with a number of samples, what it is expected to do, and what it did.
 struct RecommendedMethod {
   std::string estimator;      ///< name in the registry of estimators
-  std::uint64_t samples = 0;  ///< of one shading point; 1 where their number is without meaning
+  std::uint64_t samples = 0;  ///< of one shading point; 1 if has_samples is false
+  bool has_samples = true;    ///< whether their number has a meaning: not for a look-up
   std::size_t bytes = 0;      ///< memory beside the map itself
   /// Size of the table that directions are drawn from; 0 x 0 if there is none.
   Extent table = {0, 0};

@@ -10,7 +10,8 @@
 namespace lightproof {
 namespace {
 
-constexpr int kSide = 32;
+/// A prime number: steps of a grid that divide the map's texels evenly would fall on one column.
+constexpr int kSide = 31;
 
 double degrees_between(SquarePoint a, SquarePoint b) {
   const double cosine = glm::dot(direction_from_square(a), direction_from_square(b));

@@ -9,7 +9,7 @@
 
 namespace lightproof {
 
-/// Two grids of 32 x 32 points for each map, by density B: by binary_search, then by alias.
+/// Two grids of 31 x 31 points for each map, by density B: by binary_search, then by alias.
 std::vector<WarpGrid> study_warp_grids(std::span<const EnvironmentMap> maps);
 
 }  // namespace lightproof
