@@ -177,6 +177,18 @@ TEST(Accuracy, FallsWithTheSlopeOfItsPoints) {
   EXPECT_LT(sobol.slope + 5.0 * sobol.slope_error, random.slope);
 }
 
+// The slope is fitted to points that know nothing of each other.
+TEST(Accuracy, OfEachNumberOfSamplesHasRandomNumbersOfItsOwn) {
+  const auto is_uniform = [](const EstimatorInfo& info) { return info.name == "uniform"; };
+  const AccuracyChart chart =
+      chart_of(make_synthetic_map("gradient", {32, 16}), scene("sphere", "lambert"),
+               {.quality = kSmall, .select = is_uniform, .samples = [](const EstimatorInfo&) {
+                  return std::vector<std::uint64_t>{16, 16};
+                }});
+  const std::vector<AccuracyPoint>& points = line_of(chart, "uniform").points;
+  EXPECT_GT(std::abs(points[0].rmse / points[1].rmse - 1.0), 1e-6);
+}
+
 TEST(Accuracy, OfRoundsDiffersFromRoundToRound) {
   const auto is_uniform = [](const EstimatorInfo& info) { return info.name == "uniform"; };
   const auto rmse = [&](int rounds) {

@@ -366,8 +366,8 @@ std::vector<Recommendation> recommendations() {
   first.error = 0.05;
   first.shading_points = 307200;
   first.choice = {
-      "environment B alias", 64, 3163136, {512, 256}, 0.048, false, 0.049, 0.002, 0.012, 8.1};
-  first.runner_up = RecommendedMethod{"mis balance", 81, 3163136, {}, 0.05};
+      "environment B alias", 64, true, 3163136, {512, 256}, 0.048, false, 0.049, 0.002, 0.012, 8.1};
+  first.runner_up = RecommendedMethod{"split-sum", 1, false, 3163136, {}, 0.05};
   first.reason = "Small lights rule this map, and the material is rough.";
   first.unreached = {{"precomputed", "its floor is 8 %"}};
   all[1] = all[0];
