@@ -14,5 +14,8 @@ add_custom_target(lightproof_pages ALL DEPENDS ${pages}/man1/lightproof.1)
 install(DIRECTORY ${pages}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT runtime)
 install(FILES ${pages}/bash/lightproof COMPONENT runtime
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-install(FILES ${pages}/zsh/_lightproof COMPONENT runtime
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+# Debian's zsh looks below /usr in a folder of its own.
+foreach(folder site-functions vendor-completions)
+  install(FILES ${pages}/zsh/_lightproof COMPONENT runtime
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${folder})
+endforeach()
