@@ -22,4 +22,6 @@ install(FILES cmake/lightproofConfig.cmake cmake/Dependencies.cmake
   COMPONENT development)
 include(PkgConfig)
 include(Pages)
-include(Package)
+if(PROJECT_IS_TOP_LEVEL)
+  include(Package)
+endif()
