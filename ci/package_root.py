@@ -59,7 +59,7 @@ def closure(deb, own):
 def copy(paths):
     """Symbolic links of the root, as /lib, stay."""
     made = subprocess.run(["tar", "-C", "/", "-c", "--no-recursion", "-T", "-"], check=True,
-                          input="\n".join(paths).encode(), stdout=subprocess.PIPE).stdout
+                          input="\n".join(path.lstrip("/") for path in paths).encode(), stdout=subprocess.PIPE).stdout
     subprocess.run(["tar", "-C", root, "-x", "--keep-directory-symlink"], input=made, check=True)
 
 

@@ -14,19 +14,19 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME lightproof)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
-set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "${PROJECT_DESCRIPTION}
- Given an environment map, it asks of every importance sampler whether it draws
- the right distribution, how fast it converges and how fast it runs; it tests
- samples that other programs drew, and makes prefiltered maps with known errors.")
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
+"Given an environment map, it asks of every importance sampler whether it draws
+the right distribution, how fast it converges and how fast it runs; it tests
+samples that other programs drew, and makes prefiltered maps with known errors.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblightproof-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # Static libraries: their users link to the same libraries as the program.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libembree-dev, libfmt-dev, libglm-dev, libhwy-dev, libopenexr-dev, libopenimageio-dev, librandom123-dev, libsqlite3-dev, libtbb-dev, nlohmann-json3-dev, pkg-config")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION} (development)
- Headers, static libraries, a CMake package and a pkg-config file, with which
- another program tests its own samplers.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
+"This package has headers, static libraries, a CMake package and a pkg-config
+file, with which another program tests its own samplers.")
 foreach(package lightproof liblightproof-dev)
   set(component runtime)
   if(package MATCHES "-dev$")
