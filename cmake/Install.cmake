@@ -5,16 +5,23 @@ include(CMakePackageConfigHelpers)
 
 get_property(modules GLOBAL PROPERTY LIGHTPROOF_MODULES)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/lightproof)
-install(TARGETS ${modules} lightproof_all EXPORT lightproof)
-install(TARGETS lightproof RUNTIME)
+install(TARGETS ${modules} lightproof_all EXPORT lightproof COMPONENT development)
+install(TARGETS lightproof RUNTIME COMPONENT runtime)
 install(EXPORT lightproof NAMESPACE lightproof:: FILE lightproofTargets.cmake
-  DESTINATION ${package_folder})
-install(DIRECTORY src/lightproof DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  DESTINATION ${package_folder} COMPONENT development)
+install(DIRECTORY src/lightproof DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
   FILES_MATCHING PATTERN "*.h" PATTERN "*-inl.h" EXCLUDE PATTERN "cli" EXCLUDE
   PATTERN "assets" EXCLUDE)
 install(DIRECTORY reference DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lightproof
+  COMPONENT development
   FILES_MATCHING PATTERN "*.h")
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/lightproofConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES cmake/lightproofConfig.cmake cmake/Dependencies.cmake
-  ${CMAKE_CURRENT_BINARY_DIR}/lightproofConfigVersion.cmake DESTINATION ${package_folder})
+  ${CMAKE_CURRENT_BINARY_DIR}/lightproofConfigVersion.cmake DESTINATION ${package_folder}
+  COMPONENT development)
+include(PkgConfig)
+include(Pages)
+if(PROJECT_IS_TOP_LEVEL)
+  include(Package)
+endif()
