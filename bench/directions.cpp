@@ -1,11 +1,11 @@
 // Time to draw one direction with its density per steradian, which is what a renderer needs:
 // directions/<sampler>/<map>/<W>x<H>/<density>/<order>.
 //
-//   scalar   one at a time, at random points that were generated beforehand
-//   ahead    the same, each point prefetched eight samples before it is drawn
-//   batch    the same points, in batches
-//   fused    in batches, random numbers included
-//   places   as fused, but as positions over the map with their density over it
+//   scalar     one at a time, at random points that were generated beforehand
+//   ahead      the same, each sample begun (prepare) eight samples before it is finished
+//   batch      the same points, in batches
+//   fused      in batches, random numbers included
+//   positions  as fused, but as positions over the map with their density over it
 //
 // All carry times_baseline, how many times as fast they are as the usual way: std::upper_bound over
 // sums in float, and the library's sine and cosine. `fused` carries share_of_limit too, of the
@@ -39,7 +39,7 @@
 namespace lightproof::bench {
 namespace {
 
-/// How many samples lie between the prefetch of a point and its draw.
+/// How many samples lie between the beginning and the end of one: a power of two.
 constexpr std::size_t kAhead = 8;
 
 /// Directions of one batch.
@@ -102,10 +102,11 @@ template <class Sampler>
 auto draw_ahead(const Sampler& sampler) {
   return [&sampler](std::uint64_t first) {
     const std::span<const SquarePoint> points = batch_of_points(first);
-    for (std::size_t i = 0; i < kAhead; ++i) sampler.prefetch(points[i]);
+    std::array<decltype(sampler.prepare(points[0])), kAhead> begun;
+    for (std::size_t i = 0; i < kAhead; ++i) begun[i] = sampler.prepare(points[i]);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      sampler.prefetch(points[std::min(i + kAhead, points.size() - 1)]);
-      const LightSample sample = sample_direction(sampler, points[i]);
+      const LightSample sample = finish_direction(sampler, begun[i % kAhead]);
+      begun[i % kAhead] = sampler.prepare(points[std::min(i + kAhead, points.size() - 1)]);
       benchmark::DoNotOptimize(sample);
     }
   };
@@ -132,7 +133,7 @@ auto draw_fused(const Sampler& sampler) {
 }
 
 template <class Sampler>
-auto draw_places(const Sampler& sampler) {
+auto draw_positions(const Sampler& sampler) {
   return [&sampler,
           samples = std::make_shared<std::vector<TexelSample>>(kBatch)](std::uint64_t first) {
     sample(sampler, fused_stream(), first, *samples);
@@ -169,7 +170,7 @@ void time_against(benchmark::State& state, const Draw& draw, const Baseline& bas
   state.counters["times_baseline"] = mean / state.counters["ns_per_sample"];
 }
 
-enum class Order { scalar, ahead, batch, fused, places };
+enum class Order { scalar, ahead, batch, fused, positions };
 
 template <class Sampler>
 void time_order(benchmark::State& state, const Sampler& sampler, const Baselines& baselines,
@@ -180,14 +181,14 @@ void time_order(benchmark::State& state, const Sampler& sampler, const Baselines
     case Order::scalar:
       return time_against(state, draw_scalar(ours), draw_scalar(usual));
     case Order::ahead:
-      if constexpr (PrefetchingSampler<Sampler>) {
+      if constexpr (PreparingSampler<Sampler>) {
         return time_against(state, draw_ahead(sampler), draw_scalar(usual));
       }
       return;
     case Order::batch:
       return time_against(state, draw_batch_of(sampler), draw_scalar(usual));
-    case Order::places:
-      return time_against(state, draw_places(sampler), draw_fused_baseline(baselines.baseline));
+    case Order::positions:
+      return time_against(state, draw_positions(sampler), draw_fused_baseline(baselines.baseline));
     case Order::fused: {
       const double before = ns_per_sample(draw_limit(baselines.limit));
       time_against(state, draw_fused(sampler), draw_fused_baseline(baselines.baseline));
@@ -245,11 +246,11 @@ constexpr std::array<OrderInfo, 5> kOrders = {{{Order::scalar, "scalar"},
                                                {Order::ahead, "ahead"},
                                                {Order::batch, "batch"},
                                                {Order::fused, "fused"},
-                                               {Order::places, "places"}}};
+                                               {Order::positions, "positions"}}};
 
-bool prefetches(const SamplerInfo& info) {
+bool prepares(const SamplerInfo& info) {
   static const EnvironmentMap small = map_of({16, 8});
-  return std::visit([]<class Sampler>(const Sampler&) { return PrefetchingSampler<Sampler>; },
+  return std::visit([]<class Sampler>(const Sampler&) { return PreparingSampler<Sampler>; },
                     info.make(small, DensitySpace::texture));
 }
 
@@ -274,7 +275,7 @@ void register_baselines(Extent extent, DensitySpace density_space) {
 
 void register_orders(const SamplerInfo& info, Extent extent, DensitySpace density_space) {
   for (const auto& [order, order_name] : kOrders) {
-    if (order == Order::ahead && !prefetches(info)) continue;
+    if (order == Order::ahead && !prepares(info)) continue;
     benchmark::RegisterBenchmark(
         name_of(info.name, extent, density_space, order_name).c_str(),
         [&info, extent, density_space, order = order](benchmark::State& state) {

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lightproof/accuracy/timing.h"
 #include "lightproof/core/random.h"
 
 namespace lightproof::bench {
@@ -29,35 +30,38 @@ inline const RandomStream& fused_stream() {
   return stream;
 }
 
-/// Calls draw(first) for every kBatch points of a stream, or of the pool, on and on.
+/// Calls draw(first) for every kBatch points of a stream, or of the pool, on and on. The time of a
+/// sample is processor time, so that other work on the machine does not count.
 template <class Draw>
 void time_batches(benchmark::State& state, const Draw& draw) {
   std::uint64_t first = 0;
   for (int warm = 0; warm < 4; ++warm, first += kBatch) draw(first);
-  const auto start = Clock::now();
+  const double start = thread_seconds();
   for (auto _ : state) {
     draw(first);
     first += kBatch;
   }
   const double samples = static_cast<double>(state.iterations()) * static_cast<double>(kBatch);
-  state.counters["ns_per_sample"] = nanoseconds_since(start) / samples;
+  state.counters["ns_per_sample"] = 1e9 * (thread_seconds() - start) / samples;
   state.SetItemsProcessed(static_cast<std::int64_t>(samples));
 }
 
-/// Median of five slices of 5 ms.
+/// Processor time of a sample: the median of five slices of 5 ms.
 template <class Draw>
 double ns_per_sample(const Draw& draw) {
   static std::uint64_t first = 0;
   std::array<double, 5> slices;
   draw(first);
   for (double& slice : slices) {
-    const auto start = Clock::now();
+    const double start = thread_seconds();
+    double seconds = 0.0;
     double samples = 0.0;
     do {
       draw(first += kBatch);
       samples += kBatch;
-    } while (nanoseconds_since(start) < 5e6);
-    slice = nanoseconds_since(start) / samples;
+      seconds = thread_seconds() - start;
+    } while (seconds < 5e-3);
+    slice = 1e9 * seconds / samples;
   }
   std::ranges::nth_element(slices, slices.begin() + 2);
   return slices[2];

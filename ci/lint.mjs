@@ -2,9 +2,9 @@
 // made of has changed: its own text, our headers, the compile command, .clang-tidy. Exit 1 if there
 // are findings. Arguments name files: only what these belong to is checked.
 //
-// Files of the product are compiled one by one, so that an include which is missing is missed. Tests
-// go in groups, as one text each, most of which is the headers: a quarter of the time. They stand
-// in the opposite order of that in which the build takes them.
+// Files go in groups, as one text each, most of which is the headers: a third of the time. They
+// stand in the opposite order of that in which the build takes them, so that an include which is
+// missing is missed by one of both; ci/sanitize compiles each on its own.
 import { execFile, execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
@@ -16,12 +16,13 @@ import { groupsOf } from "./unity.mjs";
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "..");
 const stamps = join(root, "build", "lint");
 const build = join(stamps, "commands");
-const texts = join(stamps, "tests");
+const texts = join(stamps, "groups");
 const tidy = "clang-tidy-22";
 
 const isOurs = (path) => path.startsWith(root + sep);
 const isGenerated = (path) => path.startsWith(join(root, "build") + sep);
 const isTest = (path) => path.startsWith(join(root, "tests") + sep);
+const isProduct = (path) => path.startsWith(join(root, "src") + sep);
 
 /** The commands that compile each source on its own, and the headers that they need generated. */
 function configure() {
@@ -76,13 +77,13 @@ function inFiles(findings, { file, parts }) {
   return first + moved.join("");
 }
 
-/** What clang-tidy runs over: a file of the product, or some tests that have a command in common. */
+/** What clang-tidy runs over: a file, or some of a folder that have a command in common. */
 function units() {
   const singles = [];
   const alike = new Map();
   for (const unit of commandsOfSources()) {
     const key = `${dirname(unit.file)} ${unit.command.replaceAll(unit.file, "")}`;
-    const isAlone = !isTest(unit.file) || /^int main\(/m.test(content(unit.file).toString());
+    const isAlone = /^int main\(/m.test(content(unit.file).toString());
     if (isAlone) singles.push({ ...unit, parts: [{ file: unit.file }] });
     else alike.set(key, [...(alike.get(key) ?? []), unit]);
   }
@@ -99,7 +100,7 @@ function unitOf(group) {
   const parts = joined(group.map(({ file }) => file));
   const text = parts.map((part) => part.text).join("");
   const folder = dirname(first.file);
-  const file = join(texts, `${relative(join(root, "tests"), first.file).replaceAll(sep, "_")}`);
+  const file = join(texts, isTest(first.file) ? "tests" : "", relative(root, first.file).replaceAll(sep, "_"));
   writeFileSync(file, text);
   const command = first.command.replaceAll(first.file, file).replace(" -c ", ` -iquote ${folder} -c `);
   return { ...first, file, command, parts };
@@ -140,8 +141,8 @@ function content(path) {
  * The path analysis takes most of the time: only the product's own code gets it, and it follows
  * calls no deeper than its shallow mode does.
  */
-function checks({ file }) {
-  if (!file.startsWith(join(root, "src") + sep)) return ["--checks=-clang-analyzer-*"];
+function checks({ parts }) {
+  if (!isProduct(parts[0].file)) return ["--checks=-clang-analyzer-*"];
   const words = ["-Xclang", "-analyzer-config", "-Xclang", "mode=shallow"];
   return words.map((word) => `--extra-arg=${word}`);
 }
@@ -170,8 +171,8 @@ function lint(unit) {
   });
 }
 
-mkdirSync(texts, { recursive: true });
-copyFileSync(join(root, "tests", ".clang-tidy"), join(texts, ".clang-tidy"));
+mkdirSync(join(texts, "tests"), { recursive: true });
+copyFileSync(join(root, "tests", ".clang-tidy"), join(texts, "tests", ".clang-tidy"));
 configure();
 const known = new Set(readdirSync(stamps));
 const commands = units();

@@ -46,8 +46,9 @@ Lobe half_vector_lobe(double shininess);
 /// The mean of a map over the lobe around an axis.
 glm::dvec3 prefiltered(const Grid<Rgb>& map, const Lobe& lobe, Direction axis);
 
-/// The same at the texel centres of a grid. Columns of one row see the map turned about the poles:
-/// where the map's width is a multiple of the grid's, they share their integrals.
+/// The means of a map over the lobe around the texel centres of a grid. Columns of one row see the
+/// map turned about the poles: where the map's width is a multiple of the grid's, they share their
+/// integrals.
 Grid<glm::dvec3> prefiltered(const Grid<Rgb>& map, const Lobe& lobe, Extent extent);
 
 /// What a surface of one BRDF, given as f_r (n·l)+ of the direction of light, reflects of the map:

@@ -39,12 +39,13 @@ struct NormalDistribution {
 /// sides of a normal mirror alike, so that every direction of the sphere has one normal.
 UniformChart mirrored_at_normals(NormalDistribution distribution, Direction view);
 
-/// The same at the normals that the view sees, those of GGX. Coordinates are those of the projected
-/// hemisphere: an abscissa of a half disc and half ellipse, and the share of the chord there (Heitz
-/// 2018, section 3).
+/// Directions that the view is mirrored to at the normals that it sees, those of GGX. Coordinates
+/// are those of the projected hemisphere: an abscissa of a half disc and half ellipse, and the
+/// share of the chord there (Heitz 2018, section 3).
 UniformChart mirrored_at_visible_normals(double alpha, Direction view);
 
-/// The same at the part of the visible normals that bounds a spherical cap: as `view` sees the
+/// Directions that the view is mirrored to at the part of the visible normals that bounds a
+/// spherical cap: as `view` sees the
 /// hemisphere of normals, directions are uniform above the height of the lowest one that is above
 /// the surface (Tokuyoshi & Eto 2023). Coordinates are height and azimuth on the cap.
 UniformChart mirrored_at_bounded_normals(double alpha, Direction view);

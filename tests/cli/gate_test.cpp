@@ -93,6 +93,15 @@ TEST(Gate, RefusesToCallNothingAcceptance) {
                     HasSubstr("density C draws the same texels"), HasSubstr("--resample")));
 }
 
+TEST(Gate, RefusesAMapOnWhichNothingIsTestedBesideOthersThatAre) {
+  const TemporaryFolder folder;
+  write_map(folder / "faces.exr", {48, 8});
+  const Finished gate = lightproof({"gate", "constant", (folder / "faces.exr").string(), "--size",
+                                    "64x32", "--preset", "cube", "--density", "B", "-n", "65536"});
+  EXPECT_EQ(gate.exit_code, 2);
+  EXPECT_THAT(gate.err, AllOf(HasSubstr("faces"), HasSubstr("nothing is left to test")));
+}
+
 TEST(Gate, LooksLikeAPassWhereItPasses) {
   const TemporaryFolder folder;
   const Finished gate =

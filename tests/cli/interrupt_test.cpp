@@ -56,9 +56,10 @@ class StudyPhase : public testing::TestWithParam<const char*> {};
 
 TEST_P(StudyPhase, StopsSoonAndLeavesNothing) {
   const TemporaryFolder folder;
-  Process study(on_terminal(
-      {"study", "constant", "--size", "32x16", "-n", "65536", "--no-throughput", "-o", "report"},
-      folder / ""));
+  Words words = {"study", "constant",        "--size", "32x16", "-n",
+                 "65536", "--no-throughput", "-o",     "report"};
+  if (GetParam() == std::string_view("convergence")) words.emplace_back("--no-accuracy");
+  Process study(on_terminal(words, folder / ""));
   ASSERT_TRUE(study.wait_for_err(GetParam(), seconds(300)));
   expect_interrupted(interrupt(study));
   EXPECT_THAT(names_in(folder / "report"), IsEmpty());

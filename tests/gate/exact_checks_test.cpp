@@ -2,8 +2,10 @@
 // is.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string_view>
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
@@ -103,6 +105,32 @@ TEST(ExactChecks, AcceptEveryHeightFrom1To70WithLightAnywhere) {
                       "noise over three orders of magnitude");
     }
   }
+}
+
+// t grows from the nadir to the zenith: one row more is one row above.
+TEST(Inspection, NamesTheRowWhosePdfIsReturned) {
+  const Extent extent = {16, 16};
+  const EnvironmentMap map =
+      map_of(extent, [](int x, int y) { return 1.0F + static_cast<float>(17 * y + x % 3); });
+  const SamplerUnderTest under_test =
+      sampler_under_test(sampler_by_name("binary_search"), DensitySpace::texture);
+  const Expectation expectation = expectation_of(map, under_test.target);
+  const auto name_at = [&](double rows) {
+    BoundSampler sampler = under_test.bind(map);
+    const BoundSampler right = under_test.bind(map);
+    sampler.sample = [right, rows](std::span<const SquarePoint> points,
+                                   std::span<TexelSample> samples) {
+      right.sample(points, samples);
+      for (TexelSample& sample : samples) {
+        const double t = std::clamp(sample.at.t + rows / 16.0, 0.0, 1.0 - 0x1p-53);
+        sample.pdf = right.pdf({sample.at.s, t});
+      }
+    };
+    return inspect(sampler, expectation, {}).returned_pdf_of.value_or("nothing");
+  };
+  EXPECT_EQ(name_at(1.0), "one row above");
+  EXPECT_EQ(name_at(-1.0), "one row below");
+  EXPECT_EQ(name_at(0.0), "nothing");
 }
 
 }  // namespace

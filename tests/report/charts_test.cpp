@@ -110,13 +110,26 @@ TEST(TableChart, MarksWhatIsNotBeatenOnTheLargestMap) {
 }
 
 TEST(DirectionsFigure, SaysHowFastBatchesAndSinglesAreAndHowDensitiesDiffer) {
-  const std::vector<DirectionRecord> records = testing::synthetic_study().directions;
+  std::vector<DirectionRecord> records = testing::synthetic_study().directions;
+  const Extent extent = {2048, 1024};
+  const std::size_t count = records.size();
+  // Of another size, and faster than all: it has a chart of its own.
+  records.push_back(
+      {"packed_alias", "sun-sky", {8192, 4096}, "B", DrawOrder::fused, 1.0, 99.0, 0.9});
   EXPECT_EQ(
-      directions_finding(records),
-      "In batches packed_alias draws a direction 50 times as fast as the usual way, one at a "
+      directions_finding(records, extent),
+      "On 2048\u00d71024 in batches packed_alias draws a direction 50 times as fast as the usual "
+      "way, one at a "
       "time packed_alias 7.5 times; of packed_alias, B takes 1.10 and C 1 times as long as A");
-  const json chart = json::parse(directions_chart(records));
-  EXPECT_EQ(chart["data"]["values"].size(), records.size());
+  const json chart = json::parse(directions_chart(records, extent));
+  ASSERT_EQ(chart["data"]["values"].size(), count);
+  EXPECT_EQ(chart["data"]["values"][2]["busy"], "quiet");
+  EXPECT_EQ(chart["data"]["values"][3]["busy"], "busy");
+  const std::string figure = directions_figure(records);
+  EXPECT_NE(figure.find("directions-chart-2048"), std::string::npos);
+  EXPECT_NE(figure.find("On 8192\u00d74096 in batches packed_alias draws a direction 99 times"),
+            std::string::npos);
+  EXPECT_NE(figure.find("busy, 1.3"), std::string::npos);
   EXPECT_EQ(chart["layer"][0]["encoding"]["color"]["field"], "density");
   EXPECT_EQ(directions_figure({}), "");
 }

@@ -48,6 +48,20 @@ TEST(Junit, HasOneCaseATestWithEverythingNeededToRepeatIt) {
   EXPECT_THAT(xml, Not(HasSubstr("b<c>")));
 }
 
+TEST(CiOutputs, NameWhatWasLeftOut) {
+  GateResult gate = gate_with(0);
+  gate.left_out = {{"alias", "B", "cube", "no rows of one height"},
+                   {"guide_table", "B", "cube", "no rows of one height"},
+                   {"bilinear", "C", "cube", "no such <look-up>"}};
+  const std::string xml = gate_junit(gate, true);
+  EXPECT_THAT(xml, HasSubstr("tests=\"4\" failures=\"0\" errors=\"0\" skipped=\"3\""));
+  EXPECT_THAT(xml, HasSubstr("<skipped message=\"left out: no such &lt;look-up&gt;\"/>"));
+  for (const std::string& text : {gate_markdown(gate, true), gate_annotations(gate, true)}) {
+    EXPECT_THAT(text, HasSubstr("cube, density B: 2 samplers left out: no rows of one height"));
+    EXPECT_THAT(text, HasSubstr("cube, density C: 1 sampler left out: no such"));
+  }
+}
+
 TEST(ReplayCommand, IsQuotedAndComplete) {
   GateResult gate = gate_with(1);
   gate.input_options = " --repair";

@@ -235,11 +235,14 @@ TEST_P(Batch, OfDirectionsAtGivenPointsAndDirectionsOneByOneLieAtTheSamplesPosit
             Directions directions(points.size());
             sample_directions(sampler, points, directions.batch());
             for (std::size_t i = 0; i < points.size(); ++i) {
-              if constexpr (PrefetchingSampler<std::remove_cvref_t<decltype(sampler)>>) {
-                sampler.prefetch(points[i]);
-              }
               const TexelSample sample = sampler.sample(points[i]);
               expect_same_direction(directions[i], sample, extent);
+              if constexpr (PreparingSampler<std::remove_cvref_t<decltype(sampler)>>) {
+                // Begun, then others, then finished: no sample knows of another.
+                const auto prepared = sampler.prepare(points[i]);
+                sampler.prepare(points[points.size() - 1 - i]);
+                expect_same_direction(finish_direction(sampler, prepared), sample, extent);
+              }
               expect_same_direction(sample_direction(sampler, points[i]), sample, extent);
             }
           },

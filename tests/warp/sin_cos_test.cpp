@@ -41,5 +41,17 @@ TEST(SinCosOfTurns, AreExactBesideTheirZeros) {
   }
 }
 
+TEST(SinCosOfSmall, AreExactToSomeRoundings) {
+  // Three roundings and what the series leave out, which is less than another.
+  constexpr long double kRoundings = 4.0L * 0x1p-53L;
+  for (int i = 0; i <= 20'000; ++i) {
+    const double angle = kSmallAngle * i / 20'000.0;
+    const long double exact = angle;
+    const SinCosOfTurns found = sin_cos_of_small(angle);
+    EXPECT_LE(std::abs(found.sin - std::sin(exact)), kRoundings * std::sin(exact)) << angle;
+    EXPECT_LE(std::abs(found.cos - std::cos(exact)), kRoundings) << angle;
+  }
+}
+
 }  // namespace
 }  // namespace lightproof

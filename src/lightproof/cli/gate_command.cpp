@@ -82,10 +82,16 @@ Judged run_on(std::span<const TestCase> test_cases, const Options& options) {
   return judged;
 }
 
-/// Nothing that was asked for can be tested on these maps: no verdict is no acceptance.
-[[noreturn]] void refuse_as_nothing_is_left(const LeftOut& first) {
-  throw InputError(fmt::format("{}: nothing is left to test: {} {}: {}, or --resample", first.map,
-                               first.sampler, first.density_space, first.reason));
+/// Throws InputError if nothing that was asked for can be tested on one of the maps: no verdict is
+/// no acceptance.
+void refuse_untested_maps(const std::vector<TestCase>& test_cases,
+                          const std::vector<LeftOut>& left_out) {
+  for (const LeftOut& first : left_out) {
+    const auto is_of_map = [&](const TestCase& test_case) { return test_case.map == first.map; };
+    if (std::ranges::any_of(test_cases, is_of_map)) continue;
+    throw InputError(fmt::format("{}: nothing is left to test: {} {}: {}, or --resample", first.map,
+                                 first.sampler, first.density_space, first.reason));
+  }
 }
 
 int run(const Options& options) {
@@ -100,7 +106,7 @@ int run(const Options& options) {
   const std::vector<TestCase> test_cases =
       test_cases_of(maps, chosen.of_maps, chosen.of_directions);
   std::vector<LeftOut> left_out = left_out_on(maps, chosen.of_maps);
-  if (test_cases.empty() && !left_out.empty()) refuse_as_nothing_is_left(left_out.front());
+  refuse_untested_maps(test_cases, left_out);
   if (!options.rejections.empty()) {
     check_folder(options.rejections, options.force, names_of_rejections(test_cases),
                  options.command_line);

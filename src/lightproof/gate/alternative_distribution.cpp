@@ -1,10 +1,12 @@
 #include "lightproof/gate/alternative_distribution.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 #include "lightproof/core/measure.h"
 #include "lightproof/warp/lat_long.h"
@@ -402,7 +404,9 @@ const AlternativeDistribution& alternative_distribution(std::string_view name) {
   const auto* found = std::find_if(
       kAlternatives.begin(), kAlternatives.end(),
       [&](const AlternativeDistribution& distribution) { return distribution.name == name; });
-  assert(found != kAlternatives.end());
+  if (found == kAlternatives.end()) {
+    throw std::invalid_argument(fmt::format("no distribution is called '{}'", name));
+  }
   return *found;
 }
 

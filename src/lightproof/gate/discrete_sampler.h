@@ -36,7 +36,7 @@ class DiscreteSampler {
   /// density space.
   DiscreteSampler(Grid<double> masses, DensitySpace density_space)
       : DiscreteSampler(std::move(masses), lightproof::position_measure(density_space)) {}
-  /// As above, with positions that are uniform in this measure.
+  /// Samples texels of these masses, which sum to 1, at positions that are uniform in this measure.
   DiscreteSampler(Grid<double> masses, MapMeasure positions, const Mapping& mapping = {});
 
   TexelSample sample(SquarePoint u) const;

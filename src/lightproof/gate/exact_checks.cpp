@@ -41,11 +41,11 @@ constexpr std::array<OtherPlace, 6> kOtherPlaces = {{
      [](SquarePoint at, Extent map) {
        return SquarePoint{std::fmod(at.s + 1.0 - 1.0 / map.width, 1.0), at.t};
      }},
-    {"one row below",
+    {"one row above",
      [](SquarePoint at, Extent map) {
        return SquarePoint{at.s, std::min(at.t + 1.0 / map.height, 1.0 - 0x1p-53)};
      }},
-    {"one row above",
+    {"one row below",
      [](SquarePoint at, Extent map) {
        return SquarePoint{at.s, std::max(at.t - 1.0 / map.height, 0.0)};
      }},

@@ -6,7 +6,8 @@
 
 namespace lightproof {
 
-/// Of the directions that a material draws where the normal is +z and the view a unit vector above.
+/// The distribution of the directions that a material draws where the normal is +z and the view a
+/// unit vector above.
 DirectionDistribution distribution_of(const Material& material, Direction view);
 
 }  // namespace lightproof

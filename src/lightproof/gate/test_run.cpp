@@ -118,6 +118,24 @@ void add_positions(Records& records, const Expectation& expectation, const Draws
 }
 
 constexpr const char* kNoPdf = "the source tells no density at given positions";
+constexpr const char* kNoTransform =
+    "no Rosenblatt transform of this distribution is known, which would make its samples uniform";
+/// The tests of samples that the Rosenblatt transform has made uniform.
+constexpr std::array<TestId, 15> kTransformed = {TestId::phi,
+                                                 TestId::theta,
+                                                 TestId::transformed_pair,
+                                                 TestId::positions_first_row,
+                                                 TestId::positions_between,
+                                                 TestId::positions_last_row,
+                                                 TestId::independence_lag_1,
+                                                 TestId::independence_lag_2,
+                                                 TestId::independence_lag_4,
+                                                 TestId::independence_lag_8,
+                                                 TestId::independence_lag_16,
+                                                 TestId::independence_lag_32,
+                                                 TestId::independence_lag_64,
+                                                 TestId::run_sums_theta,
+                                                 TestId::run_sums_phi};
 constexpr const char* kNoPoints = "the source does not draw at given random numbers";
 
 }  // namespace
@@ -215,6 +233,11 @@ std::vector<Measured> test_draws(const TestRun& run, const Expectation& expectat
     records.add_not_run(TestId::own_pdf_bins, kNoPdf);
   } else if (std::isfinite(own.integral) && own.integral > 0.0) {
     records.add_fit(TestId::own_pdf_bins, serpentine(draws.bins), serpentine(own.bins));
+  } else {
+    records.add_not_run(TestId::own_pdf_bins,
+                        fmt::format("the pdf has the integral {:.3g} over the square: it gives no "
+                                    "probabilities of bins",
+                                    own.integral));
   }
   if (expectation.transform) {
     records.attempt(TestId::phi, [&] {
@@ -229,6 +252,8 @@ std::vector<Measured> test_draws(const TestRun& run, const Expectation& expectat
     add_positions(records, expectation, draws, run.instance->inverts_rows);
     for (std::size_t lag = 0; lag < kLags.size(); ++lag) add_pairs(records, draws, lag);
     add_runs(records, draws);
+  } else {
+    for (const TestId test : kTransformed) records.add_not_run(test, kNoTransform);
   }
   add_estimators(records, expectation, inspection, draws, uniform);
   return records.take();
@@ -270,7 +295,11 @@ std::vector<Measured> test_exactly(const TestRun& run, const Expectation& expect
   const auto attempt = [&](TestId check, const auto& perform) {
     records.attempt(check, [&] { records.add_check(perform()); });
   };
-  if (expectation.transform) records.add_check(check_resolution(draws));
+  if (expectation.transform) {
+    records.add_check(check_resolution(draws));
+  } else {
+    records.add_not_run(TestId::random_bits, kNoTransform);
+  }
   const RandomStream stream = run.stream("checks");
   if (inspection.has_pdf) {
     records.add_check(check_pdf_integral(inspection.own));

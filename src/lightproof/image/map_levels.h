@@ -35,8 +35,8 @@ std::optional<Projection> projection_by_name(std::string_view name);
 inline bool is_cube(Projection projection) { return projection != Projection::lat_long; }
 
 struct MapLevel {
-  /// Of the surfaces that the level is filtered for, in [0,1]; none where it means nothing, as in
-  /// an irradiance map.
+  /// The roughness of the surfaces that the level is filtered for, in [0,1]; none where it means
+  /// nothing, as in an irradiance map.
   std::optional<double> roughness = std::nullopt;
   /// One picture, or six in the order of kCubeFaces. Row 0 is at the top, as in all pictures and
   /// unlike in an EnvironmentMap.
@@ -50,12 +50,12 @@ MapLevel lat_long_level(const Grid<Rgb>& map, std::optional<double> roughness = 
 struct MapLevels {
   Projection projection = Projection::lat_long;
   std::vector<MapLevel> levels;  ///< at least one
-  /// Of red, green and blue; none means Rec. 709.
+  /// The chromaticities of red, green and blue; none means Rec. 709.
   std::optional<Chromaticities> chromaticities = std::nullopt;
   /// How the map was made. Writers add what the levels themselves say.
   Attributes attributes = {};
 
-  /// Of level 0, of one face.
+  /// The size of one face of level 0.
   Extent extent() const { return levels.front().faces.front().extent(); }
 };
 
@@ -101,7 +101,8 @@ double solid_angle_of(Projection projection, Extent extent, LevelTexel texel);
 /// roughness of each level.
 Attributes attributes_of(const MapLevels& map);
 
-/// The same of a file with one face of one level.
+/// What a file with one face of one level says of it: projection, sizes, the roughness of the
+/// level.
 Attributes attributes_of(const MapLevels& map, int level, int face);
 
 }  // namespace lightproof

@@ -13,7 +13,7 @@ struct SyntheticMap {
   std::string_view name;
   std::string_view description;
   EnvironmentMap (*make)(Extent extent);
-  /// The same on texels of another mapping: a function of directions is that of their centres, and
+  /// The map on texels of another mapping: a function of directions is that of their centres, and
   /// rows and columns are those of the square.
   EnvironmentMap (*make_on)(Extent extent, const Mapping& mapping);
 };

@@ -19,8 +19,9 @@ inline double schlick_fresnel(double normal_reflectance, double cosine) {
   return normal_reflectance + (1.0 - normal_reflectance) * schlick_weight(cosine);
 }
 
-/// The same, going to max(1 - roughness, F0) instead of 1 at grazing: for whole lobes, looked up by
-/// the cosine to the surface's normal (Lagarde 2011). Roughness 0 is Schlick's own.
+/// Schlick's Fresnel reflectance, going to max(1 - roughness, F0) instead of 1 at grazing: for
+/// whole lobes, looked up by the cosine to the surface's normal (Lagarde 2011). Roughness 0 is
+/// Schlick's own.
 inline double schlick_fresnel_of_roughness(double normal_reflectance, double roughness,
                                            double cosine) {
   const double grazing = std::max(1.0 - roughness, normal_reflectance);

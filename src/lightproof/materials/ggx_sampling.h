@@ -79,7 +79,7 @@ inline PerSteradian ggx_visible_normal_pdf(double alpha, Direction view, Directi
   return {smith_masking(alpha, view.z) * cosine * ggx_normal_distribution(alpha, h) / view.z};
 }
 
-/// Of the hemisphere of normals: the normal that reflects `v`, which is of that hemisphere, to a
+/// A normal of the hemisphere: the one that reflects `v`, which is of that hemisphere, to a
 /// direction uniform over the cap of the sphere above the height -depth.
 inline Direction normal_from_cap(Direction v, double depth, SquarePoint u) {
   const double phi = 2.0 * kPi * u.s;

@@ -16,8 +16,8 @@ struct HalfVector {
   double cosine;     ///< to the view and to the light, in (0, 1]
 };
 
-/// Of opposite directions. Every normal across the view is halfway between them: the steepest one
-/// stands for all, and what a rounding leaves for the cosine, which is 0.
+/// The half vector of opposite directions. Every normal across the view is halfway between them:
+/// the steepest one stands for all, and what a rounding leaves for the cosine, which is 0.
 inline HalfVector half_vector_of_opposite(Direction view) {
   const double along = std::hypot(view.x, view.y);
   const Direction normal =

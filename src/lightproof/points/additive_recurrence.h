@@ -29,7 +29,7 @@ constexpr std::uint32_t nearest_step(Alpha alpha) {
   return static_cast<std::uint32_t>((alpha.fraction + 0x80000000U) >> 32U);
 }
 
-/// The same, rounded to the nearest odd number: 2^32 numbers without repetition.
+/// alpha in units of 2^-32, rounded to the nearest odd number: 2^32 numbers without repetition.
 constexpr std::uint32_t nearest_odd_step(Alpha alpha) {
   return static_cast<std::uint32_t>(alpha.fraction >> 32U) | 1U;
 }

@@ -31,9 +31,9 @@ class Hammersley {
   double shift_;
 };
 
-/// The same for n = 1 … N as shaders compute it in float: a quotient of floats, and the mirrored
-/// bits as a float over 2^32. Its s is 1 at the end, its t from n = 2^25 - 1 on where all upper
-/// bits of the mirrored word are ones.
+/// The Hammersley points of n = 1 … N as shaders compute them in float: a quotient of floats, and
+/// the mirrored bits as a float over 2^32. Its s is 1 at the end, its t from n = 2^25 - 1 on where
+/// all upper bits of the mirrored word are ones.
 class HammersleyFloat {
  public:
   /// The count N is in [1, 2^32]. The seed's shift is added in float.

@@ -29,7 +29,7 @@ class SineHashPoints {
     const auto x = static_cast<float>(index);
     return {sine_hash(x, row_), sine_hash(x, row_ + 1.0F)};
   }
-  /// The same formula in double.
+  /// The formula of point() in double.
   SquarePoint exact_point(std::uint32_t index) const {
     return {in_double(index, row_), in_double(index, static_cast<double>(row_) + 1.0)};
   }

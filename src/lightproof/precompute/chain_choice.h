@@ -11,9 +11,10 @@ namespace lightproof {
 struct ChainChoice {
   Extent extent;
   int levels;
-  /// Of the worst level, when it is looked up bilinearly at directions drawn at random.
+  /// The error of the worst level, when it is looked up bilinearly at directions drawn at random.
   double look_up_error;
-  /// Of the worst roughness half-way between two levels, interpolated linearly; 0 of one level.
+  /// The error at the worst roughness half-way between two levels, interpolated linearly; 0 of one
+  /// level.
   double roughness_error;
 };
 

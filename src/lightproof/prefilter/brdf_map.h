@@ -45,7 +45,7 @@ ScaleBias integrate_brdf(double cosine, double roughness, Masking masking);
 /// and roughness (y + 1/2)/height.
 Grid<ScaleBias> brdf_map(Extent extent, Masking masking);
 
-/// The same by the lecture's sum.
+/// The map of scale and bias by the lecture's sum over these points.
 Grid<ScaleBias> brdf_map(Extent extent, Masking masking, HammersleyRange points);
 
 }  // namespace lightproof

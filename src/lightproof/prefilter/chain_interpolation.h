@@ -13,8 +13,8 @@ struct InterpolationError {
   double bound;
 };
 
-/// Of GGX levels of these roughnesses, 0 <= finer < coarser <= 1, 0 being the mirror. The second
-/// derivative is taken numerically.
+/// The error of interpolation between GGX levels of these roughnesses, 0 <= finer < coarser <= 1, 0
+/// being the mirror. The second derivative is taken numerically.
 InterpolationError interpolation_error(double finer, double coarser, int degree,
                                        GgxWeight weight = GgxWeight::cosine);
 

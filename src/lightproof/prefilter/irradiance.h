@@ -24,8 +24,9 @@ struct Radiance {
 /// is what is seen.
 inline Radiance reflected_by_white(Irradiance irradiance) { return {irradiance.rgb / kPi}; }
 
-/// Of the unit vector `normal` (z up). Exact but for rounding: the error is some 1e-16 times the
-/// sum of all texels, and texels below the horizon add exactly 0. Time grows as W H.
+/// The irradiance at the unit vector `normal` (z up). Exact but for rounding: the error is some
+/// 1e-16 times the sum of all texels, and texels below the horizon add exactly 0. Time grows as W
+/// H.
 Irradiance irradiance(const EnvironmentMap& map, Direction normal);
 
 }  // namespace lightproof

@@ -49,7 +49,8 @@ Direction normal_of_texel(Extent normals, int x, int y);
 /// common divisors). Throws InputError if `normals` has no texels.
 IrradianceMap irradiance_map(const EnvironmentMap& source, Extent normals);
 
-/// The same for any unit vectors, in their order: cube faces, probes.
+/// The irradiance at any unit vectors, in their order, as irradiance_map() computes it: of cube
+/// faces, of probes.
 std::vector<Irradiance> irradiances(const EnvironmentMap& source,
                                     std::span<const Direction> normals);
 

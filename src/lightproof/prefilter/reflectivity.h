@@ -16,7 +16,7 @@
 
 namespace lightproof {
 
-/// As many as the project proposes.
+/// The number of levels that the project proposes.
 inline constexpr int kReflectivityLevels = 7;
 
 /// Roughness of a level: (i + 1/2)/levels. The project sends i + 1/2 to the shader, which for i > 0

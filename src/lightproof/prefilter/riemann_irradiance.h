@@ -57,7 +57,8 @@ Radiance riemann_reflection_published(const Function& radiance, Direction normal
   return {kPi / rule.azimuths / rule.polar * sum};
 }
 
-/// The same, exact for light that does not depend on the direction.
+/// The sum of riemann_reflection_published() over that of white light: exact for light that does
+/// not depend on the direction.
 template <RadianceFunction Function>
 Radiance riemann_reflection(const Function& radiance, Direction normal, RiemannRule rule) {
   return {riemann_reflection_published(radiance, normal, rule).rgb / riemann_sum_of_white(rule)};

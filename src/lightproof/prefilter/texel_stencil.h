@@ -13,7 +13,8 @@ namespace lightproof {
 
 /// A function of the angle to an axis, 0 beyond its support.
 struct ZonalKernel {
-  /// Of the angle's haversine, (1 - cos)/2, in which no small angle is lost.
+  /// The kernel as a function of the angle's haversine, (1 - cos)/2, in which no small angle is
+  /// lost.
   std::function<double(double haversine)> value;
   Radians width;          ///< over which it falls off around its axis
   Radians support;        ///< at most pi
@@ -23,11 +24,11 @@ struct ZonalKernel {
 /// What the texels of a map weigh in the integral of the map times a kernel.
 class TexelStencil {
  public:
-  /// Of a map of this size, for an axis in column 0 at s = offset/width, offset in [0,1), and at t.
-  /// Cells are divided until they are a quarter of the kernel's width, or of their distance to the
-  /// axis, and integrated with 3 x 3 Gauss-Legendre nodes, or with one where they are a fiftieth of
-  /// it; at an edge of the kernel they are divided to 0.02 radians and cut by a straight line. The
-  /// weights are scaled to the sum `whole`.
+  /// The stencil of a map of this size, for an axis in column 0 at s = offset/width, offset in
+  /// [0,1), and at t. Cells are divided until they are a quarter of the kernel's width, or of their
+  /// distance to the axis, and integrated with 3 x 3 Gauss-Legendre nodes, or with one where they
+  /// are a fiftieth of it; at an edge of the kernel they are divided to 0.02 radians and cut by a
+  /// straight line. The weights are scaled to the sum `whole`.
   TexelStencil(const ZonalKernel& kernel, Extent extent, SquarePoint axis, double whole);
 
   /// The weighted sum over a map of that size, for an axis that lies `column` columns further on.
@@ -48,7 +49,7 @@ class TexelStencil {
 Grid<glm::dvec3> local_sums(const Grid<Rgb>& map, const ZonalKernel& kernel, double whole,
                             Extent extent);
 
-/// The same at one direction.
+/// The sum of local_sums() at one direction.
 glm::dvec3 local_sum(const Grid<Rgb>& map, const ZonalKernel& kernel, double whole, Direction axis);
 
 }  // namespace lightproof

@@ -90,6 +90,35 @@ std::string junit_case(const GateResult& gate, const TestRecord& test, bool coun
   return xml + "    </testcase>\n";
 }
 
+/// A sampler that the map's mapping does not allow, as a case that was skipped.
+std::string junit_case(const LeftOut& left_out) {
+  return fmt::format(
+      "    <testcase classname=\"{}\" name=\"{}\">\n      <skipped message=\"left out: {}\"/>\n"
+      "    </testcase>\n",
+      escaped(left_out.sampler),
+      escaped(fmt::format("{}/{}", left_out.density_space, left_out.map)),
+      escaped(left_out.reason));
+}
+
+/// The reasons for which samplers were left out, each with how many it was, in words.
+std::vector<std::string> left_out_sentences(const GateResult& gate) {
+  std::vector<std::string> sentences;
+  std::vector<LeftOut> kinds;  // one of each map, density and reason
+  for (const LeftOut& one : gate.left_out) {
+    const auto is_like = [&](const LeftOut& other) {
+      return other.map == one.map && other.density_space == one.density_space &&
+             other.reason == one.reason;
+    };
+    if (std::ranges::any_of(kinds, is_like)) continue;
+    kinds.push_back(one);
+    const auto count = std::ranges::count_if(gate.left_out, is_like);
+    sentences.push_back(fmt::format("{}, density {}: {} left out: {}", one.map, one.density_space,
+                                    counted(static_cast<std::size_t>(count), "sampler"),
+                                    one.reason));
+  }
+  return sentences;
+}
+
 std::string markdown_row(const GateResult& gate, const TestRecord& test) {
   return fmt::format("| {} | {} | {} | {} | {} | {} |\n", markdown_text(sampler_and_density(test)),
                      markdown_text(test.map), markdown_text(full_name(test.test)),
@@ -157,11 +186,13 @@ std::string gate_junit(const GateResult& gate, bool count_known_defects) {
     }
     cases += junit_case(gate, test, count_known_defects);
   }
+  for (const LeftOut& left_out : gate.left_out) cases += junit_case(left_out);
+  skipped += gate.left_out.size();
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
       "  <testsuite name=\"lightproof gate\" tests=\"{}\" failures=\"{}\" errors=\"{}\" "
       "skipped=\"{}\">\n{}  </testsuite>\n</testsuites>\n",
-      gate.tests.size(), failures, errors, skipped, cases);
+      gate.tests.size() + gate.left_out.size(), failures, errors, skipped, cases);
 }
 
 std::string gate_markdown(const GateResult& gate, bool count_known_defects) {
@@ -173,6 +204,9 @@ std::string gate_markdown(const GateResult& gate, bool count_known_defects) {
       outcome_text(tally.outcome()), counted(tally.tests, "test"), tally.rejected,
       tally.inconclusive, limited_text(tally), significant(gate.family_alpha),
       with_thousands(gate.samples), gate.seed);
+  for (const std::string& sentence : left_out_sentences(gate)) {
+    text += fmt::format("\n{}.\n", markdown_text(sentence));
+  }
   const auto rejected = worst_rejections(gate, count_known_defects);
   if (rejected.empty()) return text;
   text += "\n| sampler | map | test | p | effect | looks like |\n|---|---|---|---|---|---|\n";
@@ -202,6 +236,9 @@ std::string gate_annotations(const GateResult& gate, bool count_known_defects) {
   if (tally.inconclusive > 0) {
     text += fmt::format("::error title=lightproof::{} could not be judged\n",
                         counted(tally.inconclusive, "test"));
+  }
+  for (const std::string& sentence : left_out_sentences(gate)) {
+    text += fmt::format("::notice title=lightproof::{}\n", workflow_message(sentence));
   }
   if (tally.limited > 0) {
     text += fmt::format("::warning title=lightproof::{} limited by the sampler's own resolution\n",

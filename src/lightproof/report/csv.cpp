@@ -41,6 +41,10 @@ std::string gate_csv(const GateResult& gate) {
                t.minimum_detectable_effect, to_string(t.outcome), t.known_defect ? "yes" : "no",
                t.detail);
   }
+  for (const LeftOut& l : gate.left_out) {
+    csv += row(l.sampler, l.density_space, l.map, "", "", "", "", "", "", "", "",
+               to_string(Outcome::not_run), "", "left out: " + l.reason);
+  }
   return csv;
 }
 
@@ -82,10 +86,12 @@ std::string variance_csv(const std::vector<ConvergenceRecord>& records) {
 }
 
 std::string throughput_csv(const std::vector<ThroughputRecord>& records) {
-  std::string csv = "sampler,map,width,height,ns_per_sample,ns_low,ns_high,table_bytes,build_ms\n";
+  std::string csv =
+      "sampler,map,width,height,ns_per_sample,ns_low,ns_high,table_bytes,build_ms,"
+      "wall_per_cpu\n";
   for (const ThroughputRecord& r : records) {
     csv += row(r.sampler, r.map, r.extent.width, r.extent.height, r.ns_per_sample, r.ns_low,
-               r.ns_high, r.table_bytes, r.build_ms);
+               r.ns_high, r.table_bytes, r.build_ms, r.wall_per_cpu);
   }
   return csv;
 }
@@ -122,20 +128,22 @@ std::string build_csv(const std::vector<ThroughputRecord>& records) {
 std::string tables_csv(const std::vector<TableRecord>& records) {
   std::string csv =
       "sampler,map,width,height,ns_per_sample,bytes_per_texel,worst_texel_error,times_baseline,"
-      "share_of_limit\n";
+      "share_of_limit,wall_per_cpu\n";
   for (const TableRecord& r : records) {
-    csv += row(r.sampler, r.map, r.extent.width, r.extent.height, r.ns_per_sample,
-               r.bytes_per_texel, r.worst_texel_error, r.times_baseline, r.share_of_limit);
+    csv +=
+        row(r.sampler, r.map, r.extent.width, r.extent.height, r.ns_per_sample, r.bytes_per_texel,
+            r.worst_texel_error, r.times_baseline, r.share_of_limit, r.wall_per_cpu);
   }
   return csv;
 }
 
 std::string directions_csv(const std::vector<DirectionRecord>& records) {
   std::string csv =
-      "sampler,map,width,height,density,order,ns_per_sample,times_baseline,share_of_limit\n";
+      "sampler,map,width,height,density,order,ns_per_sample,times_baseline,share_of_limit,"
+      "wall_per_cpu\n";
   for (const DirectionRecord& r : records) {
-    csv += row(r.sampler, r.map, r.extent.width, r.extent.height, r.density, r.order,
-               r.ns_per_sample, r.times_baseline, r.share_of_limit);
+    csv += row(r.sampler, r.map, r.extent.width, r.extent.height, r.density, describe(r.order).name,
+               r.ns_per_sample, r.times_baseline, r.share_of_limit, r.wall_per_cpu);
   }
   return csv;
 }

@@ -9,13 +9,16 @@
 
 namespace lightproof {
 
-/// A sentence that names the fastest sampler of each way to draw, and how the densities differ.
-std::string directions_finding(const std::vector<DirectionRecord>& records);
+/// A sentence that names the fastest sampler of each way to draw on maps of one size, and how the
+/// densities differ.
+std::string directions_finding(const std::vector<DirectionRecord>& records, Extent extent);
 
-/// A chart of ns per direction for every sampler, a mark a density, one at a time and in batches.
-std::string directions_chart(const std::vector<DirectionRecord>& records);
+/// A chart of ns per direction for every sampler on maps of one size, a mark a density, one at a
+/// time and in batches. Hollow marks met a busy machine.
+std::string directions_chart(const std::vector<DirectionRecord>& records, Extent extent);
 
-/// The chart with its table and its numbers as CSV; empty if nothing was measured.
+/// The charts of the usual size, 2048 x 1024 or what is nearest to it, and of the largest one, with
+/// all records as a table and as CSV; empty if nothing was measured.
 std::string directions_figure(const std::vector<DirectionRecord>& records);
 
 }  // namespace lightproof

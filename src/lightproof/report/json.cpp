@@ -204,7 +204,8 @@ Json json_of(const ThroughputRecord& r) {
           {"ns_low", number(r.ns_low)},
           {"ns_high", number(r.ns_high)},
           {"table_bytes", number(r.table_bytes)},
-          {"build_ms", number(r.build_ms)}};
+          {"build_ms", number(r.build_ms)},
+          {"wall_per_cpu", number(r.wall_per_cpu)}};
 }
 
 Json json_of(const TableRecord& r) {
@@ -215,7 +216,8 @@ Json json_of(const TableRecord& r) {
           {"bytes_per_texel", number(r.bytes_per_texel)},
           {"worst_texel_error", number(r.worst_texel_error)},
           {"times_baseline", number(r.times_baseline)},
-          {"share_of_limit", number(r.share_of_limit)}};
+          {"share_of_limit", number(r.share_of_limit)},
+          {"wall_per_cpu", number(r.wall_per_cpu)}};
 }
 
 Json json_of(const DirectionRecord& r) {
@@ -223,10 +225,11 @@ Json json_of(const DirectionRecord& r) {
           {"map", r.map},
           {"size", json_of(r.extent)},
           {"density", r.density},
-          {"order", r.order},
+          {"order", std::string(describe(r.order).name)},
           {"ns_per_sample", number(r.ns_per_sample)},
           {"times_baseline", number(r.times_baseline)},
-          {"share_of_limit", number(r.share_of_limit)}};
+          {"share_of_limit", number(r.share_of_limit)},
+          {"wall_per_cpu", number(r.wall_per_cpu)}};
 }
 
 Json json_of(const GrowthFit& fit) {

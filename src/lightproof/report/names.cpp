@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "lightproof/core/machine.h"
+#include "lightproof/page/numbers.h"
+
 namespace lightproof {
 namespace {
 
@@ -24,6 +27,11 @@ std::string unused(const std::string& wanted, const std::vector<std::string>& ta
 }
 
 }  // namespace
+
+std::string machine_words(double wall_per_cpu) {
+  if (!(wall_per_cpu > kBusyRatio)) return "quiet";
+  return "busy, " + format_number(wall_per_cpu, 2);
+}
 
 std::string file_name_part(std::string_view text) {
   std::string part;

@@ -1,4 +1,4 @@
-// Names of the files beside the report.
+// Names of the files beside the report, and words that several sections share.
 #pragma once
 
 #include <string>
@@ -8,6 +8,10 @@
 #include "lightproof/results/render_record.h"
 
 namespace lightproof {
+
+/// What a ratio of wall time to processor time says of the machine: "quiet", or "busy, 1.4" with
+/// the ratio.
+std::string machine_words(double wall_per_cpu);
 
 /// A text as part of a file's name: with everything but ASCII letters, digits, '.', '_' and '-'
 /// replaced by '_', and without leading dots: safe in any folder and in a URL. Never empty.

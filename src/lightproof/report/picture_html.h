@@ -24,7 +24,8 @@ std::string colour_bar_html(double range);
 /// the class "exposures". `name` is plain text, for those who cannot see it.
 std::string exposures_html(const Grid<Rgb>& linear, double scale, std::string_view name);
 
-/// The same of an unfolded_cube(): what is outside of the cross is hatched.
+/// An unfolded_cube() at each of kStops, as exposures_html() shows a picture: what is outside of
+/// the cross is hatched.
 std::string unfolded_exposures_html(const Grid<Rgb>& linear, double scale, std::string_view name);
 
 }  // namespace lightproof

@@ -8,7 +8,7 @@
 
 namespace lightproof {
 
-/// Of the document that precompute_json() writes.
+/// The version of the document that precompute_json() writes.
 inline constexpr int kPrecomputeFormatVersion = 1;
 
 /// Maps, levels, errors and files, without the pictures themselves.

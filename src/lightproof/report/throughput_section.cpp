@@ -9,6 +9,7 @@
 #include "lightproof/report/csv.h"
 #include "lightproof/report/directions_figure.h"
 #include "lightproof/report/findings.h"
+#include "lightproof/report/names.h"
 #include "lightproof/report/sections.h"
 
 namespace lightproof {
@@ -16,7 +17,7 @@ namespace {
 
 std::string throughput_table(const std::vector<ThroughputRecord>& records) {
   Table table("Throughput", {"Sampler", "Map", "Size", "Median, ns", "Fastest, ns", "Slowest, ns",
-                             "Table, bytes", "Build, ms"});
+                             "Table, bytes", "Build, ms", "Machine"});
   for (const ThroughputRecord& r : records) {
     table.add({text_cell(r.sampler),
                text_cell(r.map),
@@ -25,7 +26,8 @@ std::string throughput_table(const std::vector<ThroughputRecord>& records) {
                number_cell(r.ns_low),
                number_cell(r.ns_high),
                number_cell(r.table_bytes),
-               number_cell(r.build_ms)});
+               number_cell(r.build_ms),
+               text_cell(machine_words(r.wall_per_cpu))});
   }
   return table.html();
 }
@@ -134,8 +136,9 @@ std::string build_block(const StudyResult& study) {
 }
 
 std::string tables_table(const std::vector<TableRecord>& records) {
-  Table table("Tables", {"Sampler", "Map", "Size", "ns per sample", "Times std::upper_bound",
-                         "Share of the limit", "Bytes per texel", "Worst texel's error"});
+  Table table("Tables",
+              {"Sampler", "Map", "Size", "ns per sample", "Times std::upper_bound",
+               "Share of the limit", "Bytes per texel", "Worst texel's error", "Machine"});
   for (const TableRecord& r : records) {
     table.add({text_cell(r.sampler),
                text_cell(r.map),
@@ -144,13 +147,16 @@ std::string tables_table(const std::vector<TableRecord>& records) {
                r.times_baseline > 0.0 ? number_cell(r.times_baseline) : text_cell("1"),
                r.share_of_limit > 0.0 ? number_cell(r.share_of_limit) : text_cell("\u2013"),
                number_cell(r.bytes_per_texel),
-               number_cell(r.worst_texel_error)});
+               number_cell(r.worst_texel_error),
+               text_cell(machine_words(r.wall_per_cpu))});
   }
   return table.html();
 }
 
 constexpr std::string_view kTablesNote =
-    "Batches of samples on one thread, random numbers included. The error, which the size of a "
+    "Texture-space density A, which takes tables alone: what B and C add is in the charts of "
+    "directions. Batches of samples on one thread, random numbers included. The error, which the "
+    "size of a "
     "mark "
     "tells, is the largest relative difference between the probability with which a texel is drawn "
     "and its share of the light; samplers return the probability that they draw with, so the error "
@@ -168,7 +174,8 @@ std::string table_figure(const std::vector<TableRecord>& tables) {
 }
 
 constexpr std::string_view kNote =
-    "Median over the benchmark's repetitions; bars reach from the fastest to the slowest. "
+    "Positions under the texture-space density A, one at a time. Median over the benchmark's "
+    "repetitions; bars reach from the fastest to the slowest. "
     "The legend gives the exponent of width S plus height T that fits the time; a click on it "
     "shows "
     "a sampler, at first the fastest, the slowest and the binary search. ";

@@ -27,7 +27,7 @@ struct PointRate {
   std::string roughness;  ///< of the integrand: "smooth", "kink", "edge"
   int seeds = 0;          ///< independent estimates of each error
   std::vector<PointError> errors;
-  /// Of the power law through the errors; NaN if they do not allow for one.
+  /// The exponent of the power law through the errors; NaN if they do not allow for one.
   double exponent = 0.0;
   /// Its standard error, from the errors' own or, where that is larger, from their scatter about
   /// the power law.
@@ -39,7 +39,7 @@ struct PointRate {
   }
 };
 
-/// Of the set of so many points, or the first ones of a set without end.
+/// The discrepancy of the set of so many points, or of the first ones of a set without end.
 struct PointDiscrepancy {
   std::string set;
   std::string kind;

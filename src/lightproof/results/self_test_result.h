@@ -116,7 +116,8 @@ struct SelfTestResult {
   /// When, where and of what calibration, power and mutants were measured; empty if it is not
   /// known.
   std::string origin = {};
-  /// The same of `naming`, of the map that was measured first.
+  /// When, where and of what `naming` was measured, of the map that was measured first; empty if it
+  /// is not known.
   std::string naming_origin = {};
 
   static auto fields(auto& result) {

@@ -18,14 +18,21 @@ class Alias {
 
   /// The texel at a point: u.s names the column of the alias table and the position over s in the
   /// texel, u.t chooses between the column's two texels and gives the position over t.
-  TexelDraw draw(SquarePoint u) const {
-    const AliasTable::Drawn drawn = table_.draw(u.s, u.t);
+  TexelDraw draw(SquarePoint u) const { return finish(table_.column(u.s, u.t)); }
+  TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
+  /// Begins the sample draw(u): asks the memory for what finish() reads. Other work, or the
+  /// beginnings of other samples, may lie between the two.
+  AliasTable::Column prepare(SquarePoint u) const {
+    const AliasTable::Column column = table_.column(u.s, u.t);
+    table_.prefetch(column);
+    return column;
+  }
+  /// The sample that prepare() began.
+  TexelDraw finish(const AliasTable::Column& column) const {
+    const AliasTable::Drawn drawn = table_.draw(column);
     const TexelIndex texel = positions_.texel(drawn.cell);
     return {texel.x, texel.y, drawn.column, drawn.choice, drawn.mass};
   }
-  TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
-  /// Asks the memory for what draw(u) reads.
-  void prefetch(SquarePoint u) const { table_.prefetch(u.s); }
   const TexelPositions& positions() const { return positions_; }
 
   PerSquare pdf(SquarePoint at) const {

@@ -21,18 +21,24 @@ class AliasLines {
   /// The texel at a point: u.s names the column of the alias table and the position over t in the
   /// texel, u.t chooses between the column's two runs, and the texel in the run with the position
   /// over s.
-  TexelDraw draw(SquarePoint u) const {
+  TexelDraw draw(SquarePoint u) const { return finish(table_.draw(u.s, u.t)); }
+  TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
+  /// Begins the sample draw(u): asks the memory for what finish() reads.
+  /// The alias table is read for that: it is small beside the texels. Other work, or the
+  /// beginnings of other samples, may lie between the two.
+  AliasTable::Drawn prepare(SquarePoint u) const {
     const AliasTable::Drawn drawn = table_.draw(u.s, u.t);
+    lines_.prefetch(drawn.cell);
+    return drawn;
+  }
+  /// The sample that prepare() began.
+  TexelDraw finish(const AliasTable::Drawn& drawn) const {
     const RunTexel found = lines_.find(drawn.cell, drawn.choice);
     const auto across = static_cast<std::uint32_t>(lines_.extent().width);
     return {static_cast<int>(drawn.cell % across) * kRunTexels + found.index,
             static_cast<int>(drawn.cell / across), found.fraction, drawn.column,
             drawn.mass * found.mass};
   }
-  TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
-  /// Asks the memory for the run that draw(u) reads. The run's column of the alias table is read
-  /// for that: it is small beside the texels.
-  void prefetch(SquarePoint u) const { lines_.prefetch(table_.draw(u.s, u.t).cell); }
   const TexelPositions& positions() const { return positions_; }
 
   PerSquare pdf(SquarePoint at) const {

@@ -180,23 +180,31 @@ class AliasTable {
     double column;  ///< uniform in [0,1), independent of the cell and of `choice`
     double choice;  ///< uniform in [0,1), independent of the cell and of `column`
   };
-  /// Draws a cell by two uniform numbers in [0,1): one names a column, one chooses in it.
-  Drawn draw(double column, double choice) const {
-    const double scaled = column * static_cast<double>(entries_.size());
+  /// Where a draw reads, and what is left of its numbers.
+  struct Column {
+    std::uint32_t index;
+    double rest;    ///< of the number that names the column, uniform in [0,1)
+    double choice;  ///< the number that chooses in it
+  };
+  /// The column of two uniform numbers in [0,1): one names it, one chooses in it.
+  Column column(double number, double choice) const {
+    const double scaled = number * static_cast<double>(entries_.size());
     const auto index = static_cast<std::uint32_t>(scaled);
-    const Entry& entry = entries_[index];
+    return {index, scaled - index, choice};
+  }
+  /// Asks the memory for a column.
+  void prefetch(const Column& column) const { __builtin_prefetch(&entries_[column.index]); }
+  /// Draws a cell of a column.
+  Drawn draw(const Column& column) const {
+    const Entry& entry = entries_[column.index];
     const double share = entry.threshold * kUnit;
-    const bool own = choice < share;
-    return {select(own, index, entry.alias),
+    const bool own = column.choice < share;
+    return {select(own, column.index, entry.alias),
             select(own, static_cast<double>(entry.mass), static_cast<double>(entry.alias_mass)),
-            scaled - index, rest_of_choice(choice, share)};
+            column.rest, rest_of_choice(column.choice, share)};
   }
-
-  /// Asks the memory for the column that draw() reads at this number.
-  void prefetch(double column) const {
-    __builtin_prefetch(
-        &entries_[static_cast<std::uint32_t>(column * static_cast<double>(entries_.size()))]);
-  }
+  /// Draws a cell by two uniform numbers in [0,1): one names a column, one chooses in it.
+  Drawn draw(double number, double choice) const { return draw(column(number, choice)); }
 
   /// Probability of a cell, to 2^-24 of itself.
   double mass(std::size_t cell) const { return static_cast<double>(entries_[cell].mass); }

@@ -76,7 +76,7 @@ void draw_at(const Sampler& sampler, SquarePoint u, std::size_t i, std::span<Tex
   put(sampler.sample(u), i, samples);
 }
 /// Draws the i-th sample of a batch, as a direction.
-template <EnvSampler Sampler>
+template <MappedSampler Sampler>
 void draw_at(const Sampler& sampler, SquarePoint u, std::size_t i,
              const DirectionBatch& directions) {
   put(sample_direction(sampler, u), i, directions);
@@ -89,7 +89,9 @@ std::size_t draw_batch(const Sampler& sampler, const BatchPoints& points, const 
   std::size_t by_vectors = 0;
   if constexpr (requires { sampler.view(); }) {
     // Vectors know the directions of one mapping.
-    if (std::is_same_v<Output, std::span<TexelSample>> || is_on_plain_map(sampler)) {
+    if constexpr (std::is_same_v<Output, std::span<TexelSample>>) {
+      by_vectors = sample_vectors(sampler.view(), points, output);
+    } else if (is_on_plain_map(sampler)) {
       by_vectors = sample_vectors(sampler.view(), points, output);
     }
   }
@@ -123,7 +125,7 @@ std::size_t sample(const Sampler& sampler, const RandomStream& stream, std::uint
 /// Draws a sample at each of these points, as many as there are directions, as directions: those of
 /// their positions and their densities per steradian, to some roundings. Returns how many samples
 /// vectors drew.
-template <EnvSampler Sampler>
+template <MappedSampler Sampler>
 std::size_t sample_directions(const Sampler& sampler, std::span<const SquarePoint> points,
                               const DirectionBatch& directions) {
   return draw_batch(sampler, BatchPoints(points), directions);
@@ -132,7 +134,7 @@ std::size_t sample_directions(const Sampler& sampler, std::span<const SquarePoin
 /// Draws samples at the points first, first + 1, … of the stream as directions: those of their
 /// positions and their densities per steradian, to some roundings. Returns how many samples vectors
 /// drew.
-template <EnvSampler Sampler>
+template <MappedSampler Sampler>
 std::size_t sample_directions(const Sampler& sampler, const RandomStream& stream,
                               std::uint64_t first, const DirectionBatch& directions) {
   return draw_batch(sampler, BatchPoints(stream, first), directions);

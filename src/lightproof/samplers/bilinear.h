@@ -122,6 +122,8 @@ class Bilinear {
   }
 
   const CdfTable& table() const { return table_; }
+  /// The mapping of Lightproof's own frame: it is declared on no other map.
+  Mapping mapping() const { return {}; }
   std::size_t table_bytes() const { return patches_.bytes() + table_.bytes() + guides_.bytes(); }
 
  private:

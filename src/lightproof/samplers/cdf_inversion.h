@@ -52,22 +52,33 @@ class CdfInversion {
         finder_(table_),
         positions_(table_.extent(), target.density_space, map.mapping) {}
 
-  TexelDraw draw(SquarePoint u) const {
-    const double scaled_t = u.t * kCdfOne;
-    const double scaled_s = u.s * kCdfOne;
-    const CdfCell row = finder_.row(table_, static_cast<std::uint32_t>(scaled_t));
-    const CdfCell column = finder_.column(table_, row.index, static_cast<std::uint32_t>(scaled_s));
-    return {column.index, row.index, column.fraction(scaled_s), row.fraction(scaled_t),
-            cdf_mass(row.units(), column.units())};
-  }
+  TexelDraw draw(SquarePoint u) const { return finish(row_of(u)); }
   TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
-  /// Asks the memory for where draw(u) begins to search a row; the row itself is searched for that.
-  void prefetch(SquarePoint u) const requires requires(const Finder& finder) {
+
+  /// A row, and what is left of the two random numbers.
+  struct Row {
+    int index;
+    double units;     ///< its mass in units of 2^-31
+    double along;     ///< share of its mass that lies before u.t
+    double scaled_s;  ///< u.s in units of 2^-31
+  };
+  /// Begins the sample draw(u): asks the memory for where finish() begins to search the row, which
+  /// itself is searched for that. Other work, or the beginnings of other samples, may lie between
+  /// the two.
+  Row prepare(SquarePoint u) const requires requires(const Finder& finder) {
     finder.prefetch_column(0, std::uint32_t{});
   }
   {
-    const CdfCell row = finder_.row(table_, static_cast<std::uint32_t>(u.t * kCdfOne));
-    finder_.prefetch_column(row.index, static_cast<std::uint32_t>(u.s * kCdfOne));
+    const Row row = row_of(u);
+    finder_.prefetch_column(row.index, static_cast<std::uint32_t>(row.scaled_s));
+    return row;
+  }
+  /// The sample that prepare() began.
+  TexelDraw finish(const Row& row) const {
+    const CdfCell column =
+        finder_.column(table_, row.index, static_cast<std::uint32_t>(row.scaled_s));
+    return {column.index, row.index, column.fraction(row.scaled_s), row.along,
+            cdf_mass(row.units, column.units())};
   }
   const TexelPositions& positions() const { return positions_; }
 
@@ -88,6 +99,12 @@ class CdfInversion {
   std::size_t table_bytes() const { return table_.bytes() + finder_.bytes() + positions_.bytes(); }
 
  private:
+  Row row_of(SquarePoint u) const {
+    const double scaled_t = u.t * kCdfOne;
+    const CdfCell row = finder_.row(table_, static_cast<std::uint32_t>(scaled_t));
+    return {row.index, row.units(), row.fraction(scaled_t), u.s * kCdfOne};
+  }
+
   CdfTable table_;
   Finder finder_;
   TexelPositions positions_;

@@ -18,23 +18,30 @@ class GuideLines {
   /// Throws InputError if the map is black.
   GuideLines(const EnvironmentMap& map, TargetDensity target);
 
-  TexelDraw draw(SquarePoint u) const {
-    const double scaled_t = u.t * kCdfOne;
-    const double scaled_s = u.s * kCdfOne;
-    const CdfCell row = guides_.row(table_, static_cast<std::uint32_t>(scaled_t));
-    const CdfCell run = guides_.column(table_, row.index, static_cast<std::uint32_t>(scaled_s));
-    const RunTexel found = lines_.find(lines_.index(run.index, row.index), run.fraction(scaled_s));
-    return {run.index * kRunTexels + found.index, row.index, found.fraction, row.fraction(scaled_t),
-            cdf_mass(row.units(), run.units()) * found.mass};
-  }
+  TexelDraw draw(SquarePoint u) const { return finish(run_of(u)); }
   TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
-  /// Asks the memory for the run that draw(u) reads. The guide tables and sums of rows and runs are
-  /// read for that: they are small beside the texels.
-  void prefetch(SquarePoint u) const {
-    const CdfCell row = guides_.row(table_, static_cast<std::uint32_t>(u.t * kCdfOne));
-    const CdfCell run =
-        guides_.column(table_, row.index, static_cast<std::uint32_t>(u.s * kCdfOne));
-    lines_.prefetch(lines_.index(run.index, row.index));
+
+  /// A run of texels, and what is left of the two random numbers.
+  struct Run {
+    int row;
+    int index;      ///< of the run in its row
+    double across;  ///< share of the run's mass before the texel and the position in it
+    double along;   ///< share of the row's mass
+    double mass;    ///< the run's probability
+  };
+  /// Begins the sample draw(u): asks the memory for what finish() reads.
+  /// The guide tables and sums of rows and runs are read for that: they are small beside the
+  /// texels. Other work, or the beginnings of other samples, may lie between the two.
+  Run prepare(SquarePoint u) const {
+    const Run run = run_of(u);
+    lines_.prefetch(lines_.index(run.index, run.row));
+    return run;
+  }
+  /// The sample that prepare() began.
+  TexelDraw finish(const Run& run) const {
+    const RunTexel found = lines_.find(lines_.index(run.index, run.row), run.across);
+    return {run.index * kRunTexels + found.index, run.row, found.fraction, run.along,
+            run.mass * found.mass};
   }
   const TexelPositions& positions() const { return positions_; }
 
@@ -59,6 +66,15 @@ class GuideLines {
 
  private:
   GuideLines(const Grid<double>& weights, DensitySpace density_space, const Mapping& mapping);
+
+  Run run_of(SquarePoint u) const {
+    const double scaled_t = u.t * kCdfOne;
+    const double scaled_s = u.s * kCdfOne;
+    const CdfCell row = guides_.row(table_, static_cast<std::uint32_t>(scaled_t));
+    const CdfCell run = guides_.column(table_, row.index, static_cast<std::uint32_t>(scaled_s));
+    return {row.index, run.index, run.fraction(scaled_s), row.fraction(scaled_t),
+            cdf_mass(row.units(), run.units())};
+  }
 
   CdfLines lines_;
   CdfTable table_;  ///< distribution of the runs

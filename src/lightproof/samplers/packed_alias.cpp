@@ -30,6 +30,7 @@ PackedAliasLayout::PackedAliasLayout(std::size_t texels)
 
 PackedAlias::PackedAlias(const EnvironmentMap& map, TargetDensity target)
     : positions_(map.radiance.extent(), target.density_space, map.mapping),
+      columns_(static_cast<double>(map.radiance.extent().count())),
       layout_(map.radiance.extent().count()),
       words_(map.radiance.extent().count()) {
   const unsigned threshold_bits = layout_.threshold_bits;

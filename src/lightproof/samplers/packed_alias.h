@@ -44,24 +44,32 @@ class PackedAlias {
 
   /// The texel at a point: u.s names the column of the alias table and the position over s in the
   /// texel, u.t chooses between the column's two texels and gives the position over t.
-  TexelDraw draw(SquarePoint u) const {
-    const double scaled = u.s * to_double(words_.size());
-    const auto column = static_cast<std::int64_t>(scaled);
-    const std::uint64_t word = words_[static_cast<std::size_t>(column)];
+  TexelDraw draw(SquarePoint u) const { return finish(column_of(u)); }
+  TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
+
+  /// A column of the table, and what is left of the two random numbers.
+  struct Column {
+    std::int64_t index;
+    double rest;    ///< of the number that names the column
+    double choice;  ///< the number that chooses in it
+  };
+  /// Begins the sample draw(u): asks the memory for what finish() reads. Other work, or the
+  /// beginnings of other samples, may lie between the two.
+  Column prepare(SquarePoint u) const {
+    const Column column = column_of(u);
+    __builtin_prefetch(&words_[static_cast<std::size_t>(column.index)]);
+    return column;
+  }
+  /// The sample that prepare() began.
+  TexelDraw finish(const Column& column) const {
+    const std::uint64_t word = words_[static_cast<std::size_t>(column.index)];
     const double share = layout_.unit * to_double(word >> layout_.threshold_at);
-    const bool own = u.t < share;
+    const bool own = column.choice < share;
     const std::uint64_t cell =
-        select(own, static_cast<std::uint64_t>(column), word & layout_.alias_mask);
+        select(own, static_cast<std::uint64_t>(column.index), word & layout_.alias_mask);
     const double mass = palette_mass(select(own, word >> layout_.own_at, word >> layout_.alias_at));
     const TexelIndex texel = positions_.texel(cell);
-    return {texel.x, texel.y, scaled - static_cast<double>(column), rest_of_choice(u.t, share),
-            mass};
-  }
-  TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
-  /// Asks the memory for what draw(u) reads.
-  void prefetch(SquarePoint u) const {
-    __builtin_prefetch(&words_[static_cast<std::size_t>(
-        static_cast<std::int64_t>(u.s * to_double(words_.size())))]);
+    return {texel.x, texel.y, column.rest, rest_of_choice(column.choice, share), mass};
   }
   const TexelPositions& positions() const { return positions_; }
 
@@ -87,11 +95,17 @@ class PackedAlias {
   }
 
  private:
+  Column column_of(SquarePoint u) const {
+    const double scaled = u.s * columns_;
+    const auto index = static_cast<std::int64_t>(scaled);
+    return {index, scaled - static_cast<double>(index), u.t};
+  }
   double palette_mass(std::uint64_t code) const {
     return static_cast<double>(palette_[code & layout_.code_mask]);
   }
 
   TexelPositions positions_;
+  double columns_;  ///< how many the table has
   PackedAliasLayout layout_;
   TableVector<std::uint64_t> words_;
   std::vector<float> palette_;  ///< probabilities, to 2^-24 of themselves

@@ -44,6 +44,11 @@ TexelPositions::TexelPositions(Extent extent, MapMeasure measure, const Mapping&
       texel_width_(1.0 / extent.width),
       texel_height_(1.0 / extent.height),
       texels_(static_cast<double>(extent.count())),
-      solid_angle_rows_(measure == MapMeasure::solid_angle ? extent : Extent{1, 0}) {}
+      texels_per_turn_(texels_ / (2.0 * kPi * kPi)),
+      solid_angle_rows_(measure == MapMeasure::solid_angle ? extent : Extent{1, 0}),
+      columns_(is_plain_ ? CellAngles(extent.width, 1.0, extent.width) : CellAngles()),
+      rows_(is_plain_ && measure == MapMeasure::square
+                ? CellAngles(extent.height, 0.5, (extent.height + 1) / 2)
+                : CellAngles()) {}
 
 }  // namespace lightproof

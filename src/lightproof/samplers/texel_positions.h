@@ -10,30 +10,12 @@
 #include <vector>
 
 #include "lightproof/core/select.h"
+#include "lightproof/samplers/cell_angles.h"
+#include "lightproof/samplers/cell_margin.h"
 #include "lightproof/samplers/sampler.h"
 #include "lightproof/warp/mapping.h"
-#include "lightproof/warp/sin_cos.h"
 
 namespace lightproof {
-
-/// Fractions inside a cell keep this distance from its edges, so that no rounding moves a point to
-/// the neighbour (up to 2^16 cells) or onto a pole.
-inline constexpr double kCellMargin = 0x1p-34;
-
-/// The fraction, or the nearest one that keeps the margin.
-inline double inside_cell(double fraction) {
-  return std::min(std::max(fraction, kCellMargin), 1.0 - kCellMargin);
-}
-
-/// The coordinate in [0,1) at `fraction` of the way through cell `index`; each cell is `size` wide.
-inline double position_in_cell(int index, double fraction, double size) {
-  return (index + inside_cell(fraction)) * size;
-}
-
-/// The coordinate in [0,1) at `fraction` of the way through cell `index` of `count` equal ones.
-inline double position_in_cell(int index, double fraction, int count) {
-  return position_in_cell(index, fraction, 1.0 / count);
-}
 
 /// Chooses t inside a row so that cos(theta) is uniform: equal solid angles are equally likely.
 /// sin^2 of half the angle from a pole is linear in the share of the row's solid angle; rows are
@@ -211,17 +193,18 @@ class TexelPositions {
   /// The drawn texel's sample as a direction: that of sample(), to some roundings.
   LightSample direction(const TexelDraw& draw) const {
     if (!is_plain_) return mapped(sample(draw));
-    const SinCosOfTurns azimuth =
-        sin_cos_of_turns(position_in_cell(draw.x, draw.across, texel_width_));
+    const SinCosOfTurns azimuth = columns_.at(draw.x, draw.across);
     double sine;
     double z;
     double pdf;
     if (measure_ == MapMeasure::square) {
-      const SinCosOfTurns from_nadir =
-          sin_cos_of_turns(0.5 * position_in_cell(draw.y, draw.along, texel_height_));
-      sine = from_nadir.sin;
-      z = -from_nadir.cos;
-      pdf = draw.mass * texels_ / (2.0 * kPi * kPi * sine);
+      // Rows are counted from the nearer pole, where the sine loses no precision.
+      const bool upper = 2 * draw.y >= extent_.height;
+      const SinCosOfTurns from_pole = rows_.at(upper ? extent_.height - 1 - draw.y : draw.y,
+                                               select(upper, 1.0 - draw.along, draw.along));
+      sine = from_pole.sin;
+      z = negate_if(!upper, from_pole.cos);
+      pdf = draw.mass * texels_per_turn_ / sine;
     } else {
       const SolidAngleRows::Height height = solid_angle_rows_.height(draw.y, draw.along);
       sine = height.sine;
@@ -254,7 +237,7 @@ class TexelPositions {
             solid_angle_rows_.lines().data()};
   }
 
-  std::size_t bytes() const { return solid_angle_rows_.bytes(); }
+  std::size_t bytes() const { return solid_angle_rows_.bytes() + columns_.bytes() + rows_.bytes(); }
 
  private:
   Extent extent_;
@@ -264,7 +247,10 @@ class TexelPositions {
   double texel_width_;
   double texel_height_;
   double texels_;
+  double texels_per_turn_;           ///< texels over 2 pi^2
   SolidAngleRows solid_angle_rows_;  ///< empty if positions are uniform in (s, t)
+  CellAngles columns_;               ///< empty on maps of other mappings
+  CellAngles rows_;  ///< from a pole; empty if positions are uniform in solid angle, or as columns_
 };
 
 }  // namespace lightproof

@@ -49,7 +49,7 @@ void lose_pdf_in_pole_rows(TexelSample& sample, const DiscreteSampler& distribut
 void square_position_in_texel(TexelSample& sample, const DiscreteSampler& distribution);
 /// Makes the position in the rows of the poles uniform in cos(theta) where t is declared, or in t.
 void change_measure_in_pole_rows(TexelSample& sample, const DiscreteSampler& distribution);
-/// As above, exactly and in all rows.
+/// Makes the position in every row uniform in cos(theta) where t is declared, or in t, exactly.
 void change_measure(TexelSample& sample, const DiscreteSampler& distribution);
 /// Moves the sample to the centre of its texel.
 void move_to_centre(TexelSample& sample, const DiscreteSampler& distribution);

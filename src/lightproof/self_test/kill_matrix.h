@@ -14,8 +14,8 @@ namespace lightproof {
 struct KillOptions {
   std::uint64_t seed = 1;
   std::uint64_t usual = std::uint64_t{1} << 18U;  ///< the most samples that are tried
-  /// The same for mutants that the oracle that they name has not rejected before, and for the
-  /// sequential gate. Fewer than 2^12: no mutant is tried.
+  /// The most samples that are tried on mutants that the oracle that they name has not rejected
+  /// before, and by the sequential gate. Fewer than 2^12: no mutant is tried.
   std::uint64_t most = std::uint64_t{1} << 22U;
 
   static auto fields(auto& options) { return std::tie(options.seed, options.usual, options.most); }

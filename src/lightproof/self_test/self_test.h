@@ -34,8 +34,8 @@ SelfTestOptions self_test_options(std::uint64_t seed);
 SelfTestResult test_program(const SelfTestOptions& options, const Progress& progress = {},
                             const Communicator& communicator = {});
 
-/// The same, and the names that the gate gives to mutants on these maps. Every map adds some runs
-/// of the gate on all mutants.
+/// Calibration, power and mutants, and the names that the gate gives to mutants on these maps.
+/// Every map adds some runs of the gate on all mutants.
 SelfTestResult run_self_test(std::span<const MapRecord> maps, const SelfTestOptions& options,
                              const Progress& progress = {}, const Communicator& communicator = {});
 

@@ -46,8 +46,8 @@ std::vector<SplitSumKernel> split_sum_kernels(double roughness, double cosine,
                                               std::span<const double> normal_reflectances,
                                               int degree = kSplitSumDegree);
 
-/// Of the map's luminance. A map that is wider than kSplitSumWidth is averaged to that width
-/// first, which changes no mean. The coefficients of what is left are exact.
+/// The angular power of a map's luminance. A map that is wider than kSplitSumWidth is
+/// averaged to that width first, which changes no mean. The coefficients of what is left are exact.
 AngularPower luminance_power(const EnvironmentMap& map, int degree = kSplitSumDegree);
 inline constexpr int kSplitSumWidth = 1024;
 

@@ -54,7 +54,8 @@ class TwoMaps {
   Grid<Rgb> irradiance_;
 };
 
-/// The same under light of radiance 1 from all around, without maps, and so without their errors.
+/// The surface shaded under light of radiance 1 from all around, without maps, and so without their
+/// errors.
 Radiance shaded_by_white(const GlossyOnDiffuse& surface, double cosine, TwoMapsForm form);
 
 }  // namespace lightproof

@@ -16,7 +16,8 @@ struct LevelCostOptions {
   Extent level = {64, 32};  ///< of the levels that are made
   std::size_t texels = 64;  ///< of a level, at which its error is measured
   int runs = 3;             ///< of every method, at least 1, one after the other in turns
-  /// Of the map that gains of a thread are measured on; the sizes of what is made of it follow.
+  /// The size of the map that gains of a thread are measured on; the sizes of what is made of it
+  /// follow.
   Extent gain_map = {512, 256};
 };
 

@@ -24,7 +24,7 @@ struct PointStudyOptions {
 PointStudy study_points(const PointStudyOptions& options = {}, const Progress& progress = {},
                         const Communicator& communicator = {});
 
-/// The same by a seed; or what is kept of it, of this program.
+/// The study of all point sets by a seed; or what is kept of it, of this program.
 PointStudy kept_points(std::uint64_t seed, const MeasurementCache& cache,
                        const Progress& progress = {});
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "lightproof/core/atomic_file.h"
 #include "lightproof/core/child_process.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/kept_file.h"
@@ -24,6 +24,8 @@ namespace {
 constexpr std::uint64_t kSmallestWidth = 256;
 /// Where bytes and errors of tables are compared.
 constexpr std::string_view kTableSize = "2048x1024";
+/// Where directions are timed: a table that caches hold in part, and one that they do not.
+constexpr std::string_view kDirectionSizes = "2048x1024|8192x4096";
 /// Samplers whose directions are timed: those that take the same few steps on any map, the usual
 /// way and the limit.
 constexpr std::string_view kDirectionRows =
@@ -77,6 +79,16 @@ std::optional<SampleName> sample_name(const std::string& name) {
   return SampleName{parts[1], parts[2], {side_of(sides[0]), side_of(sides[1])}, parts[4]};
 }
 
+/// Wall time over processor time, the median over repetitions; 1 if the file does not tell.
+double wall_per_cpu(const std::vector<nlohmann::json>& runs) {
+  std::vector<double> ratios;
+  for (const nlohmann::json& run : runs) {
+    const double cpu = run.value("cpu_time", 0.0);
+    if (cpu > 0.0) ratios.push_back(run.value("real_time", 0.0) / cpu);
+  }
+  return ratios.empty() ? 1.0 : median(std::move(ratios));
+}
+
 double median_of(const std::vector<nlohmann::json>& runs, const char* counter) {
   std::vector<double> values;
   for (const auto& run : runs) values.push_back(run.at(counter).get<double>());
@@ -94,7 +106,8 @@ ThroughputRecord summarise(const SampleName& name, const std::vector<nlohmann::j
           *low,
           *high,
           runs.front().at("table_bytes").get<double>(),
-          runs.front().at("build_ms").get<double>()};
+          runs.front().at("build_ms").get<double>(),
+          wall_per_cpu(runs)};
 }
 
 TableRecord table_of(const SampleName& name, const std::vector<nlohmann::json>& runs) {
@@ -106,17 +119,28 @@ TableRecord table_of(const SampleName& name, const std::vector<nlohmann::json>& 
           median_of(runs, "bytes_per_texel"),
           median_of(runs, "worst_texel_error"),
           has_ratios ? median_of(runs, "times_baseline") : 0.0,
-          has_ratios ? median_of(runs, "share_of_limit") : 0.0};
+          has_ratios ? median_of(runs, "share_of_limit") : 0.0,
+          wall_per_cpu(runs)};
+}
+
+/// The order of this name; none if it is another kind of benchmark.
+std::optional<DrawOrder> draw_order(const std::string& name) {
+  const auto* const found = std::ranges::find_if(
+      kDrawOrders, [&](const DrawOrderInfo& info) { return info.name == name; });
+  if (found == kDrawOrders.end()) return std::nullopt;
+  return static_cast<DrawOrder>(found - kDrawOrders.begin());
 }
 
 /// The parts of directions/<sampler>/<map>/<W>x<H>/<density>/<order> as a record; none for
-/// benchmarks of other things.
+/// benchmarks of other things, as of positions instead of directions.
 std::optional<DirectionRecord> directions_of(const std::string& name,
                                              const std::vector<nlohmann::json>& runs) {
   const std::vector<std::string> parts = split(name, '/');
   if (parts.size() != 6 || parts[0] != "directions") return std::nullopt;
   const std::vector<std::string> sides = split(parts[3], 'x');
   if (sides.size() != 2 || !is_digits(sides[0]) || !is_digits(sides[1])) return std::nullopt;
+  const std::optional<DrawOrder> order = draw_order(parts[5]);
+  if (!order) return std::nullopt;
   const auto ratio = [&](const char* counter) {
     return runs.front().contains(counter) ? median_of(runs, counter) : 0.0;
   };
@@ -124,22 +148,11 @@ std::optional<DirectionRecord> directions_of(const std::string& name,
                          parts[2],
                          {side_of(sides[0]), side_of(sides[1])},
                          parts[4],
-                         parts[5],
+                         *order,
                          median_of(runs, "ns_per_sample"),
                          ratio("times_baseline"),
-                         ratio("share_of_limit")};
-}
-
-/// The ratio of wall time to processor time, the median over all rows.
-double wall_per_cpu(const std::vector<Group>& groups) {
-  std::vector<double> ratios;
-  for (const Group& group : groups) {
-    for (const nlohmann::json& run : group.runs) {
-      const double cpu = run.value("cpu_time", 0.0);
-      if (cpu > 0.0) ratios.push_back(run.value("real_time", 0.0) / cpu);
-    }
-  }
-  return ratios.empty() ? 1.0 : median(std::move(ratios));
+                         ratio("share_of_limit"),
+                         wall_per_cpu(runs)};
 }
 
 /// Throws InputError for a benchmark that reports an error: a sampler that fails its check must
@@ -200,44 +213,43 @@ Throughput records_of(const nlohmann::json& document) {
   const nlohmann::json context = document.value("context", nlohmann::json::object());
   records.caches = {cache_size(context, 2), cache_size(context, 3)};
   records.origin = origin_of(context);
-  if (const double ratio = wall_per_cpu(groups); ratio > kBusyRatio) {
-    records.origin += fmt::format("{}the machine was busy: wall time {:.2g} times processor time",
-                                  records.origin.empty() ? "" : "; ", ratio);
+  for (const Group& group : groups) {
+    const double ratio = wall_per_cpu(group.runs);
+    records.busy_rows += ratio > kBusyRatio;
+    records.wall_per_cpu = std::max(records.wall_per_cpu, ratio);
+  }
+  if (records.busy_rows > 0) {
+    records.origin += fmt::format(
+        "{}the machine was busy during {} of {} benchmarks: their wall time exceeds "
+        "their processor time by more than a tenth, and is up to {:.2g} times it",
+        records.origin.empty() ? "" : "; ", records.busy_rows, groups.size(), records.wall_per_cpu);
   }
   return records;
 }
 
-/// The file that keeps the throughput; empty where nothing can be kept: without a folder, or of a
-/// program that cannot be read.
-fs::path kept_file(const ThroughputSource& source, const std::string& filter) {
+/// Where the throughput is kept: nowhere if the program cannot be read.
+KeptFile kept_file(const ThroughputSource& source, const std::string& filter) {
   const std::optional<std::uint64_t> program = hash_of_file(source.program);
-  if (source.cache.empty() || !program) return {};
-  const std::string identity = fmt::format("{:x}/{}/{}", *program, machine_name(), filter);
-  return source.cache / fmt::format("throughput-{:016x}.json", hash_text(identity));
+  if (!program) return {};
+  return {source.cache, "throughput", fmt::format("{:x}/{}/{}", *program, machine_name(), filter)};
 }
 
-/// None if it is damaged, or not there.
-std::optional<Throughput> read_kept(const fs::path& kept) {
-  std::error_code unreadable;
-  if (kept.empty() || !fs::exists(kept, unreadable)) return std::nullopt;
+/// What is kept, as a file of Google Benchmark; none if it is damaged, or not there.
+std::optional<Throughput> kept_throughput(const KeptFile& kept) {
+  const std::optional<std::string> text = read_kept(kept);
+  if (!text) return std::nullopt;
   try {
-    return read_throughput(kept);
+    return records_of(nlohmann::json::parse(*text));
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
   } catch (const InputError&) {
     return std::nullopt;
   }
 }
 
-/// Whether it is kept: a cache that cannot be written to is no reason to lose what was measured.
-bool keep(const fs::path& file, const fs::path& kept) {
-  try {
-    fs::create_directories(kept.parent_path());
-    AtomicFile whole(kept);
-    fs::copy_file(file, whole.temporary(), fs::copy_options::overwrite_existing);
-    whole.commit();
-    return true;
-  } catch (const std::exception&) {
-    return false;
-  }
+std::string content_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 }  // namespace
@@ -250,23 +262,25 @@ std::string throughput_filter(std::uint64_t largest_width) {
   }
   return fmt::format(
       "^(sample/[^/]*/[^/]*/(({0})x[0-9]*/random|{1}/fused)|"
-      "directions/({2})/[^/]*/{1}/[ABC]/(scalar|fused))$",
-      fmt::join(widths, "|"), kTableSize, kDirectionRows);
+      "directions/({2})/[^/]*/({3})/[ABC]/(scalar|ahead|fused))$",
+      fmt::join(widths, "|"), kTableSize, kDirectionRows,
+      largest_width >= 8192 ? kDirectionSizes : kTableSize);
 }
 
 Throughput measure_throughput(const ThroughputSource& source) {
   const std::string filter = throughput_filter(source.largest_width);
-  const fs::path kept = kept_file(source, filter);
-  if (!source.measure_again) {
-    if (std::optional<Throughput> before = read_kept(kept)) return *std::move(before);
-  }
+  const KeptFile kept = kept_file(source, filter);
+  std::optional<Throughput> before;
+  if (!source.measure_again) before = kept_throughput(kept);
+  if (before && before->busy_rows == 0) return *std::move(before);
   const TemporaryFolder folder;
   const fs::path file = folder / "throughput.json";
   run_child(source.program, {"--benchmark_filter=" + filter, "--benchmark_out=" + file.string(),
                              "--benchmark_out_format=json", "--benchmark_repetitions=3",
                              "--benchmark_min_time=0.1"});
   Throughput measured = read_throughput(file);
-  if (!kept.empty()) keep(file, kept);
+  if (before && before->busy_rows <= measured.busy_rows) return *std::move(before);
+  keep(kept, content_of(file));
   return measured;
 }
 

@@ -16,14 +16,16 @@ struct Throughput {
   std::vector<TableRecord> tables;
   std::vector<DirectionRecord> directions;
   CacheSizes caches;
-  /// When, where and of what it was measured, as the file says; and that the machine was busy, if
-  /// the wall time exceeds the processor time by more than a tenth.
+  /// When, where and of what it was measured, as the file says; and how many benchmarks met a busy
+  /// machine.
   std::string origin;
+  std::size_t busy_rows = 0;  ///< benchmarks whose wall time is over kBusyRatio of processor time
+  double wall_per_cpu = 1.0;  ///< the largest such ratio of all benchmarks
 };
 
 /// The benchmarks of a study, as a pattern of names: one sample at a time on maps from 256x128 to
 /// the largest width (16384 takes 8 GB), the tables, in batches, on one size, and directions of
-/// every density on the same.
+/// every density on the same and, if maps are as large as that, on 8192x4096.
 std::string throughput_filter(std::uint64_t largest_width);
 
 /// Where throughput is measured, and kept.
@@ -36,7 +38,8 @@ struct ThroughputSource {
 
 /// Runs the benchmarks of a study and reads what it measured, which is kept in the cache; or
 /// takes what is kept there of the same program, to the last byte, on this machine and up to this
-/// width. Throws InputError if the program cannot be started or fails, Interrupted if it was
+/// width. What was measured on a busy machine is measured again each time, and the better of both
+/// is kept. Throws InputError if the program cannot be started or fails, Interrupted if it was
 /// interrupted.
 Throughput measure_throughput(const ThroughputSource& source);
 

@@ -9,7 +9,8 @@
 
 namespace lightproof {
 
-/// Of all systems, in the order of their ids: each on an input whose exact result is known.
+/// The comparisons of all systems, in the order of their ids: each on an input whose exact result
+/// is known.
 std::vector<PublishedComparison> system_comparisons();
 
 /// Pictures of those that are worth looking at, in the same order.

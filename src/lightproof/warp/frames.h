@@ -70,7 +70,7 @@ FrameOf<T> bare_tangent_frame(UnitVector<T> n) {
   return {tangent, glm::cross(n, tangent), n};
 }
 
-/// The same with the tangent x at the poles.
+/// The frame of the tangent across z and n, n being a unit vector, with the tangent x at the poles.
 template <class T>
 FrameOf<T> tangent_frame(UnitVector<T> n) {
   if (n.x == T(0) && n.y == T(0)) return {{1, 0, 0}, {0, n.z, 0}, n};
@@ -104,8 +104,8 @@ FrameOf<T> bare_quaternion_frame(UnitVector<T> n) {
           n};
 }
 
-/// The same rotation written out as a matrix in n, which divides by 1 + n.z: the axis is gone from
-/// it, and with it the exception at +z. Not a number at -z.
+/// The rotation of rotation_frame() written out as a matrix in n, which divides by 1 + n.z: the
+/// axis is gone from it, and with it the exception at +z. Not a number at -z.
 template <class T>
 FrameOf<T> bare_rotation_frame(UnitVector<T> n) {
   const T d = T(1) + n.z;

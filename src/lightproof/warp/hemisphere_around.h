@@ -7,32 +7,35 @@
 
 namespace lightproof {
 
-/// Density 1/2pi above the plane across the unit vector n, by core/direction.h's frame.
+/// A direction of density 1/2pi above the plane across the unit vector n, by core/direction.h's
+/// frame.
 inline Direction uniform_hemisphere_around(Direction n, SquarePoint u) {
   return frame_around(n).to_world(uniform_hemisphere_from_square(u));
 }
 
-/// The same by the tangent frame (z x n, n x (z x n), n).
+/// A direction of density 1/2pi above the plane across the unit vector n, by the tangent frame
+/// (z x n, n x (z x n), n).
 inline Direction uniform_hemisphere_by_tangent_frame(Direction n, SquarePoint u) {
   return to_frame(tangent_frame(n)).to_world(uniform_hemisphere_from_square(u));
 }
 
-/// The same by the quaternion that rotates +z, or below the horizon -z, to n.
+/// A direction of density 1/2pi above the plane across the unit vector n, by the quaternion that
+/// rotates +z, or below the horizon -z, to n.
 inline Direction uniform_hemisphere_by_quaternion(Direction n, SquarePoint u) {
   return to_frame(quaternion_frame(n)).to_world(uniform_hemisphere_from_square(u));
 }
 
-/// Density (n.d)/pi, by core/direction.h's frame.
+/// A direction d of density (n.d)/pi, n being a unit vector, by core/direction.h's frame.
 inline Direction cosine_hemisphere_around(Direction n, SquarePoint u) {
   return frame_around(n).to_world(cosine_hemisphere_from_square(u));
 }
 
-/// The same by the tangent frame.
+/// A direction d of density (n.d)/pi, n being a unit vector, by the tangent frame.
 inline Direction cosine_hemisphere_by_tangent_frame(Direction n, SquarePoint u) {
   return to_frame(tangent_frame(n)).to_world(cosine_hemisphere_from_square(u));
 }
 
-/// The same by the quaternion.
+/// A direction d of density (n.d)/pi, n being a unit vector, by the quaternion.
 inline Direction cosine_hemisphere_by_quaternion(Direction n, SquarePoint u) {
   return to_frame(quaternion_frame(n)).to_world(cosine_hemisphere_from_square(u));
 }

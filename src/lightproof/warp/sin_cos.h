@@ -57,4 +57,17 @@ inline SinCosOfTurns sin_cos_of_turns(double x) {
           negate_if(((quarter + 1) & 2) != 0, select(odd, sine, cosine))};
 }
 
+/// The largest angle of sin_cos_of_small(), in radians: that of a texel of a map 256 wide.
+inline constexpr double kSmallAngle = kPi / 128.0;
+
+/// Sine and cosine of an angle from 0 to kSmallAngle, in radians, with errors of some 2^-53; the
+/// sine's is so relative to it.
+inline SinCosOfTurns sin_cos_of_small(double angle) {
+  const double square = angle * angle;
+  const double fourth = square * square;
+  return {
+      angle * ((1.0 + square * kSineTerms[1]) + fourth * (kSineTerms[2] + square * kSineTerms[3])),
+      (1.0 + square * kCosineTerms[1]) + fourth * (kCosineTerms[2] + square * kCosineTerms[3])};
+}
+
 }  // namespace lightproof
