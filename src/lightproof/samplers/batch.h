@@ -89,11 +89,9 @@ std::size_t draw_batch(const Sampler& sampler, const BatchPoints& points, const 
   std::size_t by_vectors = 0;
   if constexpr (requires { sampler.view(); }) {
     // Vectors know the directions of one mapping.
-    if constexpr (std::is_same_v<Output, std::span<TexelSample>>) {
-      by_vectors = sample_vectors(sampler.view(), points, output);
-    } else if (is_on_plain_map(sampler)) {
-      by_vectors = sample_vectors(sampler.view(), points, output);
-    }
+    bool is_known = true;
+    if constexpr (std::is_same_v<Output, DirectionBatch>) is_known = is_on_plain_map(sampler);
+    if (is_known) by_vectors = sample_vectors(sampler.view(), points, output);
   }
   std::size_t done = by_vectors;
   alignas(64) std::array<double, kBatchBlock> s;
