@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "bench/registration.h"
+#include "bench/timing.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/prefilter/brdf_map.h"
 #include "lightproof/prefilter/specular_chain.h"
@@ -30,7 +31,6 @@ namespace {
 
 constexpr Extent kExtent = {512, 256};
 constexpr int kLevels = 9;
-using Clock = std::chrono::steady_clock;
 using ExactChain = std::vector<Grid<glm::dvec3>>;
 
 struct TimedMap {

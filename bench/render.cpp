@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bench/registration.h"
+#include "bench/timing.h"
 #include "lightproof/core/random.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/render/direct_lighting.h"
@@ -21,7 +22,6 @@
 namespace lightproof::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr Extent kMapExtent = {2048, 1024};
 constexpr Extent kPicture = {64, 48};
 
