@@ -62,7 +62,7 @@ TEST(SlopeFinding, SetsTheAliasTableAgainstTheMonotoneOne) {
             finding + ": the largest difference of 2 sets");
 }
 
-TEST(AccuracyChartSpec, MarksWhatLeadsAndDashesWhatWasNotMeasured) {
+TEST(AccuracyChartSpec, MarksWhatLeadsAndDashesWhatIsPredicted) {
   AccuracyLine rare = falling("uniform", "uniform", 30.0);
   for (AccuracyPoint& point : rare.points) point.predicted = 1.1 * point.rmse;
   rare.points[0].rmse_error = rare.points[0].rmse;
@@ -77,16 +77,38 @@ TEST(AccuracyChartSpec, MarksWhatLeadsAndDashesWhatWasNotMeasured) {
   ASSERT_EQ(of_rare.size(), 4U);
   EXPECT_TRUE(of_rare[0]["rmse"].is_null());
   EXPECT_EQ(of_rare[0]["predicted"], 10.0) << "drawn on the edge";
-  EXPECT_FALSE(of_rare[1]["predicted"].is_null()) << "the dashed line reaches the measured one";
-  EXPECT_TRUE(of_rare[2]["predicted"].is_null());
-  EXPECT_TRUE(of_rare[0]["leads"]);
-  EXPECT_FALSE(of_b[0]["leads"]);
+  EXPECT_FALSE(of_rare[2]["predicted"].is_null()) << "beside what was measured";
+  EXPECT_TRUE(of_rare[0]["leads"][0]);
+  EXPECT_FALSE(of_b[0]["leads"][0]);
+}
+
+// What is the fastest with its set-up for nothing is not if 100 points pay for it.
+TEST(AccuracyChartSpec, HasAFrontForEachShareOfTheSetUp) {
+  AccuracyLine prepared = look_up("c", 1e-7, 0.3);
+  prepared.set_up_seconds = 1.0;
+  const json spec = json::parse(accuracy_chart({chart_of({falling("a", "MIS"), prepared})}));
+  std::vector<double> first(4, HUGE_VAL);
+  json leads;
+  for (const json& row : spec["data"]["values"]) {
+    if (row.contains("front")) {
+      double& seconds = first.at(row["choice"].get<std::size_t>());
+      seconds = std::min(seconds, row["seconds"].get<double>());
+    }
+    if (row.value("series", "") == "c" && row.contains("n")) leads = row["leads"];
+  }
+  EXPECT_DOUBLE_EQ(first[0], 1e-7);
+  EXPECT_GT(first[3], 1e-7) << "a shading point's share is 10 ms";
+  EXPECT_EQ(spec["transform"][1]["calculate"],
+            "datum.seconds + [0.0,1e-06,0.0001,0.01][set_up] * datum.setup");
+  EXPECT_TRUE(leads[0]);
 }
 
 TEST(AccuracyChartSpec, OffersEveryMapReceiverAndMaterial) {
   const std::vector<AccuracyChart> charts = testing::synthetic_study().accuracy;
   const json spec = json::parse(accuracy_chart(charts));
-  ASSERT_EQ(spec["params"].size(), 3U);
+  ASSERT_EQ(spec["params"].size(), 4U);
+  EXPECT_EQ(spec["params"][3]["bind"]["labels"].size(),
+            spec["params"][3]["bind"]["options"].size());
   EXPECT_EQ(spec["params"][0]["bind"]["options"].size(), 8U);
   EXPECT_EQ(spec["params"][1]["value"], "sphere") << "the receiver that nothing occludes";
 }

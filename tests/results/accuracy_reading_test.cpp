@@ -74,6 +74,15 @@ TEST(AccuracyFront, LeavesOutWhatIsSlowerAndHardlyBetter) {
             (std::vector<std::pair<std::string, std::uint64_t>>{{"c", 1}, {"b", 16}, {"b", 64}}));
 }
 
+TEST(AccuracyFront, CountsTheShareOfTheSetUpThatIsAskedFor) {
+  AccuracyLine prepared = look_up("c", 1e-7, 0.3);
+  prepared.set_up_seconds = 10.0;
+  const AccuracyChart chart = chart_of({falling("a", "lobes"), prepared});
+  EXPECT_EQ(pareto_front(chart).front().line->estimator, "c");
+  EXPECT_EQ(pareto_front(chart, 1e-2).front().line->estimator, "a");
+  EXPECT_DOUBLE_EQ(total_seconds({&chart.lines[1], &chart.lines[1].points[0]}, 1e-2), 0.1 + 1e-7);
+}
+
 TEST(LeadingLines, AreTheFrontAndTheBestOfEveryOtherFamily) {
   const AccuracyChart chart =
       chart_of({falling("worse", "lobes", 3.0), falling("better", "lobes", 2.0),

@@ -29,7 +29,7 @@ Cell percent_cell(double fraction) { return {percent(fraction), "number", ""}; }
 /// Samples have no meaning to an estimator of one point.
 Cell samples_cell(const AccuracyLine& line, const std::optional<LinePlace>& place) {
   if (!place) return none_cell("not reached within what was measured");
-  if (line.points.size() == 1) return {"look-up", "number", "its budget is without meaning"};
+  if (line.points.size() == 1) return {"fixed cost", "number", "its budget is without meaning"};
   return {with_thousands(whole_samples(*place)), "number", ""};
 }
 
@@ -87,9 +87,9 @@ Table equal_time_table(const AccuracyChart& chart) {
 }
 
 Table set_up_table(const AccuracyChart& chart) {
-  Table table("Set-up, memory, rate and floor",
+  Table table("Set-up, memory, rate and bias",
               {"Estimator", "Family", "Set-up", "Memory beside the map", "Slope of error over N",
-               "Floor (bias)"});
+               "Bias at most samples"});
   for (const AccuracyLine& line : chart.lines) {
     table.add({text_cell(line.estimator),
                text_cell(line.family),
@@ -162,7 +162,7 @@ std::string accuracy_tables_html(const AccuracyChart& chart) {
                      equal_error_table(chart).html()) +
          collapsible("At equal time: the error in 1 \u00b5s to 1 ms",
                      equal_time_table(chart).html()) +
-         collapsible("Set-up time, memory, slope and floor", set_up_table(chart).html()) +
+         collapsible("Set-up time, memory, slope and bias", set_up_table(chart).html()) +
          left_out_html(chart);
 }
 

@@ -15,6 +15,10 @@ namespace {
 
 constexpr double kLeastDrawn = 1e-4;  // RMSE over the mean
 constexpr double kMostDrawn = 10.0;
+/// How many shading points share a set-up, by the choice of the list; 0 if it is not counted.
+constexpr std::array<double, 4> kSetUpShares = {0.0, 1e-6, 1e-4, 1e-2};
+constexpr std::array<const char*, 4> kSetUpWords = {
+    "not counted", "shared by 1,000,000 points", "shared by 10,000 points", "shared by 100 points"};
 constexpr const char* kFaint = "#d3d8de";
 constexpr const char* kFrontColour = "#1d232a";
 
@@ -63,13 +67,6 @@ Json drawn(double error) {
   return rounded(std::clamp(error, kLeastDrawn, kMostDrawn));
 }
 
-/// The prediction is drawn where an error was not measured, and at the next points, so that the
-/// line goes on.
-bool is_predicted_at(const AccuracyLine& line, std::size_t i) {
-  const auto misses = [&](std::size_t at) { return !is_measured(line.points[at]); };
-  return misses(i) || (i > 0 && misses(i - 1)) || (i + 1 < line.points.size() && misses(i + 1));
-}
-
 Json point_row(const AccuracyLine& line, std::size_t i) {
   const AccuracyPoint& p = line.points[i];
   const bool measured = is_measured(p);
@@ -78,11 +75,14 @@ Json point_row(const AccuracyLine& line, std::size_t i) {
               {"family", line.family},
               {"n", p.samples},
               {"seconds", rounded(p.seconds)},
+              {"setup", rounded(line.set_up_seconds)},
               {"time", seconds_text(p.seconds)},
+              {"prepared", seconds_text(line.set_up_seconds)},
+              {"memory", bytes_text(static_cast<double>(line.bytes))},
               {"rmse", measured ? drawn(p.rmse) : Json(nullptr)}};
   row["low"] = measured && half > 0.0 ? drawn(std::max(p.rmse - half, 0.05 * p.rmse)) : row["rmse"];
   row["high"] = measured ? drawn(p.rmse + half) : Json(nullptr);
-  row["predicted"] = is_predicted_at(line, i) ? drawn(p.predicted) : Json(nullptr);
+  row["predicted"] = drawn(p.predicted);
   row["error"] = percent_with_error(p.rmse, p.rmse_error) + (measured ? "" : " (not measured)");
   row["exact"] = drawable(p.predicted) ? percent(p.predicted) : "not known";
   return row;
@@ -94,11 +94,26 @@ Json floor_row(const AccuracyLine& line, double right) {
           {"family", line.family},
           {"floor", drawn(line.floor)},
           {"seconds", rounded(line.points.back().seconds)},
+          {"setup", rounded(line.set_up_seconds)},
           {"right", rounded(right)}};
 }
 
-Json front_row(const ChartPoint& p) {
-  return {{"seconds", rounded(p.point->seconds)}, {"front", drawn(known_error(*p.point))}};
+/// Of one choice of how the set-up is shared.
+Json front_row(const ChartPoint& p, std::size_t choice) {
+  return {{"seconds", rounded(total_seconds(p, kSetUpShares[choice]))},
+          {"setup", 0},
+          {"front", drawn(known_error(*p.point))},
+          {"choice", choice}};
+}
+
+/// Whether a line leads, by each choice of how the set-up is shared.
+Json choices_led(const AccuracyChart& chart, const AccuracyLine& line) {
+  Json leads = Json::array();
+  for (const double share : kSetUpShares) {
+    const auto leading = leading_lines(chart, share);
+    leads.push_back(std::find(leading.begin(), leading.end(), &line) != leading.end());
+  }
+  return leads;
 }
 
 double longest(const AccuracyChart& chart) {
@@ -112,10 +127,9 @@ double longest(const AccuracyChart& chart) {
 /// The rows of all layers of one place.
 Json rows_of(const AccuracyChart& chart, const PlaceChoice& choice) {
   Json rows = Json::array();
-  const auto leading = leading_lines(chart);
   const double right = longest(chart);
   for (const AccuracyLine& line : chart.lines) {
-    const bool leads = std::find(leading.begin(), leading.end(), &line) != leading.end();
+    const Json leads = choices_led(chart, line);
     for (std::size_t i = 0; i < line.points.size(); ++i) {
       rows.push_back(point_row(line, i));
       rows.back()["leads"] = leads;
@@ -124,7 +138,11 @@ Json rows_of(const AccuracyChart& chart, const PlaceChoice& choice) {
     rows.push_back(floor_row(line, right));
     rows.back()["leads"] = leads;
   }
-  for (const ChartPoint& p : pareto_front(chart)) rows.push_back(front_row(p));
+  for (std::size_t i = 0; i < kSetUpShares.size(); ++i) {
+    for (const ChartPoint& p : pareto_front(chart, kSetUpShares[i])) {
+      rows.push_back(front_row(p, i));
+    }
+  }
   for (Json& row : rows) choice.put(row, place_of(chart));
   return rows;
 }
@@ -135,7 +153,7 @@ Json is_lit() {
   return {{"or",
            {{{"param", "family"}, {"empty", false}},
             {{"param", "pointed_at"}, {"empty", false}},
-            {{"and", {{{"param", "family"}}, "datum.leads"}}}}}};
+            {{"and", {{{"param", "family"}}, "datum.leads[set_up]"}}}}}};
 }
 
 Json opacity(double lit, double unlit) {
@@ -143,7 +161,8 @@ Json opacity(double lit, double unlit) {
 }
 
 Json time_axis(const LogRange& range) {
-  Json x = quantity("seconds", "time of one shading point, without set-up (log)", "log");
+  Json x =
+      quantity("total", "time of one shading point, with its share of the set-up (log)", "log");
   x["axis"] = log_axis(range.low, range.high,
                        "replace(format(datum.value, '~s'), regexp('([0-9.]+)'), '$1 ') + 's'");
   x["scale"]["nice"] = false;
@@ -160,6 +179,25 @@ Json error_axis(const std::string& field) {
   return y;
 }
 
+/// The list that says how the set-up is shared; its value is the place in kSetUpShares.
+Json set_up_list() {
+  Json places = Json::array();
+  for (std::size_t i = 0; i < kSetUpShares.size(); ++i) places.push_back(i);
+  return {
+      {"name", "set_up"},
+      {"value", 0},
+      {"bind",
+       {{"input", "select"}, {"options", places}, {"labels", kSetUpWords}, {"name", "Set-up"}}}};
+}
+
+Json with_share_of_set_up() {
+  const std::string shares = Json(kSetUpShares).dump();
+  return {{"calculate", "datum.seconds + " + shares + "[set_up] * datum.setup"}, {"as", "total"}};
+}
+
+/// The front by the chosen share of the set-up.
+Json only_front() { return {{{"filter", "isValid(datum.front) && datum.choice === set_up"}}}; }
+
 Json only(const std::string& field) { return {{{"filter", "isValid(datum." + field + ")"}}}; }
 
 Json accuracy_tooltip() {
@@ -167,6 +205,8 @@ Json accuracy_tooltip() {
           tooltip("family", "family", ""),
           tooltip("n", "samples N", ",d"),
           tooltip("time", "time of a shading point", ""),
+          tooltip("prepared", "set-up", ""),
+          tooltip("memory", "memory beside the map", ""),
           tooltip("error", "RMSE / mean \u00b1 SE", ""),
           tooltip("exact", "predicted", "")};
 }
@@ -179,7 +219,7 @@ Json faint_lines() {
 }
 
 Json lit_lines(const std::string& field, const Json& colour, bool dashed) {
-  Json mark = {{"type", "line"}, {"strokeWidth", dashed ? 1.5 : 2.0}};
+  Json mark = {{"type", "line"}, {"strokeWidth", dashed ? 1.0 : 2.0}};
   if (dashed) mark["strokeDash"] = {5, 4};
   return {{"transform", only("n")},
           {"mark", mark},
@@ -209,7 +249,7 @@ Json bars(const Json& colour) {
 }
 
 Json front_line() {
-  return {{"transform", only("front")},
+  return {{"transform", only_front()},
           {"mark",
            {{"type", "line"},
             {"color", kFrontColour},
@@ -221,7 +261,7 @@ Json front_line() {
 
 /// Rings around what nothing beats.
 Json front_rings() {
-  return {{"transform", only("front")},
+  return {{"transform", only_front()},
           {"mark",
            {{"type", "point"},
             {"shape", "circle"},
@@ -278,14 +318,18 @@ std::string accuracy_chart(const std::vector<AccuracyChart>& charts) {
   for (const AccuracyChart& one : charts) {
     for (Json& row : rows_of(one, choice)) rows.push_back(std::move(row));
     for (const AccuracyLine& line : one.lines) {
-      for (const AccuracyPoint& point : line.points) times.add(point.seconds);
+      for (const AccuracyPoint& point : line.points) {
+        times.add(point.seconds);
+        times.add(total_seconds({&line, &point}, kSetUpShares.back()));
+      }
     }
   }
   const std::vector<SeriesStyle> styles = family_styles(charts);
   const Json colour = family_encoding(styles, &SeriesStyle::colour);
   Json chart = base_chart(460);
   chart["params"] = choice.params();
-  chart["transform"] = {choice.filter()};
+  chart["params"].push_back(set_up_list());
+  chart["transform"] = {choice.filter(), with_share_of_set_up()};
   chart["data"] = {{"values", std::move(rows)}};
   chart["encoding"] = {{"x", time_axis(times)}};
   chart["layer"] = {front_line(),

@@ -18,12 +18,19 @@ namespace {
 constexpr std::string_view kHowToRead =
     "Every estimator of reflected light: how long one shading point takes, and how far it is off "
     "then (root mean square error over the points, bias included, over the mean). Left and low is "
-    "good. Falling lines are unbiased: more samples, less error. A single mark is a look-up that "
-    "takes what it takes; the dotted line is its floor, the error that no budget takes away. Rings "
+    "good. Falling lines: more samples, less error. A single mark takes what it takes, whatever "
+    "the "
+    "budget: a look-up, or as many shadow rays as there are lights. The dotted line is the bias of "
+    "a biased estimator with the most samples that it was given. Thin dashes: the error that "
+    "follows from exact moments, where these are known. Rings "
     "on the broad grey line: nothing is both faster and more exact by more than a tenth (the "
     "Pareto front). In colour: "
     "those, and the most efficient of every other family; the rest is grey until its family is "
-    "clicked in the legend. Point at a mark for its name, samples, time and error. Bars: two "
+    "clicked in the legend. What was prepared before the first point, tables or maps, counts by "
+    "the "
+    "share that the list above says. Point at a mark for its name, samples, time, set-up, memory "
+    "and "
+    "error. Bars: two "
     "standard errors on either side. Errors below 0.01 % and above 1000 % are drawn on the edge.";
 
 std::vector<ChartTitle> titles_of(const std::vector<AccuracyChart>& charts) {

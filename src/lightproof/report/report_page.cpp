@@ -9,6 +9,8 @@ namespace lightproof {
 namespace {
 
 constexpr std::string_view kNavigation = R"(<nav aria-label="Sections"><ul>
+<li><a href="#accuracy">Accuracy</a></li>
+<li><a href="#recommendations">What to do</a></li>
 <li><a href="#overview">Overview</a></li>
 <li><a href="#findings">Findings</a></li>
 <li><a href="#gate">Gate</a></li>

@@ -83,15 +83,19 @@ double efficiency(const AccuracyLine& line) {
   return 1.0 / (last.error * last.error * last.seconds);
 }
 
-std::vector<ChartPoint> pareto_front(const AccuracyChart& chart) {
+double total_seconds(const ChartPoint& point, double set_up_share) {
+  return point.point->seconds + set_up_share * point.line->set_up_seconds;
+}
+
+std::vector<ChartPoint> pareto_front(const AccuracyChart& chart, double set_up_share) {
   std::vector<ChartPoint> points;
   for (const AccuracyLine& line : chart.lines) {
     for (const AccuracyPoint& point : line.points) {
       if (is_known(known_error(point))) points.push_back({&line, &point});
     }
   }
-  const auto costs = [](const ChartPoint& p) {
-    return std::pair(p.point->seconds, known_error(*p.point));
+  const auto costs = [&](const ChartPoint& p) {
+    return std::pair(total_seconds(p, set_up_share), known_error(*p.point));
   };
   std::stable_sort(points.begin(), points.end(),
                    [&](const ChartPoint& a, const ChartPoint& b) { return costs(a) < costs(b); });
@@ -114,9 +118,9 @@ std::optional<FastestLine> fastest_to(const AccuracyChart& chart, double error) 
   return fastest;
 }
 
-std::vector<const AccuracyLine*> leading_lines(const AccuracyChart& chart) {
+std::vector<const AccuracyLine*> leading_lines(const AccuracyChart& chart, double set_up_share) {
   std::vector<const AccuracyLine*> leading;
-  for (const ChartPoint& p : pareto_front(chart)) {
+  for (const ChartPoint& p : pareto_front(chart, set_up_share)) {
     if (!is_on(leading, *p.line)) leading.push_back(p.line);
   }
   const std::vector<const AccuracyLine*> front = leading;

@@ -46,9 +46,13 @@ struct ChartPoint {
   const AccuracyPoint* point;
 };
 
+/// The time of a shading point with this share of the set-up: 0 if it is not counted, 1e-4 if
+/// 10,000 points share it.
+double total_seconds(const ChartPoint& point, double set_up_share);
+
 /// The points than which no other is as fast and as exact, the fastest first. One that is slower
 /// than another must have less than nine tenths of its error: smaller gains are within the noise.
-std::vector<ChartPoint> pareto_front(const AccuracyChart& chart);
+std::vector<ChartPoint> pareto_front(const AccuracyChart& chart, double set_up_share = 0.0);
 
 /// The line that reaches an error first, and where.
 struct FastestLine {
@@ -61,6 +65,7 @@ std::optional<FastestLine> fastest_to(const AccuracyChart& chart, double error);
 
 /// The lines that stand for all: those on the front, and of each family without one there the most
 /// efficient.
-std::vector<const AccuracyLine*> leading_lines(const AccuracyChart& chart);
+std::vector<const AccuracyLine*> leading_lines(const AccuracyChart& chart,
+                                               double set_up_share = 0.0);
 
 }  // namespace lightproof

@@ -26,7 +26,7 @@
 
   // Shows the title and the blocks of what a chart's lists have chosen.
   function follow(figure) {
-    const lists = [...figure.querySelectorAll(".controls select")];
+    const lists = [...figure.querySelectorAll('.controls select[name^="chosen_"]')];
     if (lists.length === 0) return;
     const key = lists.map((list) => list.value).join(" | ");
     const titles = figure.querySelector("script.titles");
