@@ -161,8 +161,7 @@ Json opacity(double lit, double unlit) {
 }
 
 Json time_axis(const LogRange& range) {
-  Json x =
-      quantity("total", "time of one shading point, with its share of the set-up (log)", "log");
+  Json x = quantity("total", "time of one shading point (log)", "log");
   x["axis"] = log_axis(range.low, range.high,
                        "replace(format(datum.value, '~s'), regexp('([0-9.]+)'), '$1 ') + 's'");
   x["scale"]["nice"] = false;
