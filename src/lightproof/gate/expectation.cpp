@@ -45,6 +45,13 @@ reference::EstimatorMoments mapped_inverse_pdf_moments(const Expectation& expect
   return moments;
 }
 
+/// The largest sin(theta) in a row: at its edge towards the equator, or on it.
+double largest_sine(Extent extent, int y) {
+  if (2 * y < extent.height && extent.height < 2 * (y + 1)) return 1.0;
+  return std::max(sin_theta(static_cast<double>(y) / extent.height),
+                  sin_theta((y + 1.0) / extent.height));
+}
+
 /// First and second moment of 1/p(omega) over the bright texels. Under A and C the density over
 /// (s,t) is constant in a texel and 1/p(omega) = 2 pi^2 sin(theta) / p(s,t); under B p(omega) is.
 reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) {
@@ -67,8 +74,8 @@ reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) 
       if (!expectation.is_bright(expectation.luminance(x, y))) continue;
       const double mass = expectation.masses(x, y);
       moments.raw[0] += solid_angle;
-      const double flat = 2.0 * kPi * kPi * sin_theta((y + 0.5) / extent.height) /
-                          static_cast<double>(extent.count());
+      const double flat =
+          2.0 * kPi * kPi * largest_sine(extent, y) / static_cast<double>(extent.count());
       moments.largest = std::max(moments.largest, (is_flat ? flat : solid_angle) / mass);
       moments.raw[1] += is_flat ? square / mass : solid_angle * solid_angle / mass;
     }
