@@ -208,10 +208,10 @@ Name name_of_wrong_pdf(const ScoredAlternatives& distributions, const Expectatio
     }
     const std::string_view distribution =
         distribution_of_pdf(distributions, expectation, inspection.own);
-    // The records show a distribution's shape, but no probability: this is a density over something
-    // else.
-    if (!distribution.empty()) {
-      const bool is_density = check_pdf_integral(inspection.own).passed;
+    // The records show a distribution's shape. What has it, is 0 nowhere that it should not be, and
+    // is no probability, is a density over something else.
+    const bool is_density = check_pdf_integral(inspection.own).passed;
+    if (!distribution.empty() && (is_density || has_support)) {
       return {is_density ? distribution : "pdf-of-another-measure", whole};
     }
   }

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "lightproof/core/grid.h"
+
 namespace lightproof {
 
 /// Probabilities around a texel.
@@ -29,5 +31,14 @@ struct MassRounding {
            of_average / static_cast<double>(masses.texels);
   }
 };
+
+/// What a sampler by sums of rows and columns in steps of `step` declares on a map of this extent:
+/// CDF entries are each rounded to the nearest, after every lit cell got one step of its own out of
+/// the whole: two steps a cell, and a share of the cells for all of them.
+constexpr MassRounding rounding_of_sums(Extent map, double step) {
+  return {.relative = step * (map.width + map.height), .of_sums = 2.0 * step};
+}
+/// rounding_of_sums() of sums in single precision.
+constexpr MassRounding rounding_of_float_sums(Extent map) { return rounding_of_sums(map, 0x1p-24); }
 
 }  // namespace lightproof

@@ -41,13 +41,7 @@ double binary_steps(Extent map) { return std::log2(map.width) + std::log2(map.he
 double quadtree_steps(Extent map) { return std::log2(std::max(map.width, map.height)); }
 double constant_steps(Extent /*map*/) { return 1.0; }
 
-/// CDF entries in steps of `step`, each rounded to the nearest, after every lit cell got one step
-/// of its own out of the whole: two steps a cell, and a share of the cells for all of them.
-MassRounding summed(Extent map, double step) {
-  return {.relative = step * (map.width + map.height), .of_sums = 2.0 * step};
-}
-MassRounding summed_in_floats(Extent map) { return summed(map, 0x1p-24); }
-MassRounding summed_in_31_bits(Extent map) { return summed(map, 0x1p-31); }
+MassRounding summed_in_31_bits(Extent map) { return rounding_of_sums(map, 0x1p-31); }
 /// Runs as above; inside of them 16 bits, likewise.
 MassRounding of_runs(Extent map) {
   MassRounding rounding = summed_in_31_bits(map);
@@ -83,7 +77,7 @@ constexpr auto kSamplers = std::to_array<SamplerInfo>({
      .steps = linear_steps,
      .weights = kPublishedLuminance,
      .resolution = 0x1p-24,
-     .rounding = summed_in_floats,
+     .rounding = rounding_of_float_sums,
      .monotone = true,
      .known_defects = true,
      .inverts_shared_cdf = false,
