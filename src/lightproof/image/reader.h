@@ -1,4 +1,4 @@
-// Environment maps from files. The only place, with writer.h, behind which OpenImageIO stands.
+// Environment maps from files.
 #pragma once
 
 #include <filesystem>
@@ -29,6 +29,8 @@ struct ReadOptions {
   bool any_aspect = false;
   /// What of the file is read.
   ChannelSelection selection = {};
+  /// What is read all the same.
+  Allowances allow = {};
   LuminanceChoice luminance = LuminanceChoice::rec709;
   /// Bring octahedral pictures, cubes and nodes to texels of latitude and longitude; else a map
   /// keeps the texels of its file.
