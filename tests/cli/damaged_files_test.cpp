@@ -1,6 +1,6 @@
-// Damaged files by the hundred, as the program meets them: each is read or refused by a message with its
-// name; the exit code is 0 or 2; memory and time stay small. LIGHTPROOF_DAMAGES (files of each kind) and
-// LIGHTPROOF_DAMAGE_SEED, which ci/damaged sets, make more and others of them.
+// Damaged files by the hundred, as the program meets them: each is read or refused by a message
+// with its name; the exit code is 0 or 2; memory and time stay small. LIGHTPROOF_DAMAGES (files of
+// each kind) and LIGHTPROOF_DAMAGE_SEED, which ci/damaged sets, make more and others of them.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -91,7 +91,8 @@ TEST(DamagedFiles, ThatClaimToBeHugeCostLittle) {
         expect_small(name, with_claim(bytes, width, height));
         // Long enough that the length says nothing.
         if (i % 4 == 1) {
-          expect_small("long-" + name, with_claim(bytes, width, height) + std::string(9'000'000, 'x'));
+          expect_small("long-" + name,
+                       with_claim(bytes, width, height) + std::string(9'000'000, 'x'));
         }
       }
     }

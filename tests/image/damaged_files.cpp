@@ -22,7 +22,8 @@ class Choices {
 
   /// 0 to count - 1.
   std::size_t below(std::size_t count) {
-    const auto choice = static_cast<std::size_t>(stream_.point(next_++).s * static_cast<double>(count));
+    const auto choice =
+        static_cast<std::size_t>(stream_.point(next_++).s * static_cast<double>(count));
     return std::min(choice, count - 1);
   }
 
@@ -49,7 +50,8 @@ void damage(Choices& choices, std::string& bytes) {
       bytes[at] = static_cast<char>(bytes[at] ^ (1 << choices.below(8)));
       break;
     case 2: {  // a number of four bytes
-      constexpr std::uint32_t kNumbers[] = {0, 1, 0x7fffffff, 0xffffffff, 0x80000000, 0xffff, 0x4000};
+      constexpr std::uint32_t kNumbers[] = {0,          1,      0x7fffffff, 0xffffffff,
+                                            0x80000000, 0xffff, 0x4000};
       const std::uint32_t number = kNumbers[choices.below(std::size(kNumbers))];
       for (std::size_t i = 0; i < 4 && at + i < bytes.size(); ++i) {
         bytes[at + i] = static_cast<char>(number >> (8 * i) & 0xffU);
@@ -87,8 +89,8 @@ std::vector<DamagedFile> whole_files(const fs::path& folder) {
     for (const unsigned tile : {0U, 16U}) {
       const bool is_half = i % 2 == 0;
       write_compressed_exr(file, picture, i, is_half, tile);
-      files.push_back({fmt::format("{}{}", kExrCompressions[i], tile > 0 ? "-tiles" : ""),
-                       bytes_of(file)});
+      files.push_back(
+          {fmt::format("{}{}", kExrCompressions[i], tile > 0 ? "-tiles" : ""), bytes_of(file)});
     }
   }
   write_two_part_exr(file, picture, picture);

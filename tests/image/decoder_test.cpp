@@ -1,5 +1,5 @@
-// The program that decodes: what it may, and what becomes of a reader whose decoder crashes, is killed,
-// stands still or is not there.
+// The program that decodes: what it may, and what becomes of a reader whose decoder crashes, is
+// killed, stands still or is not there.
 #include "lightproof/image/decoder.h"
 
 #include <fcntl.h>
@@ -120,8 +120,8 @@ TEST_F(DecoderProgram, OfAnotherVersionIsRefused) {
   const int file = open(file_.c_str(), O_RDONLY | O_CLOEXEC);
   Decoder decoder("sky.exr", "cannot be read", file);
   decoder.send(MessageKind::open, OpenRequest{.version = "0.0.0"});
-  EXPECT_THAT(refusal([&] { decoder.next(); }),
-              AllOf(HasSubstr("sky.exr: "), HasSubstr("0.0.0"), HasSubstr("install both together")));
+  EXPECT_THAT(refusal([&] { decoder.next(); }), AllOf(HasSubstr("sky.exr: "), HasSubstr("0.0.0"),
+                                                      HasSubstr("install both together")));
   close(file);
 }
 
@@ -132,7 +132,8 @@ TEST_F(DecoderProgram, HasLittleMemoryAndTimeAndNoRights) {
   const std::vector<pid_t> found = decoders();
   ASSERT_EQ(found.size(), 1U);
   const fs::path process = fs::path("/proc") / std::to_string(found[0]);
-  EXPECT_THAT(text_of(process / "status"), AllOf(HasSubstr("NoNewPrivs:\t1"), HasSubstr("Seccomp:\t2")));
+  EXPECT_THAT(text_of(process / "status"),
+              AllOf(HasSubstr("NoNewPrivs:\t1"), HasSubstr("Seccomp:\t2")));
   const std::string limits = text_of(process / "limits");
   EXPECT_THAT(limits, testing::ContainsRegex("Max cpu time +1 "));
   EXPECT_THAT(limits, testing::ContainsRegex("Max data size +100663296 "));
@@ -174,7 +175,9 @@ TEST_F(DecoderProgram, IsTheOneThatTheEnvironmentNames) {
   const Variable variable(kDecoderVariable, path("none"));
   EXPECT_THAT(refusal([&] { const ImageFile image(file_); }),
               AllOf(HasSubstr("LIGHTPROOF_DECODER"), HasSubstr("none")));
-  EXPECT_THAT(refusal([&] { write_png(path("a.png"), Grid<Rgb>({2, 1})); }),
+  EXPECT_THAT(refusal([&] {
+                write_png(path("a.png"), Grid<Rgb>({2, 1}));
+              }),
               HasSubstr("LIGHTPROOF_DECODER"));
   EXPECT_FALSE(fs::exists(path("a.png")));
 }

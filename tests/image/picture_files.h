@@ -40,8 +40,8 @@ void write_exr_file(const std::filesystem::path& file, const Grid<Rgb>& picture,
 /// How OpenEXR files are compressed, in the order of the format's numbers.
 inline constexpr std::array<std::string_view, 10> kExrCompressions = {
     "none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
-/// The picture as lines, or as tiles of this side, compressed in one of these ways, of 16-bit or 32-bit
-/// floats.
+/// The picture as lines, or as tiles of this side, compressed in one of these ways, of 16-bit or
+/// 32-bit floats.
 void write_compressed_exr(const std::filesystem::path& file, const Grid<Rgb>& picture,
                           std::size_t compression, bool is_half, unsigned tile = 0);
 void write_uint_exr(const std::filesystem::path& file, Extent extent);

@@ -260,7 +260,7 @@ TEST_F(Radiance, HoldsXyzOrRgbAndSaysSo) {
   const EnvironmentMap map =
       read_environment_map(file(), {.any_aspect = true, .allow = {.to_rgb = true}});
   // Y is what the luminance of Rec. 709 gives of the converted values.
-  EXPECT_NEAR(luminance(map.radiance(0, 0), kRec709), 255.0 / 128, 1e-5);
+  EXPECT_NEAR(luminance_of(map.radiance(0, 0)), 255.0 / 128, 1e-5);
 }
 
 TEST_F(Radiance, SaysThatTheFormatIsMissing) {

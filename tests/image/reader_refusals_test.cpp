@@ -87,14 +87,16 @@ TEST(ReaderRefuses, KindsOfExrThatAreNoFlatRgb) {
   test::write_deep_exr(folder / "deep.exr", {8, 4});
   EXPECT_THAT(refusal(folder / "deep.exr"), HasSubstr("deep samples"));
   test::write_luminance_chroma_exr(folder / "yc.exr", {8, 4});
-  EXPECT_THAT(refusal(folder / "yc.exr"), AllOf(HasSubstr("R, G and B needed"), HasSubstr("--to-rgb")));
+  EXPECT_THAT(refusal(folder / "yc.exr"),
+              AllOf(HasSubstr("R, G and B needed"), HasSubstr("--to-rgb")));
   test::write_uint_exr(folder / "uint.exr", {8, 4});
   EXPECT_THAT(refusal(folder / "uint.exr"), HasSubstr("half or float needed"));
   test::write_exr_file(folder / "xyz.exr", picture, {.xyz = true});
   EXPECT_THAT(refusal(folder / "xyz.exr"), AllOf(HasSubstr("CIE XYZ"), HasSubstr("--to-rgb")));
   test::write_exr_file(folder / "crop.exr", picture, {.missing_columns = 2});
   EXPECT_THAT(refusal(folder / "crop.exr"),
-              AllOf(HasSubstr("data window (8 x 4"), HasSubstr("display window (10 x 4"), HasSubstr("--pad")));
+              AllOf(HasSubstr("data window (8 x 4"), HasSubstr("display window (10 x 4"),
+                    HasSubstr("--pad")));
 }
 
 TEST(ReaderRefuses, CubeMapsWhateverThePreset) {

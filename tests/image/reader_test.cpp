@@ -448,8 +448,8 @@ TEST(Reader, ReadsThePartThatIsAskedFor) {
   EXPECT_THAT(map.origin.picture.parts, testing::ElementsAre("first", "second"));
 }
 
-// The display window is the picture; what of it is not stored is black, and what is stored beyond it
-// is not seen.
+// The display window is the picture; what of it is not stored is black, and what is stored beyond
+// it is not seen.
 TEST(Reader, BringsPicturesToTheirDisplayWindowOnRequest) {
   const TemporaryFolder folder;
   const Grid<Rgb> picture = test::numbered_picture({8, 4});
@@ -471,8 +471,8 @@ TEST(Reader, BringsPicturesToTheirDisplayWindowOnRequest) {
   EXPECT_THAT(padded.notes, Contains(HasSubstr("display window (10 x 4)")));
 }
 
-// Three 16-bit floats stand for a pixel, each rounded to 2^-11 of itself, and chroma by filters whose
-// sixteen weights are so rounded again. Green takes 1 / 0.7152 of the errors of all three.
+// Three 16-bit floats stand for a pixel, each rounded to 2^-11 of itself, and chroma by filters
+// whose sixteen weights are so rounded again. Green takes 1 / 0.7152 of the errors of all three.
 TEST(Reader, ConvertsLuminanceAndChromaOnRequest) {
   const TemporaryFolder folder;
   test::write_luminance_chroma_exr(folder / "yc.exr", {32, 16});

@@ -84,9 +84,10 @@ void add_input_options(CLI::App& command, InputOptions& options) {
   command.add_flag("--pad", options.pad,
                    "read OpenEXR files whose data window is smaller than the display window: what "
                    "is missing is black");
-  command.add_flag("--crop", options.crop,
-                   "read OpenEXR files whose data window reaches beyond the display window: what is "
-                   "outside is left out");
+  command.add_flag(
+      "--crop", options.crop,
+      "read OpenEXR files whose data window reaches beyond the display window: what is "
+      "outside is left out");
   command.add_flag("--to-rgb", options.to_rgb,
                    "read files of luminance and chroma (Y, RY, BY) or of CIE XYZ, converted to "
                    "linear RGB");

@@ -10,9 +10,9 @@ namespace lightproof {
 /// that are meant for whoever started this program are ignored: its end is that of the socket.
 void confine();
 
-/// From now on: so many bytes of memory, beside those of libraries, and so many seconds of processor
-/// time, counted from the start of the program. Memory that is not there is std::bad_alloc; time that
-/// is over ends the program by SIGXCPU.
+/// From now on: so many bytes of memory, beside those of libraries, and so many seconds of
+/// processor time, counted from the start of the program. Memory that is not there is
+/// std::bad_alloc; time that is over ends the program by SIGXCPU.
 void limit(std::uint64_t bytes, double seconds);
 
 /// Seconds of processor time that this program has taken.

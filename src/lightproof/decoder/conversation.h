@@ -1,5 +1,5 @@
-// The messages of image/decoder_messages.h from this program's side: requests come on standard input,
-// answers go to standard output. Where whoever started it has gone, the program ends.
+// The messages of image/decoder_messages.h from this program's side: requests come on standard
+// input, answers go to standard output. Where whoever started it has gone, the program ends.
 #pragma once
 
 #include <cstddef>

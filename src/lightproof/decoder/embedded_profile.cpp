@@ -57,7 +57,8 @@ std::string profile_name(Bytes profile) {
   const Bytes description = tag(profile, "desc");
   std::string name;
   if (says(description, 0, "desc") && description.size() > 12) {
-    const std::size_t length = std::min<std::size_t>(number_at(description, 8), description.size() - 12);
+    const std::size_t length =
+        std::min<std::size_t>(number_at(description, 8), description.size() - 12);
     name = printable(description.subspan(12, length), 1);
   } else if (says(description, 0, "mluc")) {
     // The first of the languages, in UTF-16.

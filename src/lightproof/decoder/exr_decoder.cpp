@@ -1,5 +1,5 @@
-// OpenEXR pictures, by the library's classic interface: the newer one of OpenEXR 3.1 aborts on damaged
-// files and cannot decode DWAA and DWAB.
+// OpenEXR pictures, by the library's classic interface: the newer one of OpenEXR 3.1 aborts on
+// damaged files and cannot decode DWAA and DWAB.
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfIO.h>
@@ -70,16 +70,15 @@ struct CompressionInfo {
 };
 
 constexpr CompressionInfo kCompressions[] = {
-    {Imf::NO_COMPRESSION, "none", 1},      {Imf::RLE_COMPRESSION, "rle", 1},
-    {Imf::ZIPS_COMPRESSION, "zips", 1},    {Imf::ZIP_COMPRESSION, "zip", 16},
-    {Imf::PIZ_COMPRESSION, "piz", 32},     {Imf::PXR24_COMPRESSION, "pxr24", 16},
-    {Imf::B44_COMPRESSION, "b44", 32},     {Imf::B44A_COMPRESSION, "b44a", 32},
-    {Imf::DWAA_COMPRESSION, "dwaa", 32},   {Imf::DWAB_COMPRESSION, "dwab", 256},
+    {Imf::NO_COMPRESSION, "none", 1},    {Imf::RLE_COMPRESSION, "rle", 1},
+    {Imf::ZIPS_COMPRESSION, "zips", 1},  {Imf::ZIP_COMPRESSION, "zip", 16},
+    {Imf::PIZ_COMPRESSION, "piz", 32},   {Imf::PXR24_COMPRESSION, "pxr24", 16},
+    {Imf::B44_COMPRESSION, "b44", 32},   {Imf::B44A_COMPRESSION, "b44a", 32},
+    {Imf::DWAA_COMPRESSION, "dwaa", 32}, {Imf::DWAB_COMPRESSION, "dwab", 256},
 };
 
 const CompressionInfo& info(Imf::Compression compression) {
-  const auto* found =
-      std::ranges::find(kCompressions, compression, &CompressionInfo::compression);
+  const auto* found = std::ranges::find(kCompressions, compression, &CompressionInfo::compression);
   if (found == std::end(kCompressions)) {
     refuse(fmt::format("cannot be read as OpenEXR: compression {} is not known here",
                        static_cast<int>(compression)));
@@ -172,9 +171,9 @@ class ExrDecoder : public PictureDecoder {
     const auto height = static_cast<std::uint64_t>(stored_.data.height);
     const std::uint64_t of_pixel = kBytesOfSample * stored_.channels.size();
     std::uint64_t chunk =
-        width * static_cast<std::uint64_t>(
-                    std::ranges::find(kCompressions, stored_.compression, &CompressionInfo::name)
-                        ->rows);
+        width *
+        static_cast<std::uint64_t>(
+            std::ranges::find(kCompressions, stored_.compression, &CompressionInfo::name)->rows);
     std::uint64_t tile_row = 0;
     if (stored_.tile_width > 0) {
       chunk = static_cast<std::uint64_t>(stored_.tile_width * stored_.tile_height);
@@ -221,10 +220,10 @@ class ExrDecoder : public PictureDecoder {
       const Imath::Box2i& window = part.header().dataWindow();
       Imf::FrameBuffer buffer;
       for (std::size_t i = 0; i < names.size(); ++i) {
-        buffer.insert(names[i], Imf::Slice::Make(Imf::FLOAT, &rows[i],
-                                                 Imath::V2i(window.min.x, first),
-                                                 stored_.data.width, last - first, step,
-                                                 step * static_cast<std::size_t>(stored_.data.width)));
+        buffer.insert(names[i],
+                      Imf::Slice::Make(Imf::FLOAT, &rows[i], Imath::V2i(window.min.x, first),
+                                       stored_.data.width, last - first, step,
+                                       step * static_cast<std::size_t>(stored_.data.width)));
       }
       part.setFrameBuffer(buffer);
       part.readPixels(first, last - 1);
@@ -233,7 +232,8 @@ class ExrDecoder : public PictureDecoder {
 
   void read_luminance_chroma(const TakeRows& take) {
     if (part_ != 0) {
-      refuse("cannot be read as OpenEXR: luminance and chroma are converted in the first part only");
+      refuse(
+          "cannot be read as OpenEXR: luminance and chroma are converted in the first part only");
     }
     file_.reset();
     stream_.seekg(0);

@@ -77,8 +77,8 @@ class Rows {
   int at_once(int height, int tile) const {
     const std::size_t of_row = sizeof(float) * channels_.size() * width_;
     const int unit = std::max(tile, 1);
-    const auto units =
-        static_cast<int>(std::max<std::uint64_t>(1, kBytesAtOnce / of_row / static_cast<unsigned>(unit)));
+    const auto units = static_cast<int>(
+        std::max<std::uint64_t>(1, kBytesAtOnce / of_row / static_cast<unsigned>(unit)));
     return std::min(height, units * unit);
   }
 

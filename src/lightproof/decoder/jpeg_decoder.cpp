@@ -31,8 +31,8 @@ constexpr std::string_view kProfileName{"ICC_PROFILE\0", 12};
 constexpr std::uint64_t kBytesOfCoefficient = 4;
 
 /// Messages after which pixels are not those of the picture.
-constexpr std::array kLosses = {JWRN_HIT_MARKER,  JWRN_HUFF_BAD_CODE,      JWRN_JPEG_EOF,
-                                JWRN_MUST_RESYNC, JWRN_NOT_SEQUENTIAL,     JWRN_ARITH_BAD_CODE,
+constexpr std::array kLosses = {JWRN_HIT_MARKER,    JWRN_HUFF_BAD_CODE,    JWRN_JPEG_EOF,
+                                JWRN_MUST_RESYNC,   JWRN_NOT_SEQUENTIAL,   JWRN_ARITH_BAD_CODE,
                                 JWRN_TOO_MUCH_DATA, JWRN_BOGUS_PROGRESSION};
 
 std::string message_of(j_common_ptr jpeg) {
@@ -152,9 +152,9 @@ class JpegDecoder : public PictureDecoder {
     jpeg_start_decompress(&jpeg_);
     std::vector<std::size_t> channels;
     for (const std::string& name : request.channels) {
-      channels.push_back(static_cast<std::size_t>(
-          std::ranges::find(stored_.channels, name, &StoredChannel::name) -
-          stored_.channels.begin()));
+      channels.push_back(
+          static_cast<std::size_t>(std::ranges::find(stored_.channels, name, &StoredChannel::name) -
+                                   stored_.channels.begin()));
     }
     const std::size_t width = jpeg_.output_width;
     std::vector<JSAMPLE> row(width * static_cast<std::size_t>(jpeg_.output_components));

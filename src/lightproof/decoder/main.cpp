@@ -61,9 +61,11 @@ void with_reasons(std::string_view what, const Work& work) {
   } catch (const std::bad_alloc&) {
     answer_value(MessageKind::failed, DecoderFailure{.is_memory = true, .reason = ""});
   } catch (const std::exception& error) {
-    answer_value(MessageKind::failed, DecoderFailure{.reason = fmt::format("{}: {}", what, error.what())});
+    answer_value(MessageKind::failed,
+                 DecoderFailure{.reason = fmt::format("{}: {}", what, error.what())});
   } catch (...) {
-    answer_value(MessageKind::failed, DecoderFailure{.reason = fmt::format("{}: unknown error", what)});
+    answer_value(MessageKind::failed,
+                 DecoderFailure{.reason = fmt::format("{}: unknown error", what)});
   }
 }
 
@@ -93,9 +95,8 @@ void decode(const OpenRequest& request) {
   const DecodingCost cost = decoder->cost();
   limit(kHeaderBytes + kMoreBytes + cost.bytes,
         seconds_taken() + kMoreSeconds + kSecondsOfSample * static_cast<double>(cost.samples));
-  decoder->read(read, [](std::span<const float> rows) {
-    answer(MessageKind::rows, std::as_bytes(rows));
-  });
+  decoder->read(
+      read, [](std::span<const float> rows) { answer(MessageKind::rows, std::as_bytes(rows)); });
   answer_value(MessageKind::done, decoder->notes());
 }
 
@@ -160,7 +161,8 @@ bool is_socket(int descriptor) {
 }
 
 constexpr const char* kUsage =
-    "lightproof-decode decodes and encodes pictures for lightproof and programs that are built with\n"
+    "lightproof-decode decodes and encodes pictures for lightproof and programs that are built "
+    "with\n"
     "its libraries, which start it themselves: it has no use of its own.\n"
     "  --version   print the version\n"
     "  --help      print this\n";

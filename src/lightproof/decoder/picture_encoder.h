@@ -13,8 +13,8 @@ namespace lightproof {
 /// Fills the span with the samples that come next, row by row, level by level.
 using NextSamples = std::function<void(std::span<std::byte>)>;
 
-/// Scanlines, or tiles with levels, of 32-bit floats, compressed without loss (ZIP); the same samples
-/// give the same bytes. Attributes are strings of the header.
+/// Scanlines, or tiles with levels, of 32-bit floats, compressed without loss (ZIP); the same
+/// samples give the same bytes. Attributes are strings of the header.
 std::string exr_file(const EncodeRequest& request, const NextSamples& next);
 /// 32-bit_rle_rgbe. Attributes are comments of the header.
 std::string radiance_file(const EncodeRequest& request, const NextSamples& next);

@@ -76,16 +76,15 @@ class PngDecoder : public PictureDecoder {
 
   DecodingCost cost() const override {
     const std::uint64_t all = height() * row_bytes();
-    return {.bytes = is_interlaced_ ? all : 2 * row_bytes(),
-            .samples = height() * row_bytes()};
+    return {.bytes = is_interlaced_ ? all : 2 * row_bytes(), .samples = height() * row_bytes()};
   }
 
   void read(const ReadRequest& request, const TakeRows& take) override {
     channels_.clear();
     for (const std::string& name : request.channels) {
-      channels_.push_back(static_cast<std::size_t>(
-          std::ranges::find(stored_.channels, name, &StoredChannel::name) -
-          stored_.channels.begin()));
+      channels_.push_back(
+          static_cast<std::size_t>(std::ranges::find(stored_.channels, name, &StoredChannel::name) -
+                                   stored_.channels.begin()));
     }
     if (is_interlaced_) {
       read_interlaced(take);

@@ -39,9 +39,10 @@ class RadianceDecoder : public PictureDecoder {
     const std::uint64_t least = least_bytes(r);
     const std::uint64_t found = bytes.size() - bytes.position();
     if (found >= least) return;
-    refuse(fmt::format("the file is cut off or its header is damaged: {} scanlines of {} pixels take "
-                       "at least {} bytes, and the file has {}",
-                       r.scanlines, r.pixels, least, found));
+    refuse(
+        fmt::format("the file is cut off or its header is damaged: {} scanlines of {} pixels take "
+                    "at least {} bytes, and the file has {}",
+                    r.scanlines, r.pixels, least, found));
   }
 
   const StoredPicture& picture() const override { return stored_; }

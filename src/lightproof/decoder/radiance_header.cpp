@@ -77,9 +77,10 @@ std::optional<std::string> next_line(ByteReader& bytes) {
       return line;
     }
     if (bytes.position() > kLongestHeader) {
-      refuse(fmt::format("cannot be read as {}: the header does not end within {} "
-                                       "bytes",
-                                       kName, kLongestHeader));
+      refuse(
+          fmt::format("cannot be read as {}: the header does not end within {} "
+                      "bytes",
+                      kName, kLongestHeader));
     }
     line.push_back(static_cast<char>(*byte));
   }
@@ -88,17 +89,18 @@ std::optional<std::string> next_line(ByteReader& bytes) {
 
 std::string next_line(ByteReader& bytes, std::string_view missing) {
   if (std::optional<std::string> line = next_line(bytes)) return *std::move(line);
-  refuse(fmt::format("cannot be read as {}: the file ends at byte {}, before {}",
-                                   kName, bytes.size(), missing));
+  refuse(fmt::format("cannot be read as {}: the file ends at byte {}, before {}", kName,
+                     bytes.size(), missing));
 }
 
 void read_format(RadianceHeader& header, std::string_view format) {
   header.says_format = true;
   header.holds_xyz = format == "32-bit_rle_xyze";
   if (header.holds_xyz || format == "32-bit_rle_rgbe") return;
-  refuse(fmt::format("cannot be read as {}: the header says FORMAT={}, and 32-bit_rle_rgbe and "
-                     "32-bit_rle_xyze are read",
-                     kName, shown(format)));
+  refuse(
+      fmt::format("cannot be read as {}: the header says FORMAT={}, and 32-bit_rle_rgbe and "
+                  "32-bit_rle_xyze are read",
+                  kName, shown(format)));
 }
 
 /// Multiplies by a positive factor, or returns false.
@@ -177,9 +179,10 @@ RadianceResolution resolution_of(std::string_view line) {
     fast = axis_of(words[2], words[3]);
   }
   if (!slow || !fast || slow->is_x == fast->is_x) {
-    refuse(fmt::format("cannot be read as {}: no resolution like \"-Y 512 +X 1024\" "
-                                     "behind the header's empty line, but \"{}\"",
-                                     kName, shown(line)));
+    refuse(
+        fmt::format("cannot be read as {}: no resolution like \"-Y 512 +X 1024\" "
+                    "behind the header's empty line, but \"{}\"",
+                    kName, shown(line)));
   }
   const Axis& x = slow->is_x ? *slow : *fast;
   const Axis& y = slow->is_x ? *fast : *slow;

@@ -36,7 +36,7 @@ struct RadianceHeader {
   RadianceResolution resolution;
   bool says_format = false;
   bool holds_xyz = false;  ///< CIE X, Y and Z in the place of R, G and B
-  double exposure = 1.0;                                      ///< product of all EXPOSURE lines
+  double exposure = 1.0;   ///< product of all EXPOSURE lines
   std::array<double, 3> colour_correction = {1.0, 1.0, 1.0};  ///< product of all COLORCORR lines
   double pixel_aspect = 1.0;                                  ///< product of all PIXASPECT lines
   double gamma = 1.0;                                         ///< what the last GAMMA line says

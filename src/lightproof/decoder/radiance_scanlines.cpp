@@ -60,8 +60,9 @@ std::span<const RgbePixel> RadianceScanlines::next() {
 }
 
 void RadianceScanlines::fail(std::string_view reason) const {
-  refuse(fmt::format("cannot be read as Radiance .hdr: scanline {} of {} (counted from 0), before byte {}: {}",
-                     scanline_, scanlines_, bytes_->position(), reason));
+  refuse(fmt::format(
+      "cannot be read as Radiance .hdr: scanline {} of {} (counted from 0), before byte {}: {}",
+      scanline_, scanlines_, bytes_->position(), reason));
 }
 
 std::uint8_t RadianceScanlines::next_byte() {

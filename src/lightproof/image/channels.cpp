@@ -25,7 +25,8 @@ std::string advice(const PictureHeader& header, const ChannelSelection& selectio
     return fmt::format(": --channels {} reads it as grey", header.channels.front());
   }
   for (const std::string& layer : header.layers) {
-    if (has_all(header, ChannelSelection{.layer = layer}.names())) return fmt::format(": --layer {} reads such channels of that layer", layer);
+    if (has_all(header, ChannelSelection{.layer = layer}.names()))
+      return fmt::format(": --layer {} reads such channels of that layer", layer);
   }
   return ": --channels NAME reads one as grey, --channels NAME,NAME,NAME three";
 }

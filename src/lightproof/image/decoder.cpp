@@ -51,9 +51,10 @@ void Decoder::fail(const std::string& reason) const {
 }
 
 void Decoder::fail_nonsense() {
-  fail(fmt::format("the decoder gave an answer that makes no sense {}: {}; is {} the one of this "
-                   "installation?",
-                   place_, kDamaged, program_.string()));
+  fail(
+      fmt::format("the decoder gave an answer that makes no sense {}: {}; is {} the one of this "
+                  "installation?",
+                  place_, kDamaged, program_.string()));
 }
 
 void Decoder::fail_ended() {

@@ -1,6 +1,6 @@
 // The other end of lightproof-decode: a program that decodes or encodes one picture, and then ends.
-// Whatever it meets with, a crash, a limit of its memory or its time, is an InputError here. Private
-// to the image module.
+// Whatever it meets with, a crash, a limit of its memory or its time, is an InputError here.
+// Private to the image module.
 #pragma once
 
 #include <sys/types.h>

@@ -1,5 +1,5 @@
-// What the libraries and lightproof-decode say to each other: messages over a socket, each a head, as
-// it lies in memory (both are one build on one machine), and so many bytes: a value of
+// What the libraries and lightproof-decode say to each other: messages over a socket, each a head,
+// as it lies in memory (both are one build on one machine), and so many bytes: a value of
 // core/serialise.h, or samples.
 //
 //   open     → picture                 what the file on descriptor 3 stores

@@ -1,5 +1,5 @@
-// Pictures as files in memory, by lightproof-decode. Private to the image module. The file itself is
-// then written by write_file(), which notices a full disk.
+// Pictures as files in memory, by lightproof-decode. Private to the image module. The file itself
+// is then written by write_file(), which notices a full disk.
 #pragma once
 
 #include <cstddef>

@@ -35,10 +35,10 @@ bool has_other_profile(const StoredPicture& stored) {
 }
 
 std::string window_note(const StoredPicture& stored) {
-  return fmt::format("The data window ({} x {}) was brought to the display window ({} x {}): what "
-                     "it has not is black, what it has beyond was left out.",
-                     stored.data.width, stored.data.height, stored.display.width,
-                     stored.display.height);
+  return fmt::format(
+      "The data window ({} x {}) was brought to the display window ({} x {}): what "
+      "it has not is black, what it has beyond was left out.",
+      stored.data.width, stored.data.height, stored.display.width, stored.display.height);
 }
 
 void add_notes_on_values(std::vector<std::string>& notes, const StoredPicture& stored,
@@ -149,7 +149,8 @@ struct ImageFile::State {
     decoder.send(MessageKind::read, request);
     const int channels = request.channels.size() == 1 ? 1 : 3;
     Grid<Rgb> picture = receive_pixels(path, decoder, stored, channels);
-    const auto notes = decoder.value_of<std::vector<std::string>>(decoder.next(), MessageKind::done);
+    const auto notes =
+        decoder.value_of<std::vector<std::string>>(decoder.next(), MessageKind::done);
     for (const std::string& note : notes) header.notes.push_back(first_line(note));
     return picture;
   }

@@ -37,8 +37,8 @@ struct Allowances {
   bool to_rgb = false;
 };
 
-/// What is wrong with the size of a picture in pixels: empty unless both sides are at least 1 and no
-/// larger than those of kLargestPicture, in either order.
+/// What is wrong with the size of a picture in pixels: empty unless both sides are at least 1 and
+/// no larger than those of kLargestPicture, in either order.
 std::string size_fault(std::int64_t width, std::int64_t height);
 
 /// What a picture file says of itself, and what of it is read.

@@ -1,5 +1,5 @@
-// What a picture file stores, as lightproof-decode finds it: facts without judgement. Private to the
-// image module and to the decoder.
+// What a picture file stores, as lightproof-decode finds it: facts without judgement. Private to
+// the image module and to the decoder.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ struct StoredChannel {
   static auto fields(auto& c) { return std::tie(c.name, c.type, c.is_subsampled); }
 };
 
-/// In which order lines of pixels are stored; without any of these, rows from the top, each from the
-/// left.
+/// In which order lines of pixels are stored; without any of these, rows from the top, each from
+/// the left.
 struct StoredOrder {
   bool columns = false;  ///< lines are columns, from the left
   bool lines_backwards = false;
@@ -62,8 +62,8 @@ struct StoredPicture {
   std::string profile;        ///< name of a colour profile; empty if there is none
   int exif_orientation = 1;
   StoredOrder order;
-  std::string order_text;  ///< as the file writes it; empty for the usual order
-  double exposure = 1.0;   ///< what the values were multiplied by
+  std::string order_text;          ///< as the file writes it; empty for the usual order
+  double exposure = 1.0;           ///< what the values were multiplied by
   std::vector<std::string> notes;  ///< sentences on what was passed over
 
   static auto fields(auto& p) {

@@ -47,8 +47,7 @@ bool has_all_of(const PixelWindow& outer, const PixelWindow& inner) {
 }
 
 bool overlap(const PixelWindow& a, const PixelWindow& b) {
-  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height &&
-         b.y < a.y + a.height;
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
 void check_windows(const fs::path& file, const StoredPicture& stored, const Allowances& allow) {
@@ -121,9 +120,10 @@ std::uint64_t bytes_of_samples(const StoredPicture& stored) {
 std::uint64_t least_bytes_of_exr(const StoredPicture& stored) {
   const std::string& compression = stored.compression;
   const PixelWindow& data = stored.data;
-  const std::uint64_t chunks = stored.tile_width > 0 ? chunks_of(data.width, stored.tile_width) *
-                                                           chunks_of(data.height, stored.tile_height)
-                                                     : chunks_of(data.height, rows_of_chunk(compression));
+  const std::uint64_t chunks =
+      stored.tile_width > 0
+          ? chunks_of(data.width, stored.tile_width) * chunks_of(data.height, stored.tile_height)
+          : chunks_of(data.height, rows_of_chunk(compression));
   std::uint64_t ratio = 0;  // not known
   if (compression == "none") ratio = 1;
   if (compression.starts_with("zip")) ratio = kLargestDeflation;
@@ -149,9 +149,9 @@ void check_header(const fs::path& file, const StoredPicture& stored, const Allow
 void check_file_length(const fs::path& file, std::uint64_t bytes, const StoredPicture& stored) {
   // Of Radiance files the decoder knows how little they can take.
   if (stored.compression.empty() && integer_levels(stored) == 0) return;
-  const std::uint64_t least =
-      integer_levels(stored) > 0 ? bytes_of_samples(stored) / (kLargestPalette * kLargestDeflation)
-                                 : least_bytes_of_exr(stored);
+  const std::uint64_t least = integer_levels(stored) > 0
+                                  ? bytes_of_samples(stored) / (kLargestPalette * kLargestDeflation)
+                                  : least_bytes_of_exr(stored);
   check_length(file, bytes, least,
                fmt::format("{} x {} pixels", stored.data.width, stored.data.height));
 }

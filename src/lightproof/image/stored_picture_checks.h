@@ -1,4 +1,5 @@
-// What the header of a picture file must say before its pixels are read. Private to the image module.
+// What the header of a picture file must say before its pixels are read. Private to the image
+// module.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +10,8 @@
 
 namespace lightproof {
 
-/// Refuses pictures that cannot be read as a map: throws InputError, which names the flag that would
-/// help, unless the picture is flat, of sane size, and fills its display window.
+/// Refuses pictures that cannot be read as a map: throws InputError, which names the flag that
+/// would help, unless the picture is flat, of sane size, and fills its display window.
 void check_header(const std::filesystem::path& file, const StoredPicture& stored,
                   const Allowances& allow);
 

@@ -1,5 +1,5 @@
-// How formats store single values and pixels, and what is read back. Private to the image module and to
-// the decoder.
+// How formats store single values and pixels, and what is read back. Private to the image module
+// and to the decoder.
 #pragma once
 
 #include <array>
