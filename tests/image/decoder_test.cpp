@@ -93,7 +93,8 @@ TEST_F(DecoderProgram, ThatCrashesIsAnErrorOfItsFile) {
     EXPECT_THAT(refusal_after(signal),
                 AllOf(HasSubstr("sky.exr: cannot be read as OpenEXR: the decoder crashed"),
                       HasSubstr(fmt::format("signal {}", signal)),
-                      HasSubstr("before the first row"), HasSubstr("the file is damaged")));
+                      testing::AnyOf(HasSubstr("before the first row"), HasSubstr("at row 0 of 32")),
+                      HasSubstr("the file is damaged")));
   }
   EXPECT_THAT(refusal_after(SIGKILL), AllOf(HasSubstr("sky.exr"), HasSubstr("was killed")));
   EXPECT_TRUE(decoders().empty());

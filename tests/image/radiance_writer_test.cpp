@@ -153,7 +153,7 @@ TEST_F(RadianceWriter, IsReadBackWithAttributesOfEveryLength) {
 TEST_F(RadianceWriter, NamesItsPrimaries) {
   const Grid<Rgb> picture({8, 1});
   const auto primaries = [&](const std::optional<Chromaticities>& given) {
-    const RadianceFile file(write(radiance_bytes(picture, {}, given)), {});
+    const ImageFile file(write(radiance_bytes(picture, {}, given)));
     return std::string(name_of(*file.header().chromaticities));
   };
   EXPECT_EQ(primaries(std::nullopt), "Rec. 709");

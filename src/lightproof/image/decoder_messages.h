@@ -47,14 +47,14 @@ template <>
 inline constexpr std::size_t kValuesOf<PictureFormat> = 4;
 
 struct OpenRequest {
-  std::string version;  ///< of whoever asks
+  std::string version = {};  ///< of whoever asks
   PictureFormat format = PictureFormat::openexr;
   int part = 0;
   static auto fields(auto& r) { return std::tie(r.version, r.format, r.part); }
 };
 
 struct ReadRequest {
-  std::vector<std::string> channels;  ///< as the file names them, in the order of the samples
+  std::vector<std::string> channels = {};  ///< as the file names them, in the order of the samples
   /// Luminance and chroma become R, G and B; the channels are not named.
   bool from_luminance_chroma = false;
   static auto fields(auto& r) { return std::tie(r.channels, r.from_luminance_chroma); }
@@ -68,13 +68,13 @@ struct LevelSize {
 
 /// A file to be made. OpenEXR and Radiance take floats, PNG bytes.
 struct EncodeRequest {
-  std::string version;
+  std::string version = {};
   PictureFormat format = PictureFormat::openexr;
-  std::vector<std::string> channels;
-  std::vector<LevelSize> levels;  ///< one, or the levels of an OpenEXR file of tiles
+  std::vector<std::string> channels = {};
+  std::vector<LevelSize> levels = {};  ///< one, or the levels of an OpenEXR file of tiles
   int tile = 0;                   ///< pixels of a side; 0 for lines
-  Attributes attributes;
-  std::optional<Chromaticities> chromaticities;
+  Attributes attributes = {};
+  std::optional<Chromaticities> chromaticities = {};
   static auto fields(auto& r) {
     return std::tie(r.version, r.format, r.channels, r.levels, r.tile, r.attributes,
                     r.chromaticities);
@@ -83,7 +83,7 @@ struct EncodeRequest {
 
 struct DecoderFailure {
   bool is_memory = false;  ///< the file asks for more than a picture of its size can need
-  std::string reason;      ///< complete, but for the file's name
+  std::string reason = {};      ///< complete, but for the file's name
   static auto fields(auto& f) { return std::tie(f.is_memory, f.reason); }
 };
 

@@ -148,7 +148,7 @@ struct ImageFile::State {
     decoder.now_at("before the first row");
     decoder.send(MessageKind::read, request);
     const int channels = request.channels.size() == 1 ? 1 : 3;
-    Grid<Rgb> picture = receive_pixels(path, decoder, stored, channels);
+    Grid<Rgb> picture = receive_pixels(decoder, stored, channels);
     const auto notes =
         decoder.value_of<std::vector<std::string>>(decoder.next(), MessageKind::done);
     for (const std::string& note : notes) header.notes.push_back(first_line(note));

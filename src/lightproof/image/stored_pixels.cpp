@@ -10,13 +10,10 @@
 #include <vector>
 
 #include "lightproof/core/parallel.h"
-#include "lightproof/image/file_format.h"
 #include "lightproof/image/stored_picture_checks.h"
 
 namespace lightproof {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Samples of a few lines, which are received together where they need to be rearranged.
 constexpr std::size_t kBlockFloats = std::size_t{1} << 18U;
@@ -156,8 +153,7 @@ StoredOrder order_of(const StoredPicture& stored) {
   return order;
 }
 
-Grid<Rgb> receive_pixels(const fs::path& file, Decoder& decoder, const StoredPicture& stored,
-                         int channels) {
+Grid<Rgb> receive_pixels(Decoder& decoder, const StoredPicture& stored, int channels) {
   Grid<Rgb> picture = receive_lines(decoder, stored, channels);
   if (const int levels = integer_levels(stored); levels != 0) {
     if (!decode_integers(picture, levels, decode_exponent(stored))) decoder.fail_nonsense();

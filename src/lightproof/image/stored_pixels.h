@@ -2,8 +2,6 @@
 // module.
 #pragma once
 
-#include <filesystem>
-
 #include "lightproof/core/direction.h"
 #include "lightproof/core/grid.h"
 #include "lightproof/image/decoder.h"
@@ -18,7 +16,6 @@ StoredOrder order_of(const StoredPicture& stored);
 /// Receives the samples that were asked for, of `channels` (1 or 3) a pixel, as a picture of its
 /// display window: row 0 at the top, what is encoded decoded, CIE XYZ as RGB of Rec. 709. Throws
 /// InputError.
-Grid<Rgb> receive_pixels(const std::filesystem::path& file, Decoder& decoder,
-                         const StoredPicture& stored, int channels);
+Grid<Rgb> receive_pixels(Decoder& decoder, const StoredPicture& stored, int channels);
 
 }  // namespace lightproof
