@@ -31,6 +31,7 @@ class Lightproof(ConanFile):
         self.requires("libpng/[>=1.6 <2]")
         self.requires("openexr/[>=3.1 <4]")
         self.requires("sqlite3/[>=3.40 <4]")
+        self.requires("zlib/[>=1.2.11 <2]")
 
     def layout(self):
         cmake_layout(self)

@@ -21,6 +21,7 @@
 #include <string_view>
 
 #include "lightproof/decoder/confinement.h"
+#include "lightproof/decoder/exr_chunks.h"
 #include "lightproof/decoder/picture_decoder.h"
 #include "lightproof/decoder/refusal.h"
 #include "lightproof/image/picture_header.h"
@@ -215,6 +216,7 @@ class ExrDecoder : public PictureDecoder {
 
   void read_channels(const std::vector<std::string>& names, const TakeRows& take) {
     Imf::InputPart part(*file_, part_);
+    expect_chunks_of(part.header());
     in_pieces(names.size(), take, [&](int first, int last, std::vector<float>& rows) {
       const std::size_t step = sizeof(float) * names.size();
       const Imath::Box2i& window = part.header().dataWindow();
@@ -226,6 +228,7 @@ class ExrDecoder : public PictureDecoder {
                                        step * static_cast<std::size_t>(stored_.data.width)));
       }
       part.setFrameBuffer(buffer);
+      check_chunks(part, first, last);
       part.readPixels(first, last - 1);
     });
   }
@@ -235,6 +238,7 @@ class ExrDecoder : public PictureDecoder {
       refuse(
           "cannot be read as OpenEXR: luminance and chroma are converted in the first part only");
     }
+    expect_chunks_of(file_->header(0));
     file_.reset();
     stream_.seekg(0);
     Imf::RgbaInputFile file(stream_, threads_to_use());

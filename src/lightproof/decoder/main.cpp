@@ -24,8 +24,8 @@ namespace lightproof {
 namespace {
 
 constexpr int kFile = 3;
-/// For all that comes before the pixels: 16 times what the largest table of tiles takes that makes
-/// sense.
+/// For all that comes before the pixels: six times the table of a file of tiles of 16 x 16 of the
+/// largest picture.
 constexpr std::uint64_t kHeaderBytes = std::uint64_t{96} << 20U;
 constexpr double kHeaderSeconds = 1.0;
 /// Beside what a format needs: lines that are handed over, copies of them, code.

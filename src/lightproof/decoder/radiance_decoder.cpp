@@ -60,15 +60,16 @@ class RadianceDecoder : public PictureDecoder {
     const std::size_t of_line = channels.size() * static_cast<std::size_t>(r.pixels);
     const std::size_t at_once = std::max<std::size_t>(1, kBytesAtOnce / (4 * of_line));
     RadianceScanlines scanlines(bytes_, r);
-    std::vector<float> rows;
+    std::vector<float> rows(std::min(at_once, static_cast<std::size_t>(r.scanlines)) * of_line);
+    std::size_t filled = 0;
     for (int line = 0; line < r.scanlines; ++line) {
       for (const RgbePixel& pixel : scanlines.next()) {
         const Rgb rgb = rgb_of(pixel);
-        for (const std::size_t channel : channels) rows.push_back(rgb[static_cast<int>(channel)]);
+        for (const std::size_t channel : channels) rows[filled++] = rgb[static_cast<int>(channel)];
       }
-      if (rows.size() < at_once * of_line && line + 1 < r.scanlines) continue;
-      take(rows);
-      rows.clear();
+      if (filled < rows.size() && line + 1 < r.scanlines) continue;
+      take(std::span(rows).first(filled));
+      filled = 0;
     }
   }
 

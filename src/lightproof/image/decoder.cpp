@@ -71,8 +71,8 @@ void Decoder::fail_ended() {
 void Decoder::require(Exchange exchange) {
   if (exchange == Exchange::closed) fail_ended();
   if (exchange == Exchange::silent) {
-    fail(fmt::format("the decoder stood still for {} s {}: {}", 1e-3 * static_cast<double>(patience_.count()), place_,
-                     kDamaged));
+    fail(fmt::format("the decoder stood still for {} s {}: {}",
+                     1e-3 * static_cast<double>(patience_.count()), place_, kDamaged));
   }
 }
 

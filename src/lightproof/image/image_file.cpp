@@ -105,6 +105,7 @@ struct ImageFile::State {
                                                 .format = format.format,
                                                 .part = chosen.part.value_or(0)});
     stored = decoder.value_of<StoredPicture>(decoder.next(), MessageKind::picture);
+    if (!is_possible(stored)) decoder.fail_nonsense();
     inspect(chosen, allowed);
   }
 

@@ -15,6 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Windows are numbers of 32 bits, and their sizes of 33.
+constexpr std::int64_t kLargestNumber = std::int64_t{1} << 33U;
+constexpr std::int64_t kLargestTileSide = std::int64_t{1} << 31U;
 constexpr std::int64_t kLargestTile = std::int64_t{4096} * 4096;
 /// What a chunk of an OpenEXR file takes beside its pixels: its place in the table of chunks, the
 /// row and the size.
@@ -33,7 +36,7 @@ void check_size(const fs::path& file, const PixelWindow& window) {
 
 void check_tiles(const fs::path& file, const StoredPicture& stored) {
   const std::int64_t tile = stored.tile_width * stored.tile_height;
-  if (tile < 0 || tile > std::max(kLargestTile, 4 * stored.data.width * stored.data.height)) {
+  if (tile > std::max(kLargestTile, 4 * stored.data.width * stored.data.height)) {
     refuse(file, fmt::format("the header says tiles of {} x {} pixels for a picture of {} x {}",
                              stored.tile_width, stored.tile_height, stored.data.width,
                              stored.data.height));
@@ -131,6 +134,18 @@ std::uint64_t least_bytes_of_exr(const StoredPicture& stored) {
 }
 
 }  // namespace
+
+bool is_possible(const StoredPicture& stored) {
+  const auto fits = [](std::int64_t number) {
+    return number >= -kLargestNumber && number <= kLargestNumber;
+  };
+  const auto window_fits = [&](const PixelWindow& w) {
+    return fits(w.x) && fits(w.y) && fits(w.width) && fits(w.height);
+  };
+  const auto tile_fits = [](std::int64_t side) { return side >= 0 && side <= kLargestTileSide; };
+  return !stored.parts.empty() && window_fits(stored.data) && window_fits(stored.display) &&
+         tile_fits(stored.tile_width) && tile_fits(stored.tile_height);
+}
 
 void check_header(const fs::path& file, const StoredPicture& stored, const Allowances& allow) {
   check_size(file, stored.data);

@@ -10,6 +10,9 @@
 
 namespace lightproof {
 
+/// Whether all numbers are such as a file can hold: nothing that is computed of them overflows.
+bool is_possible(const StoredPicture& stored);
+
 /// Refuses pictures that cannot be read as a map: throws InputError, which names the flag that
 /// would help, unless the picture is flat, of sane size, and fills its display window.
 void check_header(const std::filesystem::path& file, const StoredPicture& stored,

@@ -137,7 +137,7 @@ bool decode_integers(Grid<Rgb>& picture, int levels, double exponent) {
 void convert_from_xyz(Grid<Rgb>& picture, const std::optional<Chromaticities>& space) {
   glm::dmat3 to_rgb = glm::inverse(xyz_of_rgb(kRec709Space));
   // (1, 1, 1) is what the file says of white; without a word the values are X, Y and Z themselves.
-  if (space) to_rgb = to_rgb * xyz_of_rgb(*space);
+  if (space && is_colour_space(*space)) to_rgb = to_rgb * xyz_of_rgb(*space);
   parallel_for(static_cast<std::size_t>(picture.extent().height), [&](std::size_t y) {
     for (Rgb& rgb : picture.row(static_cast<int>(y))) rgb = Rgb(to_rgb * glm::dvec3(rgb));
   });
