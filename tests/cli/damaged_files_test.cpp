@@ -42,7 +42,10 @@ TEST(DamagedFiles, AreReadOrRefusedByName) {
   }
   const std::size_t count = words.size() - options;
   ASSERT_GE(count, 200U);
-  const Finished info = run({.words = lightproof_command(words).words});
+  const auto info_with = [&](const char* fresh_memory) {
+    return run({.words = lightproof_command(words).words, .environment = {fresh_memory}});
+  };
+  const Finished info = info_with("MALLOC_PERTURB_=0");
   EXPECT_THAT(info.exit_code, AnyOf(0, 2)) << info.err;
   const std::size_t read = json::parse(info.out).size();
   std::size_t refused = 0;
@@ -56,6 +59,8 @@ TEST(DamagedFiles, AreReadOrRefusedByName) {
   EXPECT_GT(refused, count / 4);
   const long most = kHasOwnMemory ? kMostKilobytes : LONG_MAX;
   EXPECT_LT(info.peak_kilobytes, most);
+  // Memory that nobody wrote to holds something else in the second run.
+  EXPECT_EQ(info_with("MALLOC_PERTURB_=90").out, info.out);
   RecordProperty("read", static_cast<int>(read));
   RecordProperty("refused", static_cast<int>(refused));
   RecordProperty("peak_kilobytes", static_cast<int>(info.peak_kilobytes));
@@ -77,11 +82,18 @@ std::string with_claim(std::string exr, int width, int height) {
 // The largest picture that is read would take 6.4 GB.
 TEST(DamagedFiles, ThatClaimToBeHugeCostLittle) {
   const TemporaryFolder folder;
-  const auto expect_small = [&](const std::string& name, const std::string& bytes) {
+  // A chunk of PIZ that was made for another size may be one of this size as well.
+  const auto expect_small = [&](const std::string& name, const std::string& bytes,
+                                std::uintmax_t size, bool may_be_read = false) {
     write_bytes(folder / name, bytes);
+    // Not as a string: the system counts the memory of a program that starts another one as that of
+    // the other.
+    std::filesystem::resize_file(folder / name, size);
     const Finished refused = lightproof({"info", (folder / name).string(), "--any-aspect"});
-    EXPECT_EQ(refused.exit_code, 2) << name;
-    EXPECT_THAT(refused.err, HasSubstr(name));
+    if (!may_be_read || refused.exit_code != 0) {
+      EXPECT_EQ(refused.exit_code, 2) << name;
+      EXPECT_THAT(refused.err, HasSubstr(name));
+    }
     if (!kHasOwnMemory) return;
     EXPECT_LT(refused.peak_kilobytes, kMostKilobytes) << refused.err;
     EXPECT_LT(refused.seconds, 2.0) << refused.err;
@@ -92,18 +104,18 @@ TEST(DamagedFiles, ThatClaimToBeHugeCostLittle) {
       write_compressed_exr(folder / name, numbered_picture({64, 32}), i, false, tile);
       const std::string bytes = bytes_of(folder / name);
       for (const auto& [width, height] : {std::pair{32768, 16384}, {16384, 32768}, {32768, 32}}) {
-        expect_small(name, with_claim(bytes, width, height));
+        const bool may_be_read = kExrCompressions[i] == "piz" && height == 32;
+        expect_small(name, with_claim(bytes, width, height), bytes.size(), may_be_read);
         // Long enough that the length says nothing.
         if (i % 4 == 1) {
-          expect_small("long-" + name,
-                       with_claim(bytes, width, height) + std::string(9'000'000, 'x'));
+          expect_small("long-" + name, with_claim(bytes, width, height), 9'000'000);
         }
       }
     }
   }
   const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16384 +X 32768\n";
-  expect_small("short.hdr", header + std::string(1000, '\x80'));
-  expect_small("long.hdr", header + std::string(16'000'000, '\x80'));
+  expect_small("short.hdr", header, 1000);
+  expect_small("long.hdr", header, 16'000'000);
 }
 
 }  // namespace
