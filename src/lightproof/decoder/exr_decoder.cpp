@@ -44,7 +44,12 @@ class Stream : public Imf::IStream {
  public:
   explicit Stream(ByteReader& bytes) : IStream("the file"), bytes_(bytes) {}
 
+  /// From now on only chunks are read.
+  void expect_chunks() { expects_chunks_ = true; }
+
   bool read(char c[], int n) override {
+    // OpenEXR takes a chunk without a byte, and shows what was in its memory before.
+    if (n == 0 && expects_chunks_) throw std::runtime_error("a chunk has no bytes");
     if (n < 0 || !bytes_.read({reinterpret_cast<std::uint8_t*>(c), static_cast<std::size_t>(n)})) {
       throw std::runtime_error(fmt::format("the file ends early, at byte {}", bytes_.size()));
     }
@@ -55,6 +60,7 @@ class Stream : public Imf::IStream {
 
  private:
   ByteReader& bytes_;
+  bool expects_chunks_ = false;
 };
 
 PixelWindow window_of(const Imath::Box2i& box) {
@@ -217,6 +223,7 @@ class ExrDecoder : public PictureDecoder {
   void read_channels(const std::vector<std::string>& names, const TakeRows& take) {
     Imf::InputPart part(*file_, part_);
     expect_chunks_of(part.header());
+    stream_.expect_chunks();
     in_pieces(names.size(), take, [&](int first, int last, std::vector<float>& rows) {
       const std::size_t step = sizeof(float) * names.size();
       const Imath::Box2i& window = part.header().dataWindow();
@@ -242,6 +249,7 @@ class ExrDecoder : public PictureDecoder {
     file_.reset();
     stream_.seekg(0);
     Imf::RgbaInputFile file(stream_, threads_to_use());
+    stream_.expect_chunks();
     const int left = file.dataWindow().min.x;
     const auto width = static_cast<std::size_t>(stored_.data.width);
     std::vector<Imf::Rgba> pixels;

@@ -26,6 +26,8 @@ constexpr std::uint64_t kBytesOfChunk = 8 + 4 + 4;
 constexpr std::uint64_t kLargestDeflation = 1032;
 /// Bits of a pixel with a palette, and of the same pixel as red, green, blue and alpha: 1 to 32.
 constexpr std::uint64_t kLargestPalette = 32;
+/// Pixels of a picture for one that is stored.
+constexpr std::int64_t kMostPadding = 1024;
 constexpr double kDecodeExponent = 2.2;
 
 void check_size(const fs::path& file, const PixelWindow& window) {
@@ -60,7 +62,12 @@ void check_windows(const fs::path& file, const StoredPicture& stored, const Allo
   const bool needs_cropping = !allow.crop && !has_all_of(display, data);
   if (!needs_padding && !needs_cropping && overlap(data, display)) {
     check_size(file, display);
-    return;
+    const std::int64_t most = kMostPadding * data.width * data.height;
+    if (display.width * display.height <= most) return;
+    refuse(file,
+           fmt::format("the display window has {} x {} pixels, of which the file stores {} x {}: "
+                       "so few say that its header is damaged",
+                       display.width, display.height, data.width, data.height));
   }
   std::string help = "no pixel lies in both";
   if (overlap(data, display)) {

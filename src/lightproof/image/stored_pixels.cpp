@@ -28,8 +28,7 @@ class Lines {
         channels_(static_cast<std::size_t>(channels)),
         count_(order_.columns ? data_.width : data_.height),
         // Not touched before it is decoded: a damaged header costs address space, no memory.
-        picture_(is_padded() ? Grid<Rgb>(extent(), Rgb(0.0F))
-                             : Grid<Rgb>::without_values(extent())) {}
+        picture_(Grid<Rgb>::without_values(extent())) {}
 
   std::int64_t count() const { return count_; }
   std::size_t floats_of_line() const {
@@ -59,13 +58,28 @@ class Lines {
     }
   }
 
-  Grid<Rgb> take() { return std::move(picture_); }
+  /// The picture, in which what was not stored is black.
+  Grid<Rgb> take() {
+    const std::int64_t left = std::clamp<std::int64_t>(data_.x - display_.x, 0, display_.width);
+    const std::int64_t right =
+        std::clamp<std::int64_t>(data_.x + data_.width - display_.x, 0, display_.width);
+    for (int y = 0; y < picture_.extent().height; ++y) {
+      const std::span<Rgb> row = picture_.row(y);
+      const std::int64_t stored = y - (data_.y - display_.y);
+      if (stored < 0 || stored >= data_.height) {
+        std::ranges::fill(row, Rgb(0.0F));
+      } else {
+        std::ranges::fill(row.first(static_cast<std::size_t>(left)), Rgb(0.0F));
+        std::ranges::fill(row.subspan(static_cast<std::size_t>(right)), Rgb(0.0F));
+      }
+    }
+    return std::move(picture_);
+  }
 
  private:
   Extent extent() const {
     return {static_cast<int>(display_.width), static_cast<int>(display_.height)};
   }
-  bool is_padded() const { return !(data_ == display_); }
 
   PixelWindow data_;
   PixelWindow display_;
