@@ -90,11 +90,12 @@ class DecoderProgram : public testing::Test {
 
 TEST_F(DecoderProgram, ThatCrashesIsAnErrorOfItsFile) {
   for (const int signal : {SIGSEGV, SIGABRT, SIGBUS}) {
-    EXPECT_THAT(refusal_after(signal),
-                AllOf(HasSubstr("sky.exr: cannot be read as OpenEXR: the decoder crashed"),
-                      HasSubstr(fmt::format("signal {}", signal)),
-                      testing::AnyOf(HasSubstr("before the first row"), HasSubstr("at row 0 of 32")),
-                      HasSubstr("the file is damaged")));
+    EXPECT_THAT(
+        refusal_after(signal),
+        AllOf(HasSubstr("sky.exr: cannot be read as OpenEXR: the decoder crashed"),
+              HasSubstr(fmt::format("signal {}", signal)),
+              testing::AnyOf(HasSubstr("before the first row"), HasSubstr("at row 0 of 32")),
+              HasSubstr("the file is damaged")));
   }
   EXPECT_THAT(refusal_after(SIGKILL), AllOf(HasSubstr("sky.exr"), HasSubstr("was killed")));
   EXPECT_TRUE(decoders().empty());

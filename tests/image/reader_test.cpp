@@ -472,8 +472,8 @@ TEST(Reader, BringsPicturesToTheirDisplayWindowOnRequest) {
   EXPECT_THAT(padded.notes, Contains(HasSubstr("display window (10 x 4)")));
 }
 
-// OpenEXR rounds luminance to seven bits and the differences from it to five, half a unit each: 2^-8 and
-// 2^-6. R is (RY + 1) Y, B likewise, and G what is left of Y by their weights in it.
+// OpenEXR rounds luminance to seven bits and the differences from it to five, half a unit each:
+// 2^-8 and 2^-6. R is (RY + 1) Y, B likewise, and G what is left of Y by their weights in it.
 TEST(Reader, ConvertsLuminanceAndChromaOnRequest) {
   const TemporaryFolder folder;
   test::write_luminance_chroma_exr(folder / "yc.exr", {32, 16});
