@@ -57,9 +57,12 @@ void for_each_chunk(const Imath::Box2i& window, int columns, int rows, const Vis
 std::uint64_t decompressed_size_of_rle(const char* bytes, std::size_t count) {
   std::uint64_t size = 0;
   for (std::size_t i = 0; i < count;) {
-    const int run = static_cast<signed char>(bytes[i]);
-    size += run < 0 ? static_cast<std::uint64_t>(-run) : static_cast<std::uint64_t>(run) + 1;
-    i += run < 0 ? 1 + static_cast<std::size_t>(-run) : 2;
+    // 256 less the number of bytes that follow, or one less than how often the next one is
+    // repeated.
+    const std::size_t code = static_cast<unsigned char>(bytes[i]);
+    const bool is_run = code < 128;
+    size += is_run ? code + 1 : 256 - code;
+    i += is_run ? 2 : 1 + 256 - code;
     if (i > count) return 0;
   }
   return size;

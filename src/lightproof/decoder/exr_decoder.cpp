@@ -164,7 +164,7 @@ StoredPicture stored_picture(const Imf::MultiPartInputFile& file, int part) {
 
 class ExrDecoder : public PictureDecoder {
  public:
-  ExrDecoder(ByteReader& bytes, int part) : bytes_(bytes), stream_(bytes), part_(part) {
+  ExrDecoder(ByteReader& bytes, int part) : stream_(bytes), part_(part) {
     Imf::Header::setMaxImageSize(kLargestPicture.width, kLargestPicture.width);
     Imf::Header::setMaxTileSize(kLargestTileSide, kLargestTileSide);
     file_ = std::make_unique<Imf::MultiPartInputFile>(stream_, threads_to_use());
@@ -268,7 +268,6 @@ class ExrDecoder : public PictureDecoder {
     });
   }
 
-  ByteReader& bytes_;
   Stream stream_;
   int part_;
   std::unique_ptr<Imf::MultiPartInputFile> file_;

@@ -1,9 +1,9 @@
 #include "lightproof/image/decoder_program.h"
 
 #include <fmt/format.h>
-#include <sys/auxv.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <string>
 #include <system_error>
@@ -22,9 +22,9 @@ constexpr const char* kName = "lightproof-decode";
 fs::path running_program() {
   std::error_code error;
   if (fs::path program = fs::read_symlink("/proc/self/exe", error); !error) return program;
-  // Without /proc there is the name by which it was started, relative to the folder of then.
-  const auto* name = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
-  return name == nullptr ? fs::path() : fs::absolute(name, error);
+  // Without /proc there is the name by which it was started, if that is a path.
+  const fs::path name = program_invocation_name;
+  return name.has_parent_path() ? fs::absolute(name, error) : fs::path();
 }
 
 std::vector<fs::path> places() {
