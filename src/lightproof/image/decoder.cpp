@@ -88,6 +88,7 @@ void Decoder::send(MessageKind kind, std::span<const std::byte> bytes) {
 }
 
 MessageHead Decoder::next() {
+  throw_if_interrupted();
   MessageHead head;
   require(child_.receive(std::as_writable_bytes(std::span(&head, 1))));
   if (head.kind != MessageKind::failed) return head;

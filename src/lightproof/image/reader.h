@@ -42,7 +42,8 @@ struct ReadOptions {
 /// name is the file's stem.
 /// Throws InputError naming file, texel, reason and what would help: missing, unreadable, empty,
 /// no R, G, B, NaN, infinite or negative texels (count and first position as column, row from the
-/// top of the file), not 2:1, all black.
+/// top of the file), not 2:1, all black; and if decoding crashes, or takes more memory or time than
+/// such a picture can.
 EnvironmentMap read_environment_map(const std::filesystem::path& file,
                                     const ReadOptions& options = {});
 
