@@ -27,9 +27,11 @@ class Lightproof(ConanFile):
         self.requires("highway/[>=1.0 <2]")
         self.requires("nlohmann_json/[>=3.11 <4]", transitive_headers=True)
         self.requires("onetbb/[>=2021.8]")
+        self.requires("libjpeg-turbo/[>=2.1 <4]")
+        self.requires("libpng/[>=1.6 <2]")
         self.requires("openexr/[>=3.1 <4]")
-        self.requires("openimageio/[>=2.4]")
         self.requires("sqlite3/[>=3.40 <4]")
+        self.requires("zlib/[>=1.2.11 <2]")
 
     def layout(self):
         cmake_layout(self)

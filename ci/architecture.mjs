@@ -48,7 +48,7 @@ function readFolders() {
         includes.get(folder).push(file);
       }
     }
-    folders.set(name, { path, paragraph: paragraphOf(cmake), links: linksOf(cmake), includes });
+    folders.set(name, { path, paragraph: paragraphOf(cmake), links: linksOf(cmake), includes, isProgram: /^add_executable\(/m.test(cmake) });
   }
   return folders;
 }
@@ -56,14 +56,14 @@ function readFolders() {
 /** What is wrong with the arrows, one sentence each. */
 function faultsOf(folders) {
   const faults = [];
-  for (const [name, { path, paragraph, links, includes }] of folders) {
+  for (const [name, { path, paragraph, links, includes, isProgram }] of folders) {
     const declared = [...links.PUBLIC, ...links.PRIVATE];
     if (!paragraph) faults.push(`${path}/CMakeLists.txt does not begin with what lives in ${name}`);
     for (const [folder, files] of includes) {
       const header = files.find((file) => file.endsWith(".h"));
       if (!folders.has(folder)) faults.push(`${path}/${files[0]} includes ${folder}/, which is no folder of this project`);
       else if (!declared.includes(folder)) faults.push(`${path}/${files[0]} includes ${folder}/, which ${path}/CMakeLists.txt does not link to`);
-      else if (header && links.PRIVATE.includes(folder) && name !== "cli") faults.push(`${path}/${header} includes ${folder}/, which ${path}/CMakeLists.txt links to PRIVATE`);
+      else if (header && links.PRIVATE.includes(folder) && !isProgram) faults.push(`${path}/${header} includes ${folder}/, which ${path}/CMakeLists.txt links to PRIVATE`);
     }
     for (const folder of declared) {
       if (!includes.has(folder)) faults.push(`${path}/CMakeLists.txt links to ${folder}, which no file of ${name} includes`);

@@ -1,21 +1,16 @@
 # The libraries Lightproof stands on; every one is a package of Debian 12. Installed with the
 # package file: who uses the libraries finds the same ones.
-find_package(PkgConfig REQUIRED)
 find_package(glm REQUIRED)
 find_package(TBB REQUIRED)
 find_package(fmt REQUIRED)
 find_package(hwy REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(OpenEXR REQUIRED)
 find_package(SQLite3 REQUIRED)
 # Version 4, or 3 where that is what there is.
 find_package(embree 4 QUIET)
 if(NOT embree_FOUND)
   find_package(embree 3 REQUIRED)
 endif()
-# Through pkg-config: the CMake package of OpenImageIO 2.4 names OpenCV's include folder, which
-# does not exist unless OpenCV's own headers are installed.
-pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 
 # Random123 is headers only and brings no package file.
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)

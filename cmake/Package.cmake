@@ -21,9 +21,9 @@ samples that other programs drew, and makes prefiltered maps with known errors."
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblightproof-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-# Static libraries: their users link to the same libraries as the program.
+# Static libraries: their users link to the same libraries as the program, and need its decoder.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libembree-dev, libfmt-dev, libglm-dev, libhwy-dev, libopenexr-dev, libopenimageio-dev, librandom123-dev, libsqlite3-dev, libtbb-dev, nlohmann-json3-dev, pkg-config")
+  "lightproof (= ${PROJECT_VERSION}), libembree-dev, libfmt-dev, libglm-dev, libhwy-dev, librandom123-dev, libsqlite3-dev, libtbb-dev, nlohmann-json3-dev, pkg-config")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "This package has headers, static libraries, a CMake package and a pkg-config
 file, with which another program tests its own samplers.")

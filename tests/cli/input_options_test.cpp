@@ -50,12 +50,12 @@ TEST_F(InputOptions, StandInTheCommandThatDrawsTheSameSamplesAgain) {
                  {.channels = {"my sky.R", "my sky.G", "my sky.B"}});
   const auto gate = gate_results({path("a.exr"), "-n", "65536", "--sampler", "no-sine", "--layer",
                                   "my sky", "--part", "0", "--repair=clamp", "--luminance",
-                                  "average", "--channels", "B,G,R"});
+                                  "average", "--channels", "B,G,R", "--pad", "--crop", "--to-rgb"});
   ASSERT_FALSE(gate.at("rejections").empty());
   const std::string replay = gate.at("rejections")[0].at("replay");
   EXPECT_THAT(replay, AllOf(HasSubstr("--layer 'my sky'"), HasSubstr("--part 0"),
                             HasSubstr("--repair=clamp"), HasSubstr("--luminance average"),
-                            HasSubstr("--channels B,G,R")));
+                            HasSubstr("--channels B,G,R"), HasSubstr("--pad --crop --to-rgb")));
 }
 
 // Under the lecture's weights the published sampler and all others declare one density; what is

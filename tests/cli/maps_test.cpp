@@ -114,7 +114,11 @@ TEST_F(MapFile, ThatIsRefusedComesWithTheCommandThatGoesOn) {
   write_map(path("it's mine.exr"), {8, 4}, spoil);
   write_map(path("narrow.exr"), {9, 4});
   write_map(path("both\n.exr"), {9, 4}, spoil);
-  for (const std::string name : {"it's mine.exr", "narrow.exr", "both\n.exr"}) {
+  write_exr_file(path("window.exr"), numbered_picture({8, 4}), {.missing_columns = 2});
+  write_luminance_chroma_exr(path("yc.exr"), {8, 4});
+  write_exr_file(path("xyz.exr"), numbered_picture({8, 4}), {.xyz = true});
+  for (const std::string name :
+       {"it's mine.exr", "narrow.exr", "both\n.exr", "window.exr", "yc.exr", "xyz.exr"}) {
     const Finished refused = quick_gate({"--sampler", "alias", "--", name}, path(""));
     EXPECT_EQ(refused.exit_code, 2);
     const Finished offered = run_offered(refused, path(""));

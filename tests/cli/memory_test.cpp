@@ -42,7 +42,7 @@ TEST_F(Memory, ThatAMapDoesNotFitIntoIsNamed) {
   EXPECT_THAT(names_in(folder_ / ""), IsEmpty());
 }
 
-// 8192 x 4096 texels of 12 bytes are 0.4 GB, beside 0.5 GB of libraries; of what the gate needs to
+// 8192 x 4096 texels of 12 bytes are 0.4 GB; of what the gate needs to
 // know of their distribution, 0.27 GB for a number a texel, there are several.
 TEST_F(Memory, ThatTheDistributionOfAMapDoesNotFitIntoIsNamed) {
   const Finished gate = within(

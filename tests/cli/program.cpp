@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <string>
 
 namespace lightproof::test {
 namespace fs = std::filesystem;
@@ -32,6 +33,17 @@ Command lightproof_command(const Words& arguments, const fs::path& folder) {
 
 Finished lightproof(const Words& arguments, const fs::path& folder) {
   return run(lightproof_command(arguments, folder));
+}
+
+long peak_kilobytes_of(const Words& arguments) {
+  constexpr const char* kScript =
+      "import resource, subprocess, sys\n"
+      "nowhere = subprocess.DEVNULL\n"
+      "subprocess.run(sys.argv[1:], stdout=nowhere, stderr=nowhere)\n"
+      "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)\n";
+  Command command = lightproof_command(arguments);
+  command.words.insert(command.words.begin(), {LIGHTPROOF_PYTHON, "-c", kScript});
+  return std::stol(run(command).out);
 }
 
 Finished quick_gate(const Words& arguments, const fs::path& folder) {

@@ -23,6 +23,10 @@ std::string program();
 Command lightproof_command(const Words& arguments, const std::filesystem::path& folder = ".");
 Finished lightproof(const Words& arguments, const std::filesystem::path& folder = ".");
 
+/// The most memory in kilobytes that the program, or one that it starts, holds at once with these
+/// arguments. Not that of Finished, where the system counts what whoever started it ever held.
+long peak_kilobytes_of(const Words& arguments);
+
 /// `lightproof gate` with 1024 samples, an 8 x 4 map where it is built in, and these arguments.
 Finished quick_gate(const Words& arguments, const std::filesystem::path& folder = ".");
 

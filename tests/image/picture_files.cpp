@@ -11,6 +11,8 @@
 #include <ImfPartType.h>
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
+#include <ImfTileDescription.h>
+#include <ImfTiledOutputFile.h>
 #include <OpenImageIO/imageio.h>
 
 #include <cmath>
@@ -76,6 +78,36 @@ void write_exr_file(const fs::path& file, const Grid<Rgb>& picture, const ExrOpt
   out.setFrameBuffer(buffer_of(picture, zeros, options, header.dataWindow()));
   // DECREASING_Y takes the lines from the last one up, whatever the frame buffer.
   out.writePixels(picture.extent().height);
+}
+
+void write_compressed_exr(const fs::path& file, const Grid<Rgb>& picture, std::size_t compression,
+                          bool is_half, unsigned tile) {
+  const Extent extent = picture.extent();
+  Imf::Header header(extent.width, extent.height);
+  header.compression() = static_cast<Imf::Compression>(compression);
+  const Imf::PixelType type = is_half ? Imf::HALF : Imf::FLOAT;
+  std::vector<Imf::Rgba> halves;
+  for (const Rgb rgb : picture.values()) halves.emplace_back(rgb.r, rgb.g, rgb.b);
+  Imf::FrameBuffer buffer;
+  const auto width = static_cast<std::size_t>(extent.width);
+  for (int i = 0; i < 3; ++i) {
+    const std::string name(1, "RGB"[i]);
+    header.channels().insert(name, Imf::Channel(type));
+    const std::size_t step = is_half ? sizeof(Imf::Rgba) : sizeof(Rgb);
+    const void* values = is_half ? static_cast<const void*>(&halves[0].r + i)
+                                 : static_cast<const void*>(&picture.values()[0][i]);
+    buffer.insert(name, slice(type, values, step, step * width, header.dataWindow()));
+  }
+  if (tile > 0) {
+    header.setTileDescription({tile, tile, Imf::ONE_LEVEL});
+    Imf::TiledOutputFile out(file.c_str(), header);
+    out.setFrameBuffer(buffer);
+    out.writeTiles(0, out.numXTiles() - 1, 0, out.numYTiles() - 1);
+    return;
+  }
+  Imf::OutputFile out(file.c_str(), header);
+  out.setFrameBuffer(buffer);
+  out.writePixels(extent.height);
 }
 
 void write_uint_exr(const fs::path& file, Extent extent) {

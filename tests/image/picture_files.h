@@ -26,7 +26,7 @@ struct ExrOptions {
   /// Lower corner of both windows.
   int origin_x = 0;
   int origin_y = 0;
-  /// The display window is larger than the data window by this many columns.
+  /// The display window is larger than the data window by this many columns; smaller if negative.
   int missing_columns = 0;
   bool xyz = false;
   /// Red, green, blue and white, x and y of each.
@@ -37,6 +37,13 @@ struct ExrOptions {
 /// 32-bit float scanlines; row 0 of the picture at the top. Channels beyond three hold 0.
 void write_exr_file(const std::filesystem::path& file, const Grid<Rgb>& picture,
                     const ExrOptions& options = {});
+/// How OpenEXR files are compressed, in the order of the format's numbers.
+inline constexpr std::array<std::string_view, 10> kExrCompressions = {
+    "none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
+/// The picture as lines, or as tiles of this side, compressed in one of these ways, of 16-bit or
+/// 32-bit floats.
+void write_compressed_exr(const std::filesystem::path& file, const Grid<Rgb>& picture,
+                          std::size_t compression, bool is_half, unsigned tile = 0);
 void write_uint_exr(const std::filesystem::path& file, Extent extent);
 void write_two_part_exr(const std::filesystem::path& file, const Grid<Rgb>& first,
                         const Grid<Rgb>& second);

@@ -252,10 +252,15 @@ TEST_F(Radiance, TakesBlanksAroundTheFormat) {
   expect_pixels(with_header(kFormat, " -Y  4\t+X 8 ", bytes_of(pixels)), pixels);
 }
 
-TEST_F(Radiance, SaysThatXyzIsNoRgb) {
-  EXPECT_THAT(refusal(with_header("FORMAT=32-bit_rle_xyze\n", "-Y 4 +X 8",
-                                  bytes_of(numbered_pixels({8, 4})))),
-              HasSubstr("CIE XYZ"));
+TEST_F(Radiance, HoldsXyzOrRgbAndSaysSo) {
+  const std::string bytes = with_header("FORMAT=32-bit_rle_xyze\n", "-Y 2 +X 2",
+                                        bytes_of(std::vector<Rgbe>(4, {243, 255, 255, 129})));
+  EXPECT_THAT(refusal(bytes), AllOf(HasSubstr("CIE XYZ"), HasSubstr("--to-rgb")));
+  test::write_bytes(file(), bytes);
+  const EnvironmentMap map =
+      read_environment_map(file(), {.any_aspect = true, .allow = {.to_rgb = true}});
+  // Y is what the luminance of Rec. 709 gives of the converted values.
+  EXPECT_NEAR(luminance_of(map.radiance(0, 0)), 255.0 / 128, 1e-5);
 }
 
 TEST_F(Radiance, SaysThatTheFormatIsMissing) {

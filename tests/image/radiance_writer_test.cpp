@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "lightproof/core/random.h"
-#include "lightproof/image/radiance_file.h"
+#include "lightproof/image/image_file.h"
 #include "lightproof/image/stored_value.h"
 #include "tests/image/picture_files.h"
 
@@ -48,7 +48,7 @@ class RadianceWriter : public testing::Test {
   void expect_read_back(const Grid<Rgb>& picture, const Attributes& attributes = {}) const {
     const fs::path file = write(radiance_bytes(picture, attributes));
     const Grid<Rgb> expected = stored(picture);
-    RadianceFile ours(file, {});
+    ImageFile ours(file);
     const Grid<Rgb> read = ours.read_pixels();
     ASSERT_EQ(read.extent(), picture.extent());
     EXPECT_TRUE(std::ranges::equal(read.values(), expected.values()));
@@ -153,7 +153,7 @@ TEST_F(RadianceWriter, IsReadBackWithAttributesOfEveryLength) {
 TEST_F(RadianceWriter, NamesItsPrimaries) {
   const Grid<Rgb> picture({8, 1});
   const auto primaries = [&](const std::optional<Chromaticities>& given) {
-    const RadianceFile file(write(radiance_bytes(picture, {}, given)), {});
+    const ImageFile file(write(radiance_bytes(picture, {}, given)));
     return std::string(name_of(*file.header().chromaticities));
   };
   EXPECT_EQ(primaries(std::nullopt), "Rec. 709");

@@ -1,6 +1,7 @@
 // Files that are refused: what the message names.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <limits>
 
@@ -87,14 +88,16 @@ TEST(ReaderRefuses, KindsOfExrThatAreNoFlatRgb) {
   test::write_deep_exr(folder / "deep.exr", {8, 4});
   EXPECT_THAT(refusal(folder / "deep.exr"), HasSubstr("deep samples"));
   test::write_luminance_chroma_exr(folder / "yc.exr", {8, 4});
-  EXPECT_THAT(refusal(folder / "yc.exr"), HasSubstr("Subsampled channels"));
+  EXPECT_THAT(refusal(folder / "yc.exr"),
+              AllOf(HasSubstr("R, G and B needed"), HasSubstr("--to-rgb")));
   test::write_uint_exr(folder / "uint.exr", {8, 4});
   EXPECT_THAT(refusal(folder / "uint.exr"), HasSubstr("half or float needed"));
   test::write_exr_file(folder / "xyz.exr", picture, {.xyz = true});
-  EXPECT_THAT(refusal(folder / "xyz.exr"), HasSubstr("CIE XYZ"));
+  EXPECT_THAT(refusal(folder / "xyz.exr"), AllOf(HasSubstr("CIE XYZ"), HasSubstr("--to-rgb")));
   test::write_exr_file(folder / "crop.exr", picture, {.missing_columns = 2});
   EXPECT_THAT(refusal(folder / "crop.exr"),
-              AllOf(HasSubstr("data window (8 x 4"), HasSubstr("display window (10 x 4")));
+              AllOf(HasSubstr("data window (8 x 4"), HasSubstr("display window (10 x 4"),
+                    HasSubstr("--pad")));
 }
 
 TEST(ReaderRefuses, CubeMapsWhateverThePreset) {
@@ -173,6 +176,106 @@ TEST(ReaderRefuses, BlackMaps) {
   test::write_exr_file(folder / "negative.exr", Grid<Rgb>({8, 4}, Rgb(-1.0F)));
   EXPECT_THAT(refusal(folder / "negative.exr", {.repair = Repair::zero}),
               HasSubstr("every texel is black"));
+}
+
+std::uint64_t number_at(const std::string& bytes, std::size_t at, std::size_t count) {
+  std::uint64_t number = 0;
+  for (std::size_t i = count; i-- > 0;) {
+    number = number << 8U | static_cast<unsigned char>(bytes[at + i]);
+  }
+  return number;
+}
+
+std::string number_bytes(std::uint64_t number, std::size_t count) {
+  std::string bytes;
+  for (std::size_t i = 0; i < count; ++i) bytes += static_cast<char>(number >> (8 * i) & 0xffU);
+  return bytes;
+}
+
+/// An OpenEXR file of so many chunks with another first one.
+std::string with_first_chunk(std::string exr, std::size_t chunks, bool is_tile,
+                             const std::string& bytes) {
+  // The table of places ends where the first chunk begins.
+  std::size_t table = 8;
+  while (number_at(exr, table, 8) != table + 8 * chunks) ++table;
+  // Behind the row, or column and row of the tile and of its level.
+  const std::size_t size_at = table + 8 * chunks + (is_tile ? 16 : 4);
+  const std::uint64_t size = number_at(exr, size_at, 4);
+  exr.replace(size_at, 4 + size, number_bytes(bytes.size(), 4) + bytes);
+  for (std::size_t i = 1; i < chunks; ++i) {
+    const std::size_t at = table + 8 * i;
+    exr.replace(at, 8, number_bytes(number_at(exr, at, 8) + bytes.size() - size, 8));
+  }
+  return exr;
+}
+
+/// So many bytes of black pixels in one of the first four compressions.
+std::string compressed_black(std::size_t compression, std::size_t count) {
+  if (compression == 0) return std::string(count, '\0');
+  // Differences of bytes, plus 128.
+  std::string differences(count, '\x80');
+  differences[0] = '\0';
+  if (compression == 1) {
+    std::string runs(2, '\0');  // a byte once
+    for (std::size_t left = count - 1; left > 0;) {
+      const std::size_t run = std::min<std::size_t>(left, 128);
+      runs += {static_cast<char>(run - 1), '\x80'};
+      left -= run;
+    }
+    return runs;
+  }
+  std::string bytes(compressBound(count), '\0');
+  uLongf size = bytes.size();
+  EXPECT_EQ(compress(reinterpret_cast<Bytef*>(bytes.data()), &size,
+                     reinterpret_cast<const Bytef*>(differences.data()), count),
+            Z_OK);
+  return bytes.substr(0, size);
+}
+
+// OpenEXR itself reads such files, and shows in the place of the missing pixels what its memory
+// held.
+TEST(ReaderRefuses, ChunksThatHoldLessThanTheirPixels) {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "a.exr";
+  constexpr std::size_t kRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+  for (std::size_t i = 0; i < test::kExrCompressions.size(); ++i) {
+    for (const unsigned tile : {0U, 16U}) {
+      SCOPED_TRACE(testing::Message() << test::kExrCompressions[i] << " tile " << tile);
+      test::write_compressed_exr(file, test::numbered_picture({64, 32}), i, false, tile);
+      const std::string exr = test::bytes_of(file);
+      const std::size_t rows = tile > 0 ? tile : std::min<std::size_t>(kRows[i], 32);
+      const std::size_t chunks = tile > 0 ? 8 : 32 / rows;
+      const auto with = [&](const std::string& bytes) {
+        test::write_bytes(file, with_first_chunk(exr, chunks, tile > 0, bytes));
+        return refusal(file);
+      };
+      EXPECT_THAT(with(""), HasSubstr("a.exr: "));
+      if (i > 3) continue;
+      const std::size_t needed = 12 * rows * (tile > 0 ? tile : 64);
+      EXPECT_EQ(with(compressed_black(i, needed)), "");
+      EXPECT_THAT(with(compressed_black(i, needed - 12)), HasSubstr("a.exr: "));
+    }
+  }
+}
+
+TEST(ReaderRefuses, WindowsByTheFlagsThatHelp) {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "a.exr";
+  test::write_exr_file(file, test::numbered_picture({8, 4}), {.missing_columns = 4});
+  EXPECT_THAT(refusal(file), AllOf(HasSubstr("--pad"), Not(HasSubstr("--crop"))));
+  test::write_exr_file(file, test::numbered_picture({8, 4}), {.missing_columns = -2});
+  EXPECT_THAT(refusal(file), AllOf(HasSubstr("--crop"), Not(HasSubstr("--pad"))));
+  test::write_exr_file(file, test::numbered_picture({8, 4}), {.missing_columns = 20'000});
+  EXPECT_THAT(refusal(file, {.any_aspect = true, .allow = {.pad = true}}),
+              HasSubstr("its header is damaged"));
+  // The first row and column of the display window moved to 1, 1: something is missing on one side,
+  // and something too much on the other.
+  test::write_exr_file(file, test::numbered_picture({8, 4}), {.missing_columns = 1});
+  std::string bytes = test::bytes_of(file);
+  bytes[bytes.find("displayWindow") + 14 + 6 + 4] = 1;
+  test::write_bytes(file, bytes);
+  EXPECT_THAT(refusal(file), AllOf(HasSubstr("--pad"), HasSubstr("--crop")));
+  EXPECT_EQ(refusal(file, {.allow = {.pad = true, .crop = true}}), "");
 }
 
 /// One valid file of every format, 64 x 32.

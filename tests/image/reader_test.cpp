@@ -448,6 +448,97 @@ TEST(Reader, ReadsThePartThatIsAskedFor) {
   EXPECT_THAT(map.origin.picture.parts, testing::ElementsAre("first", "second"));
 }
 
+// The display window is the picture; what of it is not stored is black, and what is stored beyond
+// it is not seen.
+TEST(Reader, BringsPicturesToTheirDisplayWindowOnRequest) {
+  const TemporaryFolder folder;
+  const Grid<Rgb> picture = test::numbered_picture({8, 4});
+  const auto read = [&](int missing, const Allowances& allow) {
+    test::write_exr_file(folder / "a.exr", picture,
+                         {.origin_x = -3, .origin_y = 5, .missing_columns = missing});
+    return read_environment_map(folder / "a.exr", {.any_aspect = true, .allow = allow});
+  };
+  const EnvironmentMap padded = read(2, {.pad = true});
+  ASSERT_EQ(padded.radiance.extent(), (Extent{10, 4}));
+  const EnvironmentMap cropped = read(-2, {.crop = true});
+  ASSERT_EQ(cropped.radiance.extent(), (Extent{6, 4}));
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 10; ++x) {
+      EXPECT_EQ(padded.radiance(x, 3 - y), x < 8 ? picture(x, y) : Rgb(0.0F)) << x << ' ' << y;
+      if (x >= 6) continue;
+      EXPECT_EQ(cropped.radiance(x, 3 - y), picture(x, y)) << x << ' ' << y;
+    }
+  }
+  EXPECT_THAT(padded.notes, Contains(HasSubstr("display window (10 x 4)")));
+}
+
+// OpenEXR rounds luminance to seven bits and the differences from it to five, half a unit each:
+// 2^-8 and 2^-6. R is (RY + 1) Y, B likewise, and G what is left of Y by their weights in it.
+TEST(Reader, ConvertsLuminanceAndChromaOnRequest) {
+  const TemporaryFolder folder;
+  test::write_luminance_chroma_exr(folder / "yc.exr", {32, 16});
+  const EnvironmentMap map = read_environment_map(folder / "yc.exr", {.allow = {.to_rgb = true}});
+  const double y = 0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722;
+  const auto error_of = [&](double channel) {
+    return channel * 0x1p-8 + std::abs(channel - y) * 0x1p-6 + channel * 0x1p-10;
+  };
+  const double red = error_of(0.5);
+  const double blue = error_of(1.0);
+  const double green = (y * 0x1p-8 + 0.2126 * red + 0.0722 * blue) / 0.7152;
+  for (const Rgb rgb : map.radiance.values()) {
+    EXPECT_NEAR(rgb.r, 0.5, red);
+    EXPECT_NEAR(rgb.g, 0.25, green);
+    EXPECT_NEAR(rgb.b, 1.0, blue);
+  }
+  EXPECT_THAT(map.notes, Contains(HasSubstr("Luminance and chroma were converted")));
+  const EnvironmentMap grey =
+      read_environment_map(folder / "yc.exr", {.selection = {.channels = {"Y"}}});
+  EXPECT_NEAR(grey.radiance(0, 0).r, y, y * 0x1p-8);
+}
+
+// X, Y and Z of the white D65 and of the primaries of Rec. 709 (IEC 61966-2-1, rounded to four
+// digits) are white and the primaries again.
+TEST(Reader, ConvertsXyzOnRequest) {
+  const TemporaryFolder folder;
+  Grid<Rgb> picture({2, 2});
+  picture(0, 0) = {0.9505F, 1.0F, 1.0891F};
+  picture(1, 0) = {0.4124F, 0.2126F, 0.0193F};
+  picture(0, 1) = {0.3576F, 0.7152F, 0.1192F};
+  picture(1, 1) = {0.1805F, 0.0722F, 0.9505F};
+  const std::array<float, 8> xyz = {1, 0, 0, 1, 0, 0, 1.0F / 3, 1.0F / 3};
+  test::write_exr_file(folder / "a.exr", picture, {.chromaticities = xyz});
+  const EnvironmentMap map = read_environment_map(
+      folder / "a.exr", {.repair = Repair::zero, .any_aspect = true, .allow = {.to_rgb = true}});
+  const Rgb expected[] = {Rgb(1.0F), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (int i = 0; i < 4; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      // Half a unit of the fourth digit, by a matrix whose rows add up to at most 5.4.
+      EXPECT_NEAR(map.radiance(i % 2, 1 - i / 2)[c], expected[i][c], 5.4 * 0.5e-4) << i << ' ' << c;
+    }
+  }
+  EXPECT_THAT(map.notes, Contains(HasSubstr("CIE XYZ values were converted")));
+}
+
+TEST(Reader, ReadsEveryCompression) {
+  const TemporaryFolder folder;
+  const Grid<Rgb> picture = test::numbered_picture({64, 32});
+  for (std::size_t i = 0; i < test::kExrCompressions.size(); ++i) {
+    for (const unsigned tile : {0U, 16U}) {
+      // Integers and quarters up to 2048.5 with half their bits: 16-bit floats hold 11 of them.
+      test::write_compressed_exr(folder / "a.exr", picture, i, false, tile);
+      const EnvironmentMap map = read_environment_map(folder / "a.exr");
+      const bool has_loss = i >= 5 && i != 6 && i != 7;  // of floats, B44 loses nothing
+      for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 64; ++x) {
+          const float expected = picture(x, 31 - y).g;
+          EXPECT_NEAR(map.radiance(x, y).g, expected, has_loss ? 0.05F * expected + 1.0F : 0.0F)
+              << test::kExrCompressions[i] << ' ' << tile << ' ' << x << ' ' << y;
+        }
+      }
+    }
+  }
+}
+
 constexpr std::array<float, 8> kAcesCg = {.713F, .293F, .165F,   .830F,
                                           .128F, .044F, .32168F, .33767F};
 constexpr std::array<float, 8> kAp0 = {.7347F, .2653F, 0.0F,    1.0F,

@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 template <class Write>
 std::string refusal(const Write& write) {
@@ -49,8 +50,7 @@ TEST(WriteExr, GivesTheSameBytesAgain) {
   const test::TemporaryFolder folder;
   write_exr(folder / "a.exr", test::numbered_picture({8, 4}));
   const std::string bytes = test::bytes_of(folder / "a.exr");
-  // Without a time in it: attribute name, type, and a length of 0.
-  EXPECT_THAT(bytes, HasSubstr(std::string("capDate\0string\0\0\0\0\0", 19)));
+  EXPECT_THAT(bytes, Not(HasSubstr("capDate"))) << "a time";
   write_exr(folder / "a.exr", test::numbered_picture({8, 4}));
   EXPECT_EQ(test::bytes_of(folder / "a.exr"), bytes);
 }

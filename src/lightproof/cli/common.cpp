@@ -63,42 +63,47 @@ void make_names_unique(std::vector<EnvironmentMap>& maps) {
 
 /// A flag that accepts what is refused without; the refusal mentions it.
 struct Remedy {
-  std::string_view mentioned;
-  std::vector<std::string> flags;
+  std::string flag;
   void (*apply)(CommonOptions&);
 };
 
 std::vector<Remedy> remedies() {
-  const auto repair = [](CommonOptions& options) { options.repair_by = "zero"; };
-  const auto any_aspect = [](CommonOptions& options) { options.any_aspect = true; };
-  const auto both = [](CommonOptions& options) {
-    options.repair_by = "zero";
-    options.any_aspect = true;
-  };
-  return {{"--repair", {"--repair"}, repair},
-          {"--any-aspect", {"--any-aspect"}, any_aspect},
-          {"--any-aspect", {"--any-aspect", "--repair"}, both}};
+  return {{"--repair", [](CommonOptions& options) { options.repair_by = "zero"; }},
+          {"--any-aspect", [](CommonOptions& options) { options.any_aspect = true; }},
+          {"--pad", [](CommonOptions& options) { options.pad = true; }},
+          {"--crop", [](CommonOptions& options) { options.crop = true; }},
+          {"--to-rgb", [](CommonOptions& options) { options.to_rgb = true; }}};
 }
 
-bool is_readable(const std::string& input, Extent size, const ReadOptions& read) {
+/// What is wrong with a map; empty if it can be read.
+std::string fault_of(const std::string& input, Extent size, const ReadOptions& read) {
   try {
     load_map(input, size, read);
-    return true;
-  } catch (const InputError&) {
-    return false;
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
   }
 }
 
-/// Passes the error on, as a Refusal if the flags that it mentions are all that it takes.
+/// Passes the error on, as a Refusal if flags that it mentions, and those that are then mentioned,
+/// are all that it takes.
 [[noreturn]] void refuse(const InputError& error, const std::string& input,
                          const CommonOptions& options) {
-  for (const Remedy& remedy : remedies()) {
-    if (options.command_line.empty()) break;
-    if (std::string_view(error.what()).find(remedy.mentioned) == std::string_view::npos) continue;
-    CommonOptions changed = options;
-    remedy.apply(changed);
-    if (!is_readable(input, parse_size(options.size), read_options(changed))) continue;
-    throw Refusal(error.what(), with_flags(options.command_line, remedy.flags));
+  const Extent size = parse_size(options.size);
+  CommonOptions changed = options;
+  std::vector<std::string> flags;
+  std::string fault = options.command_line.empty() ? "" : error.what();
+  while (!fault.empty()) {
+    const std::size_t before = flags.size();
+    for (const Remedy& remedy : remedies()) {
+      const bool is_new = std::ranges::count(flags, remedy.flag) == 0;
+      if (!is_new || fault.find(remedy.flag) == std::string::npos) continue;
+      remedy.apply(changed);
+      flags.push_back(remedy.flag);
+    }
+    if (flags.size() == before) break;
+    fault = fault_of(input, size, read_options(changed));
+    if (fault.empty()) throw Refusal(error.what(), with_flags(options.command_line, flags));
   }
   throw InputError(error.what());
 }

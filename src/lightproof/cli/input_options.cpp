@@ -81,6 +81,16 @@ void add_input_options(CLI::App& command, InputOptions& options) {
   command.add_option("--part", options.part, "part of an OpenEXR file, counted from 0")
       ->type_name("N")
       ->check(CLI::Range(0, kLargestPart));
+  command.add_flag("--pad", options.pad,
+                   "read OpenEXR files whose data window is smaller than the display window: what "
+                   "is missing is black");
+  command.add_flag(
+      "--crop", options.crop,
+      "read OpenEXR files whose data window reaches beyond the display window: what is "
+      "outside is left out");
+  command.add_flag("--to-rgb", options.to_rgb,
+                   "read files of luminance and chroma (Y, RY, BY) or of CIE XYZ, converted to "
+                   "linear RGB");
   command
       .add_option("--luminance", options.luminance,
                   "weights of red, green and blue in the luminance that samplers draw by: rec709, "
@@ -94,6 +104,7 @@ void apply(const InputOptions& options, ReadOptions& read) {
   if (options.repair_by == "zero") read.repair = Repair::zero;
   if (options.repair_by == "clamp") read.repair = Repair::clamp;
   read.selection = {channel_names(options.channels), options.layer, options.part};
+  read.allow = {.pad = options.pad, .crop = options.crop, .to_rgb = options.to_rgb};
   read.luminance = choice_of(options.luminance);
 }
 
@@ -104,6 +115,9 @@ std::string words_of(const InputOptions& options) {
   if (!options.channels.empty()) text += " --channels " + quoted(options.channels);
   if (!options.layer.empty()) text += " --layer " + quoted(options.layer);
   if (options.part) text += fmt::format(" --part {}", *options.part);
+  if (options.pad) text += " --pad";
+  if (options.crop) text += " --crop";
+  if (options.to_rgb) text += " --to-rgb";
   if (options.luminance != InputOptions{}.luminance) text += " --luminance " + options.luminance;
   return text;
 }

@@ -14,10 +14,13 @@ struct InputOptions {
   std::string channels;   ///< "R,G,B" or one name
   std::string layer;
   std::optional<int> part = {};
+  bool pad = false;
+  bool crop = false;
+  bool to_rgb = false;
   std::string luminance = "rec709";
 };
 
-/// Adds --repair, --channels, --layer, --part and --luminance.
+/// Adds --repair, --channels, --layer, --part, --pad, --crop, --to-rgb and --luminance.
 void add_input_options(CLI::App& command, InputOptions& options);
 
 /// Throws InputError if --channels names neither one channel nor three.

@@ -10,11 +10,11 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
-#include <mutex>
 #include <optional>
 #include <system_error>
 #include <thread>
 
+#include "lightproof/core/child_status.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/failure.h"
 #include "lightproof/core/parallel.h"
@@ -37,36 +37,6 @@ constexpr milliseconds kGrace{2000};
   throw InputError(
       fmt::format("{}: {}: {}", program.string(), what, std::generic_category().message(error)));
 }
-
-bool drops_status(const struct sigaction& action) {
-  return action.sa_handler == SIG_IGN || (action.sa_flags & SA_NOCLDWAIT) != 0;
-}
-
-/// Where SIGCHLD is ignored, as some launchers leave it, the system forgets how a child ended.
-/// While any of these lives it is not ignored.
-class StatusKept {
- public:
-  StatusKept() {
-    const std::lock_guard lock(mutex);
-    if (users++ > 0) return;
-    ::sigaction(SIGCHLD, nullptr, &before);
-    if (!drops_status(before)) return;
-    struct sigaction usual = {};
-    usual.sa_handler = SIG_DFL;
-    ::sigaction(SIGCHLD, &usual, nullptr);
-  }
-  ~StatusKept() {
-    const std::lock_guard lock(mutex);
-    if (--users == 0 && drops_status(before)) ::sigaction(SIGCHLD, &before, nullptr);
-  }
-  StatusKept(const StatusKept&) = delete;
-  StatusKept& operator=(const StatusKept&) = delete;
-
- private:
-  static inline std::mutex mutex;
-  static inline int users = 0;
-  static inline struct sigaction before = {};
-};
 
 /// Standard output to nowhere, standard error to a file.
 class Redirections {
@@ -157,7 +127,7 @@ std::string last_line(const fs::path& file) {
 void run_child(const fs::path& program, const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
   const fs::path errors = folder / "stderr";
-  const StatusKept status_kept;
+  const ChildStatusKept status_kept;
   const int status = wait_for(program, start(program, arguments, errors));
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
   throw_if_interrupted();  // a Ctrl-C reaches both

@@ -2,6 +2,7 @@
 // are little-endian, whatever the machine; a text or a list begins with its length.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <concepts>
 #include <cstddef>
@@ -44,6 +45,10 @@ class ValueWriter {
   template <class Value>
   void add(const std::vector<Value>& values) {
     add(values.size());
+    for (const Value& value : values) add(value);
+  }
+  template <class Value, std::size_t kCount>
+  void add(const std::array<Value, kCount>& values) {
     for (const Value& value : values) add(value);
   }
   template <class Key, class Value>
@@ -135,6 +140,12 @@ class ValueReader {
   std::vector<Value> read(std::type_identity<std::vector<Value>> /*type*/) {
     std::vector<Value> values;
     for (std::uint64_t left = number(); left > 0; --left) values.push_back(value<Value>());
+    return values;
+  }
+  template <class Value, std::size_t kCount>
+  std::array<Value, kCount> read(std::type_identity<std::array<Value, kCount>> /*type*/) {
+    std::array<Value, kCount> values{};
+    for (Value& each : values) each = value<Value>();
     return values;
   }
   template <class Key, class Value>

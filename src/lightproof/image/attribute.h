@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace lightproof {
@@ -13,6 +14,7 @@ struct Attribute {
   std::string name;
   std::string value;
   friend bool operator==(const Attribute&, const Attribute&) = default;
+  static auto fields(auto& a) { return std::tie(a.name, a.value); }
 };
 
 using Attributes = std::vector<Attribute>;

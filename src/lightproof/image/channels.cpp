@@ -9,18 +9,24 @@
 namespace lightproof {
 namespace {
 
+bool has_all(const PictureHeader& header, const std::vector<std::string>& names) {
+  return std::ranges::all_of(names, [&](const std::string& name) {
+    return std::ranges::count(header.channels, name) > 0;
+  });
+}
+
 /// What would help someone who gave no selection; empty if nothing would.
 std::string advice(const PictureHeader& header, const ChannelSelection& selection) {
   if (!selection.channels.empty()) return "";
+  if (holds_luminance_chroma(header, selection)) {
+    return ": --to-rgb converts luminance and chroma to RGB, --channels Y reads luminance as grey";
+  }
   if (header.channels.size() == 1) {
     return fmt::format(": --channels {} reads it as grey", header.channels.front());
   }
   for (const std::string& layer : header.layers) {
-    const std::vector<std::string> names = ChannelSelection{.layer = layer}.names();
-    const bool all = std::ranges::all_of(names, [&](const std::string& name) {
-      return std::ranges::count(header.channels, name) > 0;
-    });
-    if (all) return fmt::format(": --layer {} reads such channels of that layer", layer);
+    if (has_all(header, ChannelSelection{.layer = layer}.names()))
+      return fmt::format(": --layer {} reads such channels of that layer", layer);
   }
   return ": --channels NAME reads one as grey, --channels NAME,NAME,NAME three";
 }
@@ -35,14 +41,16 @@ int chosen_part(const std::filesystem::path& file, std::size_t parts,
                           : fmt::format("has no part {}: its parts are 0 to {}", part, parts - 1));
 }
 
+bool holds_luminance_chroma(const PictureHeader& header, const ChannelSelection& selection) {
+  return selection.channels.empty() && selection.layer.empty() &&
+         has_all(header, kLuminanceChroma) && !has_all(header, selection.names());
+}
+
 std::vector<std::string> chosen_channels(const std::filesystem::path& file,
                                          const PictureHeader& header,
                                          const ChannelSelection& selection) {
   std::vector<std::string> names = selection.names();
-  const bool all = std::ranges::all_of(names, [&](const std::string& name) {
-    return std::ranges::count(header.channels, name) > 0;
-  });
-  if (all) return names;
+  if (has_all(header, names)) return names;
   const std::string needed =
       names.size() == 1 ? fmt::format("channel {}", names[0])
                         : fmt::format("channels {}, {} and {}", names[0], names[1], names[2]);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 namespace lightproof {
@@ -16,7 +15,7 @@ struct NamedSpace {
 };
 
 constexpr NamedSpace kSpaces[] = {
-    {kRec709Name, {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}}},
+    {kRec709Name, kRec709Space},
     // As ICC profiles describe it, in their own white: programs that go by profiles write this to
     // OpenEXR files of plain Rec. 709 values.
     {"Rec. 709 adapted to D50",
@@ -70,10 +69,17 @@ bool is_colour_space(const Chromaticities& space) {
          space.white[1] > kLeastArea;
 }
 
-LuminanceWeights luminance_weights(const Chromaticities& space) {
+glm::dmat3 xyz_of_rgb(const Chromaticities& space) {
   const glm::dvec3 white = ray_of(space.white) / space.white[1];
-  const glm::dvec3 scales = glm::inverse(primaries_of(space)) * white;
-  return {scales[0] * space.red[1], scales[1] * space.green[1], scales[2] * space.blue[1]};
+  glm::dmat3 matrix = primaries_of(space);
+  const glm::dvec3 scales = glm::inverse(matrix) * white;
+  for (int i = 0; i < 3; ++i) matrix[i] *= scales[i];
+  return matrix;
+}
+
+LuminanceWeights luminance_weights(const Chromaticities& space) {
+  const glm::dmat3 matrix = xyz_of_rgb(space);
+  return {matrix[0].y, matrix[1].y, matrix[2].y};
 }
 
 std::string describe(const Chromaticities& space) {

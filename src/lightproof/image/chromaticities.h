@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <glm/mat3x3.hpp>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include "lightproof/image/luminance.h"
 
@@ -15,6 +17,7 @@ struct Chromaticities {
   std::array<double, 2> green;
   std::array<double, 2> blue;
   std::array<double, 2> white;
+  static auto fields(auto& c) { return std::tie(c.red, c.green, c.blue, c.white); }
 };
 
 /// The name of the space of Rec. 709 and sRGB, which RGB means where a file says nothing; also the
@@ -29,6 +32,14 @@ std::string_view name_of(const Chromaticities& chromaticities);
 
 /// Whether the primaries span a triangle and the white has a luminance.
 bool is_colour_space(const Chromaticities& chromaticities);
+
+/// The space of Rec. 709 and sRGB.
+inline constexpr Chromaticities kRec709Space = {
+    {0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}};
+
+/// The matrix from RGB of a space to CIE XYZ, for white (1, 1, 1) of luminance 1. Undefined unless
+/// is_colour_space().
+glm::dmat3 xyz_of_rgb(const Chromaticities& space);
 
 /// The share of each channel in the luminance Y, for white (1, 1, 1) of luminance 1: the middle row
 /// of the matrix from RGB to CIE XYZ. A weight is negative where a primary lies outside of the

@@ -1,47 +1,22 @@
 #include "lightproof/image/exr_writer.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
+#include <span>
+#include <utility>
+#include <vector>
 
-#include "lightproof/image/open_image_io_encode.h"
+#include "lightproof/image/encoder.h"
 
 namespace lightproof {
 namespace {
 
 constexpr int kTile = 64;
+const std::vector<std::string> kRgb = {"R", "G", "B"};
 
-OIIO::ImageSpec spec_of(Extent extent, int channels, const Attributes& attributes) {
-  OIIO::ImageSpec spec(extent.width, extent.height, channels, OIIO::TypeDesc::FLOAT);
-  spec.attribute("compression", "zip");
-  spec.attribute("DateTime", "");  // the same picture gives the same bytes
-  for (const Attribute& attribute : attributes) {
-    spec.attribute(file_name_of(attribute), line_of(attribute));
-  }
-  return spec;
-}
-
-void add(OIIO::ImageSpec& spec, const std::optional<Chromaticities>& chromaticities) {
-  if (!chromaticities) return;
-  std::array<float, 8> values{};
-  std::size_t at = 0;
-  for (const auto& xy :
-       {chromaticities->red, chromaticities->green, chromaticities->blue, chromaticities->white}) {
-    for (const double value : xy) values[at++] = static_cast<float>(value);
-  }
-  spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), values.data());
-}
-
-OIIO::ImageSpec mipmap_spec(const MapLevels& map, int level) {
-  const Extent extent = level_extent(map.extent(), level);
-  OIIO::ImageSpec spec = spec_of(extent, 3, attributes_of(map));
-  add(spec, map.chromaticities);
-  spec.tile_width = kTile;
-  spec.tile_height = kTile;
-  spec.tile_depth = 1;
-  spec.attribute("textureformat", "Plain Texture");  // asks for levels
-  spec.attribute("wrapmodes", "periodic,clamp");
-  return spec;
+template <class Value>
+std::span<const std::byte> bytes_of(const Grid<Value>& picture) {
+  return std::as_bytes(picture.values());
 }
 
 /// The picture at half the size, rounded down: the means of 2 x 2 texels, or of what there is of
@@ -65,27 +40,39 @@ Grid<Rgb> halved(const Grid<Rgb>& picture) {
 
 std::string exr_bytes(const Grid<Rgb>& picture, const Attributes& attributes,
                       const std::optional<Chromaticities>& chromaticities) {
-  OIIO::ImageSpec spec = spec_of(picture.extent(), 3, attributes);
-  add(spec, chromaticities);
-  return encode("openexr", spec, picture.values().data());
+  return encode({.format = PictureFormat::openexr,
+                 .channels = kRgb,
+                 .levels = {size_of(picture.extent())},
+                 .attributes = attributes,
+                 .chromaticities = chromaticities},
+                [&](int /*level*/) { return bytes_of(picture); });
 }
 
 std::string exr_mipmap_bytes(const MapLevels& map) {
   assert(is_pyramid(map) && map.projection == Projection::lat_long);
+  EncodeRequest request = {.format = PictureFormat::openexr,
+                           .channels = kRgb,
+                           .tile = kTile,
+                           .attributes = attributes_of(map),
+                           .chromaticities = map.chromaticities};
+  for (int level = 0; level < most_levels(map.extent()); ++level) {
+    request.levels.push_back(size_of(level_extent(map.extent(), level)));
+  }
   Grid<Rgb> rest;
-  return encode_exr_levels(most_levels(map.extent()), [&](int level) -> EncodedLevel {
+  return encode(std::move(request), [&](int level) {
     const auto index = static_cast<std::size_t>(level);
     const bool is_given = index < map.levels.size();
     if (!is_given) rest = halved(index == map.levels.size() ? map.levels.back().faces[0] : rest);
-    const Grid<Rgb>& picture = is_given ? map.levels[index].faces[0] : rest;
-    return {mipmap_spec(map, level), picture.values().data()};
+    return bytes_of(is_given ? map.levels[index].faces[0] : rest);
   });
 }
 
 std::string exr_bytes(const BrdfMap& map) {
-  OIIO::ImageSpec spec = spec_of(map.values.extent(), 2, attributes_of(map));
-  spec.channelnames = {"R", "G"};
-  return encode("openexr", spec, map.values.values().data());
+  return encode({.format = PictureFormat::openexr,
+                 .channels = {"R", "G"},
+                 .levels = {size_of(map.values.extent())},
+                 .attributes = attributes_of(map)},
+                [&](int /*level*/) { return bytes_of(map.values); });
 }
 
 }  // namespace lightproof

@@ -5,27 +5,44 @@
 #include <filesystem>
 #include <string_view>
 
+#include "lightproof/image/decoder_messages.h"
+
 namespace lightproof {
 
 /// Refuses a file: throws InputError "FILE: REASON".
 [[noreturn]] void refuse(const std::filesystem::path& file, std::string_view reason);
 
+inline constexpr std::string_view kRadianceFormat = "Radiance .hdr";
+
 /// A kind of file by its first bytes.
 struct FileFormat {
+  PictureFormat format;
   std::string_view magic;
-  const char* plugin;  ///< OpenImageIO's name
   std::string_view name;
 };
 
-inline constexpr std::string_view kRadianceFormat = "Radiance .hdr";
+const FileFormat& info(PictureFormat format);
 
-/// The format of a file by its first bytes. Throws InputError if the path is missing, a folder,
-/// empty, unreadable, cut off (JPEG, PNG), or neither OpenEXR, Radiance .hdr, PNG nor JPEG.
-const FileFormat& recognise_file(const std::filesystem::path& file);
+/// An open file, closed with this.
+class OpenFile {
+ public:
+  /// Throws InputError if the path is missing, a folder, empty, or cannot be opened.
+  explicit OpenFile(const std::filesystem::path& path);
+  ~OpenFile();
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
 
-/// Refuses a picture of impossible size: throws InputError unless both sides are at least 1 and no
-/// larger than those of kLargestPicture, in either order.
-void check_size(const std::filesystem::path& file, std::int64_t width, std::int64_t height);
+  int descriptor() const { return descriptor_; }
+  /// In bytes.
+  std::uint64_t size() const { return size_; }
+
+ private:
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+/// The format of a file by its first bytes. Throws InputError if it is none of those.
+const FileFormat& recognise_file(const std::filesystem::path& path, const OpenFile& file);
 
 /// Refuses a file that is too short, before memory is taken for its pixels: throws InputError
 /// unless it has the bytes without which `what` ("8192 scanlines") cannot be.

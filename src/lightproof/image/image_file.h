@@ -1,5 +1,7 @@
 // A picture file of any format that is read: refused with a reason before its pixels are read if it
-// cannot be an environment map, then read as linear RGB.
+// cannot be an environment map, then read as linear RGB. Its bytes are decoded by another program,
+// lightproof-decode, which has little memory and time and no way to anything else: no file can do
+// more than be refused.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +16,8 @@ class ImageFile {
  public:
   /// Opens the file by its first bytes, whatever its extension, and checks its header. Throws
   /// InputError.
-  explicit ImageFile(const std::filesystem::path& path, const ChannelSelection& selection = {});
+  explicit ImageFile(const std::filesystem::path& path, const ChannelSelection& selection = {},
+                     const Allowances& allow = {});
   ~ImageFile();
   ImageFile(const ImageFile&) = delete;
   ImageFile& operator=(const ImageFile&) = delete;

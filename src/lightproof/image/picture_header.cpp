@@ -1,5 +1,7 @@
 #include "lightproof/image/picture_header.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace lightproof {
@@ -23,6 +25,15 @@ std::vector<std::string> PictureHeader::left_out() const {
     if (std::ranges::count(read, channel) == 0) others.push_back(channel);
   }
   return others;
+}
+
+std::string size_fault(std::int64_t width, std::int64_t height) {
+  const auto [shorter, longer] = std::minmax(width, height);
+  if (shorter >= 1 && longer <= kLargestPicture.width && shorter <= kLargestPicture.height) {
+    return "";
+  }
+  return fmt::format("the header says {} x {} pixels: 1 x 1 to {} x {} are read", width, height,
+                     kLargestPicture.width, kLargestPicture.height);
 }
 
 std::vector<std::string> layers_of(const std::vector<std::string>& channels) {

@@ -1,6 +1,7 @@
 // What a picture file says of itself, whatever its format.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,20 @@ struct ChannelSelection {
   /// The full names of the channels, layer and all: three, or one.
   std::vector<std::string> names() const;
 };
+
+/// What is read all the same, though it is not a whole picture of red, green and blue.
+struct Allowances {
+  /// Pixels that the display window has and the data window has not are black.
+  bool pad = false;
+  /// Pixels that the data window has and the display window has not are left out.
+  bool crop = false;
+  /// Luminance and chroma, and CIE XYZ values, become linear RGB.
+  bool to_rgb = false;
+};
+
+/// What is wrong with the size of a picture in pixels: empty unless both sides are at least 1 and
+/// no larger than those of kLargestPicture, in either order.
+std::string size_fault(std::int64_t width, std::int64_t height);
 
 /// What a picture file says of itself, and what of it is read.
 struct PictureHeader {

@@ -1,5 +1,4 @@
-// Radiance .hdr pictures to files. Not through OpenImageIO, whose writer has no place for
-// attributes and rounds down.
+// Radiance .hdr pictures to files.
 #pragma once
 
 #include <optional>

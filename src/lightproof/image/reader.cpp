@@ -230,7 +230,7 @@ void choose_weights(const fs::path& file, EnvironmentMap& map, LuminanceChoice c
 enum class Purpose { sampling, inspection };
 
 EnvironmentMap read_map(const fs::path& file, const ReadOptions& options, Purpose purpose) {
-  ImageFile image(file, options.selection);
+  ImageFile image(file, options.selection, options.allow);
   EnvironmentMap map{.name = file.stem().string(), .radiance = {}};
   map.origin = {.picture = image.header()};
   MapOrigin& origin = map.origin;

@@ -1,4 +1,4 @@
-// Environment maps from files. The only place, with writer.h, behind which OpenImageIO stands.
+// Environment maps from files.
 #pragma once
 
 #include <filesystem>
@@ -29,6 +29,8 @@ struct ReadOptions {
   bool any_aspect = false;
   /// What of the file is read.
   ChannelSelection selection = {};
+  /// What is read all the same.
+  Allowances allow = {};
   LuminanceChoice luminance = LuminanceChoice::rec709;
   /// Bring octahedral pictures, cubes and nodes to texels of latitude and longitude; else a map
   /// keeps the texels of its file.
@@ -40,7 +42,8 @@ struct ReadOptions {
 /// name is the file's stem.
 /// Throws InputError naming file, texel, reason and what would help: missing, unreadable, empty,
 /// no R, G, B, NaN, infinite or negative texels (count and first position as column, row from the
-/// top of the file), not 2:1, all black.
+/// top of the file), not 2:1, all black; and if decoding crashes, or takes more memory or time than
+/// such a picture can.
 EnvironmentMap read_environment_map(const std::filesystem::path& file,
                                     const ReadOptions& options = {});
 

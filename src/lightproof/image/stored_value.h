@@ -1,10 +1,11 @@
-// How formats store single values and pixels, and what is read back. Private to the image module.
+// How formats store single values and pixels, and what is read back. Private to the image module
+// and to the decoder.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "lightproof/core/direction.h"
-#include "lightproof/image/radiance_scanlines.h"
 
 namespace lightproof {
 
@@ -16,6 +17,17 @@ inline constexpr double kLargestRgbe = 0x1.fep126;
 /// The bits of the nearest 16-bit float, ties to even; values beyond the largest become it.
 std::uint16_t half_bits(float value);
 float float_of_half(std::uint16_t bits);
+
+/// A pixel as Radiance pictures store it: three mantissas and their common exponent.
+struct RgbePixel {
+  std::array<std::uint8_t, 3> mantissas;
+  std::uint8_t exponent;
+};
+
+/// The value of a stored pixel: mantissa / 256 * 2^(exponent - 128), exactly; black for an exponent
+/// of 0. This is what OpenImageIO and most renderers read; Radiance itself adds half a step to the
+/// mantissas.
+Rgb rgb_of(RgbePixel pixel);
 
 /// The nearest mantissas at the exponent of the largest channel. Negative channels become 0, and
 /// those that are too large the largest.

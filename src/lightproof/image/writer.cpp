@@ -1,16 +1,18 @@
 #include "lightproof/image/writer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lightproof/core/atomic_file.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/image/encoder.h"
 #include "lightproof/image/exr_writer.h"
-#include "lightproof/image/open_image_io_encode.h"
-#include "lightproof/image/png_text.h"
 
 namespace lightproof {
 namespace {
@@ -51,9 +53,11 @@ std::string png_bytes(const Grid<Rgb>& picture, const Attributes& attributes) {
   for (const Rgb rgb : picture.values()) {
     for (const float v : {rgb.r, rgb.g, rgb.b}) pixels.push_back(quantised(v));
   }
-  OIIO::ImageSpec spec(picture.extent().width, picture.extent().height, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  return with_text(encode("png", spec, pixels.data()), attributes);
+  return encode({.format = PictureFormat::png,
+                 .channels = {"R", "G", "B"},
+                 .levels = {size_of(picture.extent())},
+                 .attributes = attributes},
+                [&](int /*level*/) { return std::as_bytes(std::span(pixels)); });
 }
 
 Grid<Rgb> flip_rows(const Grid<Rgb>& grid) {

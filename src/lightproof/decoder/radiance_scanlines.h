@@ -1,7 +1,6 @@
 // The pixels of a Radiance picture, scanline by scanline, each in whichever of three ways it is
 // stored: four runs-coded planes of bytes (since 1991; a scanline starts with 2, 2 and its length),
 // pixels of which (1, 1, 1, n) repeats the one before (the coding until then), or plain pixels.
-// Private to the image module.
 #pragma once
 
 #include <array>
@@ -10,25 +9,15 @@
 #include <string_view>
 #include <vector>
 
-#include "lightproof/image/byte_reader.h"
-#include "lightproof/image/radiance_header.h"
+#include "lightproof/decoder/byte_reader.h"
+#include "lightproof/decoder/radiance_header.h"
+#include "lightproof/image/stored_value.h"
 
 namespace lightproof {
 
 /// Shorter and longer scanlines are never stored as planes.
 inline constexpr std::size_t kLeastPlane = 8;
 inline constexpr std::size_t kLongestPlane = 32767;
-
-/// A pixel as it is stored: three mantissas and their common exponent.
-struct RgbePixel {
-  std::array<std::uint8_t, 3> mantissas;
-  std::uint8_t exponent;
-};
-
-/// The value of a stored pixel: mantissa / 256 * 2^(exponent - 128), exactly; black for an exponent
-/// of 0. This is what OpenImageIO and most renderers read; Radiance itself adds half a step to the
-/// mantissas.
-Rgb rgb_of(RgbePixel pixel);
 
 /// How many bytes the pixels take at least, in whichever coding.
 std::uint64_t least_bytes(const RadianceResolution& resolution);

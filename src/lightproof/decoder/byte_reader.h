@@ -1,9 +1,7 @@
-// The bytes of a file, one after the other, with their place. Private to the image module.
+// The bytes of the file, one after the other, with their place.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,8 +10,8 @@ namespace lightproof {
 
 class ByteReader {
  public:
-  /// Throws InputError if the file cannot be opened.
-  explicit ByteReader(const std::filesystem::path& file);
+  /// Reads a descriptor from its first byte on. Throws InputError if the system cannot.
+  explicit ByteReader(int descriptor);
 
   /// The next byte; none at the end of the file.
   std::optional<std::uint8_t> next() {
@@ -25,16 +23,16 @@ class ByteReader {
 
   /// Position in the file of the byte that comes next, counted from 0.
   std::uint64_t position() const { return start_ + at_; }
+  /// Goes on from there; behind the end there is nothing.
+  void seek(std::uint64_t position);
   /// Bytes of the whole file.
   std::uint64_t size() const { return size_; }
-  const std::filesystem::path& file() const { return file_; }
 
  private:
   /// The next block; false at the end. Throws InputError if the system cannot read it.
   bool fill();
 
-  std::filesystem::path file_;
-  std::ifstream stream_;
+  int descriptor_;
   std::uint64_t size_ = 0;
   std::vector<std::uint8_t> block_;
   std::size_t at_ = 0;

@@ -1,11 +1,11 @@
-#include "lightproof/image/radiance_scanlines.h"
+#include "lightproof/decoder/radiance_scanlines.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "lightproof/image/file_format.h"
+#include "lightproof/decoder/refusal.h"
 
 namespace lightproof {
 namespace {
@@ -24,12 +24,6 @@ bool starts_planes(RgbePixel first, std::size_t pixels) {
 }
 
 }  // namespace
-
-Rgb rgb_of(RgbePixel pixel) {
-  if (pixel.exponent == 0) return Rgb(0.0F);
-  const float step = std::ldexp(1.0F, pixel.exponent - (128 + 8));
-  return step * Rgb(pixel.mantissas[0], pixel.mantissas[1], pixel.mantissas[2]);
-}
 
 std::uint64_t least_bytes(const RadianceResolution& resolution) {
   // The older coding: a pixel, then repeats of 255, 255 * 256, …. Planes take more: 12 bytes and
@@ -66,9 +60,9 @@ std::span<const RgbePixel> RadianceScanlines::next() {
 }
 
 void RadianceScanlines::fail(std::string_view reason) const {
-  refuse(bytes_->file(),
-         fmt::format("cannot be read as {}: scanline {} of {} (counted from 0), before byte {}: {}",
-                     kRadianceFormat, scanline_, scanlines_, bytes_->position(), reason));
+  refuse(fmt::format(
+      "cannot be read as Radiance .hdr: scanline {} of {} (counted from 0), before byte {}: {}",
+      scanline_, scanlines_, bytes_->position(), reason));
 }
 
 std::uint8_t RadianceScanlines::next_byte() {

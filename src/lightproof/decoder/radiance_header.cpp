@@ -1,4 +1,4 @@
-#include "lightproof/image/radiance_header.h"
+#include "lightproof/decoder/radiance_header.h"
 
 #include <fmt/format.h>
 
@@ -8,13 +8,14 @@
 #include <string_view>
 #include <utility>
 
-#include "lightproof/image/file_format.h"
+#include "lightproof/decoder/refusal.h"
 
 namespace lightproof {
 namespace {
 
 /// A header that goes on for longer is taken for damaged.
 constexpr std::uint64_t kLongestHeader = std::uint64_t{1} << 24U;
+constexpr std::string_view kName = "Radiance .hdr";
 constexpr std::size_t kShownCharacters = 60;
 /// Exposures and aspects are products of rounded decimal numbers.
 constexpr double kRounding = 1e-6;
@@ -76,9 +77,10 @@ std::optional<std::string> next_line(ByteReader& bytes) {
       return line;
     }
     if (bytes.position() > kLongestHeader) {
-      refuse(bytes.file(), fmt::format("cannot be read as {}: the header does not end within {} "
-                                       "bytes",
-                                       kRadianceFormat, kLongestHeader));
+      refuse(
+          fmt::format("cannot be read as {}: the header does not end within {} "
+                      "bytes",
+                      kName, kLongestHeader));
     }
     line.push_back(static_cast<char>(*byte));
   }
@@ -87,18 +89,18 @@ std::optional<std::string> next_line(ByteReader& bytes) {
 
 std::string next_line(ByteReader& bytes, std::string_view missing) {
   if (std::optional<std::string> line = next_line(bytes)) return *std::move(line);
-  refuse(bytes.file(), fmt::format("cannot be read as {}: the file ends at byte {}, before {}",
-                                   kRadianceFormat, bytes.size(), missing));
+  refuse(fmt::format("cannot be read as {}: the file ends at byte {}, before {}", kName,
+                     bytes.size(), missing));
 }
 
-void check_format(const ByteReader& bytes, std::string_view format) {
-  if (format == "32-bit_rle_rgbe") return;
-  if (format == "32-bit_rle_xyze") {
-    refuse(bytes.file(), "holds CIE XYZ values (FORMAT=32-bit_rle_xyze): convert it to RGB first");
-  }
-  refuse(bytes.file(), fmt::format("cannot be read as {}: the header says FORMAT={}, and "
-                                   "32-bit_rle_rgbe is read",
-                                   kRadianceFormat, shown(format)));
+void read_format(RadianceHeader& header, std::string_view format) {
+  header.says_format = true;
+  header.holds_xyz = format == "32-bit_rle_xyze";
+  if (header.holds_xyz || format == "32-bit_rle_rgbe") return;
+  refuse(
+      fmt::format("cannot be read as {}: the header says FORMAT={}, and 32-bit_rle_rgbe and "
+                  "32-bit_rle_xyze are read",
+                  kName, shown(format)));
 }
 
 /// Multiplies by a positive factor, or returns false.
@@ -141,15 +143,14 @@ bool read_variable(RadianceHeader& header, std::string_view name, std::string_vi
   return true;
 }
 
-void read_line(RadianceHeader& header, const ByteReader& bytes, std::string_view line) {
+void read_line(RadianceHeader& header, std::string_view line) {
   const std::size_t equals = line.find('=');
   const bool is_copy = line.starts_with(' ') || line.starts_with('\t');
   if (equals == std::string_view::npos || is_copy || line.starts_with('#')) return;
   const std::string_view name = trimmed(line.substr(0, equals));
   const std::string_view value = trimmed(line.substr(equals + 1));
   if (name == "FORMAT") {
-    check_format(bytes, value);
-    header.says_format = true;
+    read_format(header, value);
   } else if (!read_variable(header, name, value)) {
     header.unreadable.push_back(shown(line));
   }
@@ -169,7 +170,7 @@ std::optional<Axis> axis_of(std::string_view name, std::string_view length) {
   return Axis{name[1] == 'X', name[0] == '+', *number};
 }
 
-RadianceResolution resolution_of(const ByteReader& bytes, std::string_view line) {
+RadianceResolution resolution_of(std::string_view line) {
   const std::vector<std::string_view> words = words_of(line);
   std::optional<Axis> slow;
   std::optional<Axis> fast;
@@ -178,13 +179,14 @@ RadianceResolution resolution_of(const ByteReader& bytes, std::string_view line)
     fast = axis_of(words[2], words[3]);
   }
   if (!slow || !fast || slow->is_x == fast->is_x) {
-    refuse(bytes.file(), fmt::format("cannot be read as {}: no resolution like \"-Y 512 +X 1024\" "
-                                     "behind the header's empty line, but \"{}\"",
-                                     kRadianceFormat, shown(line)));
+    refuse(
+        fmt::format("cannot be read as {}: no resolution like \"-Y 512 +X 1024\" "
+                    "behind the header's empty line, but \"{}\"",
+                    kName, shown(line)));
   }
   const Axis& x = slow->is_x ? *slow : *fast;
   const Axis& y = slow->is_x ? *fast : *slow;
-  check_size(bytes.file(), x.length, y.length);
+  if (const std::string fault = size_fault(x.length, y.length); !fault.empty()) refuse(fault);
   return {slow->is_x, slow->is_x != slow->grows, fast->is_x != fast->grows,
           static_cast<int>(slow->length), static_cast<int>(fast->length)};
 }
@@ -214,9 +216,9 @@ RadianceHeader read_radiance_header(ByteReader& bytes) {
   while (true) {
     const std::string line = next_line(bytes, "the empty line that ends the header");
     if (line.empty()) break;
-    read_line(header, bytes, line);
+    read_line(header, line);
   }
-  header.resolution = resolution_of(bytes, next_line(bytes, "the resolution ends"));
+  header.resolution = resolution_of(next_line(bytes, "the resolution ends"));
   return header;
 }
 
@@ -249,10 +251,6 @@ std::vector<std::string> notes_of(const RadianceHeader& header) {
   for (const std::string& line : header.unreadable) {
     notes.push_back(
         fmt::format("A line of the header could not be read and was ignored: {}", line));
-  }
-  if (const RadianceResolution& r = header.resolution;
-      r.columns || r.scanlines_backwards || r.pixels_backwards) {
-    notes.push_back(fmt::format("The orientation {} of the header was applied.", r.text()));
   }
   return notes;
 }

@@ -1,6 +1,6 @@
 // The header of a Radiance picture: lines of text, an empty line, and the resolution, which says in
 // which order the pixels follow. Source: Ward, "Real Pixels", Graphics Gems II (1991), and the file
-// format's description in Radiance, ray/doc/filefmts. Private to the image module.
+// format's description in Radiance, ray/doc/filefmts.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "lightproof/image/byte_reader.h"
+#include "lightproof/decoder/byte_reader.h"
 #include "lightproof/image/chromaticities.h"
 #include "lightproof/image/picture_header.h"
 
@@ -35,7 +35,8 @@ struct RadianceResolution {
 struct RadianceHeader {
   RadianceResolution resolution;
   bool says_format = false;
-  double exposure = 1.0;                                      ///< product of all EXPOSURE lines
+  bool holds_xyz = false;  ///< CIE X, Y and Z in the place of R, G and B
+  double exposure = 1.0;   ///< product of all EXPOSURE lines
   std::array<double, 3> colour_correction = {1.0, 1.0, 1.0};  ///< product of all COLORCORR lines
   double pixel_aspect = 1.0;                                  ///< product of all PIXASPECT lines
   double gamma = 1.0;                                         ///< what the last GAMMA line says
@@ -47,7 +48,7 @@ struct RadianceHeader {
 /// Reads the header of a Radiance picture, up to the first byte of the pixels. Lines end with LF or
 /// CR LF and may be of any length; indented ones are copies from the pictures that this one was
 /// made of, and do not count. Throws InputError with the line or byte: a format other than
-/// 32-bit_rle_rgbe (CIE XYZ is named), no empty line, no resolution, a size beyond kLargestPicture.
+/// 32-bit_rle_rgbe or 32-bit_rle_xyze, no empty line, no resolution, a size beyond kLargestPicture.
 RadianceHeader read_radiance_header(ByteReader& bytes);
 
 /// What a reader of the picture should know of its header: one sentence each.

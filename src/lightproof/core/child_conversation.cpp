@@ -1,0 +1,197 @@
+#include "lightproof/core/child_conversation.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "lightproof/core/error.h"
+#include "lightproof/core/parallel.h"
+#include "lightproof/core/system_call.h"
+
+extern char** environ;
+
+namespace lightproof {
+namespace fs = std::filesystem;
+namespace {
+
+using std::chrono::milliseconds;
+using Clock = std::chrono::steady_clock;
+
+/// How long an interrupt may go unnoticed.
+constexpr milliseconds kAttention{50};
+/// The time that a program has to end after its socket was closed.
+constexpr milliseconds kGrace{500};
+/// Descriptors of the child: standard ones, then the file.
+constexpr int kFile = 3;
+/// Of this process, out of the way of those of the child.
+constexpr int kOutOfTheWay = 10;
+constexpr int kSocketBuffer = 1 << 20;
+
+[[noreturn]] void fail(const fs::path& program, int error) {
+  throw InputError(fmt::format("{}: cannot be started: {}", program.string(),
+                               std::generic_category().message(error)));
+}
+
+/// A descriptor of this process alone, closed with this.
+class Descriptor {
+ public:
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  ~Descriptor() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int get() const { return descriptor_; }
+  int release() { return std::exchange(descriptor_, -1); }
+
+ private:
+  int descriptor_;
+};
+
+/// The same file under a number that no redirection of the child overwrites.
+int moved_away(const fs::path& program, int descriptor) {
+  const int moved = ::fcntl(descriptor, F_DUPFD_CLOEXEC, kOutOfTheWay);
+  if (moved < 0) fail(program, errno);
+  return moved;
+}
+
+class Redirections {
+ public:
+  Redirections(int socket, int file) {
+    require(posix_spawn_file_actions_init(&actions_));
+    try {
+      require(posix_spawn_file_actions_adddup2(&actions_, socket, STDIN_FILENO));
+      require(posix_spawn_file_actions_adddup2(&actions_, socket, STDOUT_FILENO));
+      require(posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0));
+      if (file >= 0) require(posix_spawn_file_actions_adddup2(&actions_, file, kFile));
+    } catch (...) {
+      posix_spawn_file_actions_destroy(&actions_);
+      throw;
+    }
+  }
+  ~Redirections() { posix_spawn_file_actions_destroy(&actions_); }
+  Redirections(const Redirections&) = delete;
+  Redirections& operator=(const Redirections&) = delete;
+
+  const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+ private:
+  /// They fail for lack of memory alone.
+  static void require(int error) {
+    if (error != 0) throw std::system_error(error, std::generic_category(), "posix_spawn");
+  }
+
+  posix_spawn_file_actions_t actions_{};
+};
+
+pid_t start(const fs::path& program, std::vector<std::string> arguments, int socket, int file) {
+  arguments.insert(arguments.begin(), program.string());
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  const Redirections redirections(socket, file);
+  pid_t child = 0;
+  const int error =
+      posix_spawn(&child, program.c_str(), redirections.get(), nullptr, argv.data(), environ);
+  if (error != 0) fail(program, error);
+  return child;
+}
+
+}  // namespace
+
+ChildConversation::ChildConversation(const fs::path& program,
+                                     const std::vector<std::string>& arguments, int file,
+                                     milliseconds patience)
+    : patience_(patience) {
+  int ends[2] = {-1, -1};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail(program, errno);
+  const Descriptor low_ours(ends[0]);
+  const Descriptor low_theirs(ends[1]);
+  Descriptor ours(moved_away(program, ends[0]));
+  const Descriptor theirs(moved_away(program, ends[1]));
+  const Descriptor handed_over(file < 0 ? -1 : moved_away(program, file));
+  // As much as the system allows at once: a picture passes in fewer pieces.
+  for (const int end : ends) {
+    ::setsockopt(end, SOL_SOCKET, SO_SNDBUF, &kSocketBuffer, sizeof kSocketBuffer);
+  }
+  child_ = start(program, arguments, theirs.get(), handed_over.get());
+  socket_ = ours.release();
+}
+
+ChildConversation::~ChildConversation() {
+  if (socket_ >= 0) ::close(socket_);
+  if (child_ < 0) return;
+  ::kill(child_, SIGKILL);
+  uninterrupted([&] { return ::waitpid(child_, nullptr, 0); });
+}
+
+Exchange ChildConversation::wait_for(short events) {
+  const auto deadline = Clock::now() + patience_;
+  for (;;) {
+    throw_if_interrupted();
+    pollfd ready = {.fd = socket_, .events = events, .revents = 0};
+    // An error other than an interruption, like lack of memory, is tried again until patience ends.
+    if (::poll(&ready, 1, static_cast<int>(kAttention.count())) > 0) return Exchange::done;
+    if (Clock::now() > deadline) return Exchange::silent;
+  }
+}
+
+Exchange ChildConversation::send(std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t sent = uninterrupted(
+        [&] { return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT); });
+    if (sent >= 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(sent));
+    } else if (errno != EAGAIN && errno != ENOBUFS) {
+      return Exchange::closed;
+    } else if (wait_for(POLLOUT) == Exchange::silent) {
+      return Exchange::silent;
+    }
+  }
+  return Exchange::done;
+}
+
+Exchange ChildConversation::receive(std::span<std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t got =
+        uninterrupted([&] { return ::recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT); });
+    if (got > 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(got));
+    } else if (got == 0 || errno != EAGAIN) {
+      return Exchange::closed;
+    } else if (wait_for(POLLIN) == Exchange::silent) {
+      return Exchange::silent;
+    }
+  }
+  return Exchange::done;
+}
+
+std::optional<ChildEnd> ChildConversation::end() {
+  if (socket_ >= 0) ::close(std::exchange(socket_, -1));
+  const pid_t child = std::exchange(child_, -1);
+  const auto deadline = Clock::now() + kGrace;
+  int status = 0;
+  for (milliseconds pause{1};; pause = std::min(2 * pause, kAttention)) {
+    const pid_t ended = uninterrupted([&] { return ::waitpid(child, &status, WNOHANG); });
+    if (ended == child) break;
+    if (ended < 0) return std::nullopt;
+    if (Clock::now() > deadline) ::kill(child, SIGKILL);
+    std::this_thread::sleep_for(pause);
+  }
+  if (WIFSIGNALED(status)) return ChildEnd{true, WTERMSIG(status)};
+  return ChildEnd{false, WEXITSTATUS(status)};
+}
+
+}  // namespace lightproof

@@ -1,0 +1,74 @@
+#include "lightproof/decoder/embedded_profile.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+
+namespace lightproof {
+namespace {
+
+constexpr std::size_t kTagTable = 128;
+constexpr std::size_t kTagBytes = 12;
+constexpr std::size_t kMostTags = 100;
+constexpr std::size_t kLongestName = 100;
+constexpr std::string_view kNone = "without a name";
+
+using Bytes = std::span<const std::uint8_t>;
+
+std::uint32_t number_at(Bytes bytes, std::size_t place) {
+  if (bytes.size() < 4 || place > bytes.size() - 4) return 0;
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < 4; ++i) number = number << 8U | bytes[place + i];
+  return number;
+}
+
+bool says(Bytes bytes, std::size_t place, std::string_view word) {
+  return place <= bytes.size() && word.size() <= bytes.size() - place &&
+         std::equal(word.begin(), word.end(), bytes.begin() + static_cast<std::ptrdiff_t>(place));
+}
+
+/// The tag's data; empty if there is no such tag.
+Bytes tag(Bytes profile, std::string_view name) {
+  const std::size_t tags = std::min<std::size_t>(number_at(profile, kTagTable), kMostTags);
+  for (std::size_t i = 0; i < tags; ++i) {
+    const std::size_t entry = kTagTable + 4 + i * kTagBytes;
+    if (!says(profile, entry, name)) continue;
+    const std::size_t place = number_at(profile, entry + 4);
+    const std::size_t size = number_at(profile, entry + 8);
+    if (place > profile.size() || size > profile.size() - place) return {};
+    return profile.subspan(place, size);
+  }
+  return {};
+}
+
+/// Every `step`-th byte, as far as it is printable ASCII.
+std::string printable(Bytes bytes, std::size_t step) {
+  std::string text;
+  for (std::size_t i = step - 1; i < bytes.size() && text.size() < kLongestName; i += step) {
+    if (bytes[i] == 0) break;
+    text += bytes[i] >= 0x20 && bytes[i] < 0x7f ? static_cast<char>(bytes[i]) : '?';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string profile_name(Bytes profile) {
+  const Bytes description = tag(profile, "desc");
+  std::string name;
+  if (says(description, 0, "desc") && description.size() > 12) {
+    const std::size_t length =
+        std::min<std::size_t>(number_at(description, 8), description.size() - 12);
+    name = printable(description.subspan(12, length), 1);
+  } else if (says(description, 0, "mluc")) {
+    // The first of the languages, in UTF-16.
+    const std::size_t length = number_at(description, 20);
+    const std::size_t place = number_at(description, 24);
+    if (place <= description.size() && length <= description.size() - place) {
+      name = printable(description.subspan(place, length), 2);
+    }
+  }
+  return name.empty() ? std::string(kNone) : name;
+}
+
+}  // namespace lightproof
