@@ -59,7 +59,8 @@ TEST(PublishedRow, IsTheScanOfThePublishedSampler) {
   for (std::uint32_t k = 0; k < (1U << 24U); k += 4099) {
     const TexelSample sample = sampler.sample({k * 0x1p-24, 0.5});
     ASSERT_EQ(row.stop(k).index, sample.x) << k;
-    if (sample.x < 100) ASSERT_EQ(static_cast<double>(row.position(k)), sample.at.s) << k;
+    if (sample.x == 100) continue;  // off the end
+    ASSERT_EQ(static_cast<double>(row.position(k)), sample.at.s) << k;
   }
 }
 
@@ -226,7 +227,7 @@ TEST(PublishedRow, AbsorbsTheSkyBesideASun) {
     for (const int place : {0, 4096, 8191}) {
     std::vector<float> weights(8192, 1.0F);
     weights[place] = sun;
-    printf("%g %d %d\n", sun, place, PublishedRow(weights).reachable());
+    printf("%g %d %d\n", double(sun), place, PublishedRow(weights).reachable());
     }
   }
 }

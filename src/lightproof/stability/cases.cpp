@@ -11,6 +11,31 @@ namespace {
 
 constexpr std::string_view kListing = "the lecture's GLSL listing of the linear scan";
 
+/// Methods that sample: each texel's directions are turned by a frame, which does not turn or mirror
+/// with the map.
+constexpr std::string_view kTurned =
+    "the 1024 directions of a texel are turned by its frame, not with the map: what differs is the "
+    "error of sampling";
+constexpr std::array kTurnedByFrames = {
+    StabilityLimit{"uniform", kTurned}, StabilityLimit{"half-vector", kTurned},
+    StabilityLimit{"lobe", kTurned}, StabilityLimit{"filtered", kTurned}};
+
+constexpr std::string_view kMissed =
+    "1024 directions, looked up in single texels, hit or miss a sun of one texel";
+constexpr std::array kMissesSuns = {StabilityLimit{"uniform", kMissed},
+                                    StabilityLimit{"half-vector", kMissed},
+                                    StabilityLimit{"lobe", kMissed}};
+
+constexpr std::array kDarkens = {StabilityLimit{
+    "half-vectors, per draw",
+    "half-vectors that mirror light from below the surface count as black: at roughness 1 as many "
+    "as there are"}};
+
+constexpr std::array kRoundsToMirror = {StabilityLimit{
+    "phong",
+    "exponents go up to 1e5, a roughness of 0.067: beyond 1e16 the cosine of every direction rounds "
+    "to 1"}};
+
 constexpr std::array kCases = {
     StabilityCase{.number = 1,
                   .name = "one-bright-texel",
@@ -138,6 +163,7 @@ constexpr std::array kCases = {
                   .input = "the first column lit, then the last one",
                   .required = "mirrored results, continuous where the look-up is",
                   .source = "azimuth wraps around",
+                  .limits = kTurnedByFrames,
                   .sampler = trials::seam,
                   .prefilter = trials::seam},
     StabilityCase{.number = 19,
@@ -153,6 +179,7 @@ constexpr std::array kCases = {
                   .input = "the map turned by some columns",
                   .required = "densities and results turn with it",
                   .source = "azimuth wraps around",
+                  .limits = kTurnedByFrames,
                   .sampler = trials::rotation,
                   .prefilter = trials::rotation},
     StabilityCase{.number = 21,
@@ -167,6 +194,7 @@ constexpr std::array kCases = {
                   .input = "a white map at every roughness",
                   .required = "1 to 1e-3",
                   .source = "Karis 2013; project 004",
+                  .limits = kDarkens,
                   .prefilter = trials::white_furnace,
                   .reflectivity = trials::white_furnace},
     StabilityCase{.number = 23,
@@ -183,6 +211,7 @@ constexpr std::array kCases = {
                   .input = "roughness 1e-4 to 0.05",
                   .required = "the rougher, the wider",
                   .source = "sin(theta) from 1 - cos^2(theta) collapses in float below 0.05",
+                  .limits = kRoundsToMirror,
                   .lobe = trials::little_roughness,
                   .prefilter = trials::little_roughness},
     StabilityCase{.number = 25,
@@ -203,6 +232,7 @@ constexpr std::array kCases = {
                   .input = "a sun of 1e5 in one texel, prefiltered",
                   .required = "the light over the sphere is kept to 1e-3",
                   .source = "a lobe's weights sum to 1",
+                  .limits = kMissesSuns,
                   .prefilter = trials::sun_energy},
     StabilityCase{.number = 28,
                   .name = "output-sizes",

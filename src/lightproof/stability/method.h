@@ -60,17 +60,17 @@ struct BrdfTableMethod {
 
 /// Everything that is held against hard inputs, by kind.
 struct StabilityMethods {
-  std::vector<SamplerUnderTest> samplers;  ///< of maps, under all densities
-  std::vector<DirectionSampler> warps;     ///< of the hemisphere
-  std::vector<LobeMethod> lobes;
-  std::vector<FrameMethod> frames;
-  std::vector<PrefilterMethodInfo> prefilters;
-  std::vector<ReflectivityMethod> reflectivities;
-  std::vector<BrdfTableMethod> brdf_tables;
-  std::vector<MeanMethod> means;
-  std::vector<EstimatorInfo> estimators;
-  std::vector<PointSetInfo> point_sets;
-  std::vector<MapFormatInfo> formats;
+  std::vector<SamplerUnderTest> samplers = {};  ///< of maps, under all densities
+  std::vector<DirectionSampler> warps = {};     ///< of the hemisphere
+  std::vector<LobeMethod> lobes = {};
+  std::vector<FrameMethod> frames = {};
+  std::vector<PrefilterMethodInfo> prefilters = {};
+  std::vector<ReflectivityMethod> reflectivities = {};
+  std::vector<BrdfTableMethod> brdf_tables = {};
+  std::vector<MeanMethod> means = {};
+  std::vector<EstimatorInfo> estimators = {};
+  std::vector<PointSetInfo> point_sets = {};
+  std::vector<MapFormatInfo> formats = {};
 };
 
 /// All of them; published samplers as they are listed, without checks of the map.

@@ -342,8 +342,9 @@ Finding white_furnace(const ReflectivityMethod& method, const TrialOptions& opti
     ReflectivityAccumulation accumulation(white, {8, 4}, roughness, method.form,
                                           RandomStream("stability/reflectivity", options.seed));
     accumulation.add_frame(kSamples);
+    const Grid<Rgb> level = accumulation.mean();
     double mean = 0.0;
-    for (const Rgb v : accumulation.mean().values()) mean += static_cast<double>(v.r) / kTexels;
+    for (const Rgb v : level.values()) mean += static_cast<double>(v.r) / kTexels;
     const double off = std::abs(mean - 1.0);
     if (off <= worst) continue;
     worst = off;

@@ -14,6 +14,7 @@
 #include "lightproof/gate/exact_checks.h"
 #include "lightproof/image/look_up.h"
 #include "lightproof/image/texel_faults.h"
+#include "lightproof/samplers/cdf_lines.h"
 #include "lightproof/stability/hard_maps.h"
 
 namespace lightproof {
@@ -455,7 +456,10 @@ Finding numbers_next_to_one(const SamplerUnderTest& method, const TrialOptions& 
   constexpr std::array kNumbers = {1.0 - 0x1p-24, kLast, 1.0};
   constexpr std::array kOthers = {0.25, 0.5, 1.0 - 0x1p-24, kLast, 1.0};
   Finding found;
-  // Sums of widths that are no power of two are rounded at every step.
+  // Sums of equal powers of two reach 1 exactly; others are rounded at every step.
+  const SamplerOnMap even(method, hard_maps::constant(kSmall));
+  found = worse_of(check_drawn(even, pairs_of(kNumbers, kOthers)),
+                   check_drawn(even, pairs_of(kOthers, kNumbers)));
   for (const Extent extent : {Extent{32, 16}, Extent{33, 17}, Extent{1000, 3}}) {
     const SamplerOnMap on_map(method, hard_maps::lognormal(extent, 1.0, options.seed));
     found = worse_of(found, check_drawn(on_map, pairs_of(kNumbers, kOthers)));
@@ -489,14 +493,17 @@ Finding wide_constant_map(const SamplerUnderTest& method, const TrialOptions& op
   const SamplerOnMap on_map(method, hard_maps::constant(extent));
   Finding found = check_density(on_map);
   if (found.outcome != StabilityOutcome::right) return found;
-  // The middles of all texels, and of all texels counted row by row: by one or by the other, every
-  // texel of a constant map is drawn, whatever the numbers choose.
+  // The middles of all texels; of all texels counted row by row; and of 32 texels each of all runs
+  // counted so: by one of them every texel of a constant map is drawn, whatever the numbers choose.
+  const auto texels = static_cast<double>(extent.count());
   std::vector<SquarePoint> points;
   for (int y = 0; y < extent.height; ++y) {
     for (int x = 0; x < extent.width; ++x) {
+      const double index = static_cast<double>(y) * extent.width + x;
       points.push_back({(x + 0.5) / extent.width, (y + 0.5) / extent.height});
-      const auto index = static_cast<double>(points.size() / 2);
-      points.push_back({(index + 0.5) / static_cast<double>(extent.count()), 0.5});
+      points.push_back({(index + 0.5) / texels, 0.5});
+      points.push_back({(std::floor(index / kRunTexels) + 0.5) * kRunTexels / texels,
+                        (std::fmod(index, kRunTexels) + 0.5) / kRunTexels});
     }
   }
   std::vector<bool> reached(extent.count(), false);

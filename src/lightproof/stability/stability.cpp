@@ -13,7 +13,7 @@
 namespace lightproof {
 namespace {
 
-bool is_asked_for(const StabilityCase& row, const std::vector<std::string>& names) {
+bool is_case_asked_for(const StabilityCase& row, const std::vector<std::string>& names) {
   return names.empty() || std::ranges::any_of(names, [&](const std::string& name) {
            return name == row.name || name == fmt::format("{}", row.number);
          });
@@ -40,7 +40,7 @@ Finding finding_of(Trial<Method> trial, const Method& method, const TrialOptions
 void check_names(const StabilityMethods& methods, const StabilityOptions& options) {
   for (const std::string& name : options.cases) {
     const auto cases = stability_cases();
-    if (std::ranges::any_of(cases, [&](const auto& row) { return is_asked_for(row, {name}); })) {
+    if (std::ranges::any_of(cases, [&](const auto& row) { return is_case_asked_for(row, {name}); })) {
       continue;
     }
     std::string known;
@@ -67,7 +67,7 @@ std::vector<WorkCell<StabilityRecord>> cells_of(const StabilityMethods& methods,
                                                 const StabilityOptions& options) {
   std::vector<WorkCell<StabilityRecord>> cells;
   for (const StabilityCase& row : stability_cases()) {
-    if (!is_asked_for(row, options.cases)) continue;
+    if (!is_case_asked_for(row, options.cases)) continue;
     for_kinds(methods, [&](std::string_view kind, const auto& all, auto member) {
       const auto trial = row.*member;
       if (trial == nullptr) return;
@@ -112,7 +112,7 @@ StabilityResult run_stability(const StabilityMethods& methods, const StabilityOp
   check_names(methods, options);
   StabilityResult result;
   for (const StabilityCase& row : stability_cases()) {
-    if (!is_asked_for(row, options.cases)) continue;
+    if (!is_case_asked_for(row, options.cases)) continue;
     result.cases.push_back({row.number, std::string(row.name), std::string(row.input),
                             std::string(row.required), std::string(row.source)});
   }

@@ -16,8 +16,8 @@ struct Finding {
   StabilityOutcome outcome = StabilityOutcome::right;
   double amount = 0.0;  ///< how far off; 0 where nothing is measured
   double bound = 0.0;   ///< how far off it may be
-  std::string put_in;
-  std::string came_out;
+  std::string put_in = {};
+  std::string came_out = {};
 };
 
 /// How inputs are made.
