@@ -20,6 +20,8 @@ namespace {
 
 constexpr TargetDensity kTarget = {DensitySpace::texture, kPublishedLuminance};
 constexpr Extent kExtent = {64, 32};
+/// Of the logarithm of radiances: rows of high dynamic range.
+constexpr double kSigma = 2.0;
 
 /// As the listing decodes 8-bit texels, in float.
 EnvironmentMap decoded(EnvironmentMap map) {
@@ -42,13 +44,13 @@ std::vector<float> row_of(const EnvironmentMap& map) {
 }
 
 PublishedRow lognormal_row(int width, std::uint64_t seed) {
-  return PublishedRow(row_of(hard_maps::lognormal({width, 1}, 1.0, seed)));
+  return PublishedRow(row_of(hard_maps::lognormal({width, 1}, kSigma, seed)));
 }
 
-/// The same with a sun that has as much light as all the rest.
+/// The same with a sun of 1e7 after a quarter of the row.
 PublishedRow row_with_sun(int width, std::uint64_t seed) {
-  std::vector<float> weights = row_of(hard_maps::lognormal({width, 1}, 1.0, seed));
-  weights[static_cast<std::size_t>(width / 3)] = 1.65F * static_cast<float>(width);
+  std::vector<float> weights = row_of(hard_maps::lognormal({width, 1}, kSigma, seed));
+  weights[weights.size() / 4] = 1e7F;
   return PublishedRow(std::move(weights));
 }
 
@@ -168,31 +170,38 @@ struct ByLength {
 
 class PublishedRowsByLength : public testing::TestWithParam<ByLength> {};
 
-/// Errors of sums are random walks, of which rows differ by a factor of two and three.
+/// The largest error of a sum, and the mean share of misplaced samples, of 25 rows.
+struct RowErrors {
+  double largest = 0.0;
+  double misplaced = 0.0;
+};
+
+RowErrors errors_of(PublishedRow (*row_of_seed)(int width, std::uint64_t seed), int width) {
+  constexpr std::uint64_t kRows = 25;
+  RowErrors errors;
+  for (std::uint64_t seed = 0; seed < kRows; ++seed) {
+    const PublishedRow row = row_of_seed(width, seed);
+    errors.largest = std::max(errors.largest, row.largest_error());
+    errors.misplaced += row.misplaced() / kRows;
+  }
+  return errors;
+}
+
+/// Errors of sums are random walks: the largest one of 25 scatters by about half of itself, and so
+/// does what it was measured to be.
 TEST_P(PublishedRowsByLength, ErrAsMeasured) {
   const ByLength& measured = GetParam();
-  constexpr int kRows = 25;
-  std::vector<double> errors;
-  std::vector<double> misplaced;
-  std::vector<double> errors_with_sun;
-  std::vector<double> misplaced_with_sun;
-  for (std::uint64_t seed = 0; seed < kRows; ++seed) {
-    const PublishedRow row = lognormal_row(measured.width, seed);
-    errors.push_back(row.largest_error());
-    misplaced.push_back(row.misplaced());
-    const PublishedRow sunny = row_with_sun(measured.width, seed);
-    errors_with_sun.push_back(sunny.largest_error());
-    misplaced_with_sun.push_back(sunny.misplaced());
-  }
-  const auto median = [](std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + kRows / 2, values.end());
-    return values[kRows / 2];
-  };
-  printf("%d %g %g %g %g\n", measured.width, median(errors), median(errors_with_sun), median(misplaced), median(misplaced_with_sun));
-  EXPECT_GT(median(errors), measured.error / 3.0);
-  EXPECT_LT(median(errors), measured.error * 3.0);
-  EXPECT_GT(median(misplaced), measured.misplaced / 3.0);
-  EXPECT_LT(median(misplaced), measured.misplaced * 3.0);
+  const RowErrors plain = errors_of(lognormal_row, measured.width);
+  const RowErrors sunny = errors_of(row_with_sun, measured.width);
+  constexpr double kScatter = 2.0;
+  EXPECT_GT(plain.largest, measured.error / kScatter);
+  EXPECT_LT(plain.largest, measured.error * kScatter);
+  EXPECT_GT(sunny.largest, measured.error_with_sun / kScatter);
+  EXPECT_LT(sunny.largest, measured.error_with_sun * kScatter);
+  EXPECT_GT(plain.misplaced, measured.misplaced / kScatter);
+  EXPECT_LT(plain.misplaced, measured.misplaced * kScatter);
+  EXPECT_GT(sunny.misplaced, measured.misplaced_with_sun / kScatter);
+  EXPECT_LT(sunny.misplaced, measured.misplaced_with_sun * kScatter);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -211,24 +220,22 @@ TEST(PublishedRow, LandsInTheNeighbourMoreOftenTheLongerTheRow) {
   for (const auto [width, share] :
        {Measured{512, 2e-5}, Measured{4096, 2e-4}, Measured{8192, 4e-4}, Measured{16384, 8e-4}}) {
     const double found = lognormal_row(width, 1).lands_in_neighbour();
-    printf("%d %g\n", width, found);
-    EXPECT_GT(found, share / 1.5) << width;
+      EXPECT_GT(found, share / 1.5) << width;
     EXPECT_LT(found, share * 1.5) << width;
   }
 }
 
 TEST(PublishedRow, AbsorbsTheSkyBesideASun) {
-  // Measured, of 8192 columns, a sun over a sky of 1: how many are reached by numbers of 24 bits.
+  // Measured, of 8192 columns, a sun in column 100 over a sky of 1: how many are reached by numbers
+  // of 24 bits, those of (0,1].
   struct Measured {
     float sun;
     int reached;
   };
   for (const auto [sun, reached] : {Measured{1e7F, 6883}, Measured{1e8F, 17}, Measured{1e9F, 2}}) {
-    for (const int place : {0, 4096, 8191}) {
     std::vector<float> weights(8192, 1.0F);
-    weights[place] = sun;
-    printf("%g %d %d\n", double(sun), place, PublishedRow(weights).reachable());
-    }
+    weights[100] = sun;
+    EXPECT_EQ(PublishedRow(weights).reachable(1, 1U << 24U), reached) << sun;
   }
 }
 

@@ -92,7 +92,7 @@ bool is_white(const PrefilterMethodInfo& method, double roughness,
 
 bool keeps_energy(const PrefilterMethodInfo& method, double contrast,
                   const TrialOptions& /*options*/) {
-  return energy_error(method, static_cast<float>(contrast)) <= 1e-2;
+  return energy_error(method, static_cast<float>(contrast), {64, 32}) <= 1e-2;
 }
 
 bool draws_lobe(const LobeMethod& method, double roughness, const TrialOptions& /*options*/) {
@@ -135,10 +135,9 @@ bool rough_in_table(const BrdfTableMethod& method, double roughness,
 }
 
 bool has_points(const PointSetInfo& method, double index, const TrialOptions& /*options*/) {
-  // The window begins at the index; the last ones end at 2^32.
-  const double last = 0x1p32 - static_cast<double>(kPointWindow);
-  const auto first = static_cast<std::uint64_t>(std::min(index, last));
-  return is_right(check_points(method, first, kPointWindow));
+  const auto last = static_cast<std::uint64_t>(index);
+  const std::uint64_t first = last < kPointWindow ? 0 : last - kPointWindow + 1;
+  return is_right(check_points(method, first, last - first + 1));
 }
 
 bool keeps_mean(const MeanMethod& method, double thousands, const TrialOptions& /*options*/) {
@@ -206,9 +205,8 @@ constexpr std::array kTableSearches = {
 
 constexpr std::array kPointSearches = {
     Search<PointSetInfo>{"index",
-                         "65536 points from there on, the last ones below 2^32, are different and "
-                         "below 1",
-                         {.easiest = 1, .hardest = 0x1p32, .is_whole = true},
+                         "the last 65536 points up to it are different and below 1",
+                         {.easiest = 1, .hardest = 0x1p32 - 1, .is_whole = true},
                          has_points},
 };
 

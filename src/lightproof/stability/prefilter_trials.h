@@ -11,8 +11,8 @@ namespace lightproof {
 double white_furnace_error(const PrefilterMethodInfo& method, double roughness);
 
 /// By how much the light of a map, a sun in one texel over a sky of 1, changes when it is
-/// prefiltered by a wide lobe; relative.
-double energy_error(const PrefilterMethodInfo& method, float sun);
+/// prefiltered by a wide lobe, to a level of this size; relative.
+double energy_error(const PrefilterMethodInfo& method, float sun, Extent output);
 
 /// What of the table is not finite or not in [0,1], with the light that is reflected at F0 = 1 at
 /// most 1; empty if nothing is.

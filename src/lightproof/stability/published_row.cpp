@@ -77,15 +77,15 @@ double PublishedRow::misplaced() const {
   return share;
 }
 
-int PublishedRow::reachable() const {
+int PublishedRow::reachable(std::uint32_t first, std::uint32_t last) const {
   int reached = 0;
-  // The largest number of 24 bits at or below the sum so far, and so the last one that is led to
-  // the texels so far.
-  double last = -1.0;
+  // The largest number that is led to the texels so far.
+  double before = static_cast<double>(first) - 1.0;
   for (const float sum : sums_) {
-    const double upto = std::min(std::floor(static_cast<double>(sum) * 0x1p24), 0x1p24 - 1.0);
-    if (upto > last) ++reached;
-    last = std::max(last, upto);
+    const double upto =
+        std::min(std::floor(static_cast<double>(sum) * 0x1p24), static_cast<double>(last));
+    if (upto > before) ++reached;
+    before = std::max(before, upto);
   }
   return reached;
 }

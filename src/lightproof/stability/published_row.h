@@ -31,8 +31,8 @@ class PublishedRow {
   double largest_error() const;
   /// The share of random numbers, as real numbers of [0,1], whose texel is not the exact one.
   double misplaced() const;
-  /// How many texels some k 2^-24 with k in [0, 2^24) leads to.
-  int reachable() const;
+  /// How many texels some k 2^-24 leads to, k from `first` to `last`, at most 2^24.
+  int reachable(std::uint32_t first = 0, std::uint32_t last = (1U << 24U) - 1) const;
   /// How far the last sum lies below 1: the probability to fall off the end; 0 if it does not.
   double falls_off() const;
   /// The share of all k 2^-24 that are led to a texel, but to a position in another one.

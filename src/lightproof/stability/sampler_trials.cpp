@@ -43,9 +43,8 @@ std::vector<SquarePoint> hard_points(const SamplerOnMap& on_map, const TrialOpti
   return points;
 }
 
-bool is_finite(const TexelSample& sample) {
-  return std::isfinite(sample.at.s) && std::isfinite(sample.at.t) &&
-         std::isfinite(sample.pdf.value);
+bool has_nan(const TexelSample& sample) {
+  return std::isnan(sample.at.s) || std::isnan(sample.at.t) || std::isnan(sample.pdf.value);
 }
 
 bool is_inside(const TexelSample& sample, Extent extent) {
@@ -104,11 +103,15 @@ class Tally {
 
 /// Adds a sample if it is no number or does not exist; whether it did.
 bool add_if_broken(Tally& tally, std::size_t i, const TexelSample& sample, Extent extent) {
-  if (!is_finite(sample)) {
-    tally.add(StabilityOutcome::not_a_number, i, sample, "not a finite number");
+  if (has_nan(sample)) {
+    tally.add(StabilityOutcome::not_a_number, i, sample, "not a number");
     return true;
   }
-  if (is_inside(sample, extent)) return false;
+  if (is_inside(sample, extent)) {
+    if (std::isfinite(sample.pdf.value)) return false;
+    tally.add(StabilityOutcome::not_a_number, i, sample, "no finite density");
+    return true;
+  }
   tally.add(StabilityOutcome::out_of_range, i, sample,
             fmt::format("off the map of {}x{}", extent.width, extent.height));
   return true;
