@@ -72,8 +72,8 @@ bool misses_suns(const BreakingPoint& point) {
 TEST(BreakingPoints, OfCorrectedMethodsLieBeyondTheRange) {
   for (const BreakingPoint& point : all().breaking_points) {
     if (point.known_defects || misses_suns(point)) continue;
-    EXPECT_FALSE(point.failed) << point.kind << " " << point.method << ": " << point.quantity
-                               << " " << point.criterion << " " << point.failed.value_or(0);
+    EXPECT_FALSE(point.failed) << point.kind << " " << point.method << ": " << point.quantity << " "
+                               << point.criterion << " " << point.failed.value_or(0);
   }
 }
 

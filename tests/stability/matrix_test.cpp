@@ -1,4 +1,5 @@
-// The matrix of methods and hard inputs: claims are kept, published forms fail as they are known to.
+// The matrix of methods and hard inputs: claims are kept, published forms fail as they are known
+// to.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,8 +22,8 @@ const StabilityResult& all() {
 
 std::string text_of(const StabilityRecord& record) {
   return std::to_string(record.number) + " " + record.kind + " " + record.method + ": " +
-         to_string(record.outcome) + " by " + std::to_string(record.amount) + ", " +
-         record.put_in + " -> " + record.came_out;
+         to_string(record.outcome) + " by " + std::to_string(record.amount) + ", " + record.put_in +
+         " -> " + record.came_out;
 }
 
 TEST(StabilityCases, AreThoseThatNeedNoDamagedFiles) {

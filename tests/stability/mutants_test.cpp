@@ -43,15 +43,17 @@ TEST_P(Mutants, FailTheCaseThatIsAboutTheirDefect) {
   FAIL() << "no mutant " << GetParam().mutant;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    SelfTest, Mutants,
-    testing::Values(Kill{1, "no-last-column"}, Kill{7, "weights-2-percent-off"},
-                    Kill{8, "first-row-at-zero"}, Kill{9, "cdf-ends-early"}, Kill{10, "abs-of-negative"},
-                    Kill{11, "abs-of-negative"}, Kill{12, "no-last-column"},
-                    Kill{14, "nan-at-pole"}, Kill{16, "pdf-of-neighbour"},
-                    Kill{18, "no-last-column"}, Kill{20, "no-last-column"}, Kill{21, "t-flipped-in-sample"},
-                    Kill{21, "u-mirrored"}, Kill{34, "no-last-row"}, Kill{35, "other-luminance"},
-                    Kill{35, "bgr"}, Kill{38, "one-texel-missing"}));
+INSTANTIATE_TEST_SUITE_P(SelfTest, Mutants,
+                         testing::Values(Kill{1, "no-last-column"},
+                                         Kill{7, "weights-2-percent-off"},
+                                         Kill{8, "first-row-at-zero"}, Kill{9, "cdf-ends-early"},
+                                         Kill{10, "abs-of-negative"}, Kill{11, "abs-of-negative"},
+                                         Kill{12, "no-last-column"}, Kill{14, "nan-at-pole"},
+                                         Kill{16, "pdf-of-neighbour"}, Kill{18, "no-last-column"},
+                                         Kill{20, "no-last-column"},
+                                         Kill{21, "t-flipped-in-sample"}, Kill{21, "u-mirrored"},
+                                         Kill{34, "no-last-row"}, Kill{35, "other-luminance"},
+                                         Kill{35, "bgr"}, Kill{38, "one-texel-missing"}));
 
 /// A sampler with one thing changed about what it draws, or what it says.
 struct Changed {
@@ -65,18 +67,17 @@ SamplerUnderTest changed_sampler(const Changed& change) {
           .target = {DensitySpace::texture},
           .bind = [change](const EnvironmentMap& map) {
             const BoundSampler right = bound(Alias(map, {DensitySpace::texture}));
-            return BoundSampler{
-                [right, change](std::span<const SquarePoint> points,
-                                std::span<TexelSample> samples) {
-                  right.sample(points, samples);
-                  if (change.sample == nullptr) return;
-                  for (TexelSample& sample : samples) change.sample(sample);
-                },
-                [right, change](SquarePoint at) {
-                  PerSquare density = right.pdf(at);
-                  if (change.pdf != nullptr) change.pdf(density, at);
-                  return density;
-                }};
+            return BoundSampler{[right, change](std::span<const SquarePoint> points,
+                                                std::span<TexelSample> samples) {
+                                  right.sample(points, samples);
+                                  if (change.sample == nullptr) return;
+                                  for (TexelSample& sample : samples) change.sample(sample);
+                                },
+                                [right, change](SquarePoint at) {
+                                  PerSquare density = right.pdf(at);
+                                  if (change.pdf != nullptr) change.pdf(density, at);
+                                  return density;
+                                }};
           }};
 }
 
@@ -139,7 +140,8 @@ TEST(ChangedSamplers, ThatKeepTheFirstMapsTableFailOnTwo) {
   SamplerUnderTest stale = changed_sampler({"stale"});
   const auto kept = std::make_shared<std::shared_ptr<BoundSampler>>();
   stale.bind = [kept](const EnvironmentMap& map) {
-    if (!*kept) *kept = std::make_shared<BoundSampler>(bound(BinarySearch(map, {DensitySpace::texture})));
+    if (!*kept)
+      *kept = std::make_shared<BoundSampler>(bound(BinarySearch(map, {DensitySpace::texture})));
     return **kept;
   };
   EXPECT_FALSE(passes(record_of({.samplers = {stale}}, 43)));
@@ -180,23 +182,33 @@ TEST(ChangedFrames, Fail) {
   };
   EXPECT_TRUE(passes(record_of(frames([](Direction) { return 0.0; }), 26)));
   EXPECT_FALSE(passes(record_of(frames([](Direction) { return 1e-10; }), 26)));
-  EXPECT_EQ(record_of(frames([](Direction n) { return n.z == 1.0 ? std::nan("") : 0.0; }), 26).outcome,
-            StabilityOutcome::not_a_number);
+  EXPECT_EQ(
+      record_of(frames([](Direction n) { return n.z == 1.0 ? std::nan("") : 0.0; }), 26).outcome,
+      StabilityOutcome::not_a_number);
 }
 
 TEST(ChangedTables, Fail) {
   const auto tables = [](auto at) {
     return StabilityMethods{.brdf_tables = {{"changed", false, at}}};
   };
-  EXPECT_EQ(record_of(tables([](double mu, double) { return ScaleBias{mu / mu, 0.0}; }), 25).outcome,
+  EXPECT_EQ(record_of(tables([](double mu, double) {
+                        return ScaleBias{mu / mu, 0.0};
+                      }),
+                      25)
+                .outcome,
             StabilityOutcome::not_a_number);
-  EXPECT_EQ(record_of(tables([](double, double) { return ScaleBias{1.1, 0.0}; }), 25).outcome,
+  EXPECT_EQ(record_of(tables([](double, double) {
+                        return ScaleBias{1.1, 0.0};
+                      }),
+                      25)
+                .outcome,
             StabilityOutcome::wrong);
 }
 
 TEST(ChangedMeans, Fail) {
   const auto mean = [](double value) {
-    return StabilityMethods{.means = {{"changed", false, [value](std::uint64_t) { return value; }}}};
+    return StabilityMethods{
+        .means = {{"changed", false, [value](std::uint64_t) { return value; }}}};
   };
   EXPECT_TRUE(passes(record_of(mean(1.0), 31)));
   EXPECT_FALSE(passes(record_of(mean(1.001), 31)));

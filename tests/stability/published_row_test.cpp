@@ -1,5 +1,5 @@
-// The published linear scan's failures, as they were measured: triggers, and errors of float sums by
-// the length of a row.
+// The published linear scan's failures, as they were measured: triggers, and errors of float sums
+// by the length of a row.
 #include "lightproof/stability/published_row.h"
 
 #include <gtest/gtest.h>
@@ -128,8 +128,8 @@ TEST(PublishedScan, GivesTheCoordinateOneAtOne) {
 /// What became of many rows of one width.
 struct Rows {
   int count = 0;
-  int short_of_one = 0;     ///< whose last sum is below the largest random number
-  double falls_off = 0.0;   ///< mean probability
+  int short_of_one = 0;    ///< whose last sum is below the largest random number
+  double falls_off = 0.0;  ///< mean probability
   double worst_fall = 0.0;
 };
 
@@ -162,9 +162,9 @@ TEST(PublishedScan, FallsOffTheEndOfAThirdToHalfOfAllRows) {
 
 struct ByLength {
   int width;
-  double error;           ///< largest of a sum, as measured
+  double error;  ///< largest of a sum, as measured
   double error_with_sun;
-  double misplaced;       ///< share of samples, as measured
+  double misplaced;  ///< share of samples, as measured
   double misplaced_with_sun;
 };
 
@@ -204,12 +204,11 @@ TEST_P(PublishedRowsByLength, ErrAsMeasured) {
   EXPECT_LT(sunny.misplaced, measured.misplaced_with_sun * kScatter);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Widths, PublishedRowsByLength,
-    testing::Values(ByLength{1024, 1.5e-6, 4.0e-6, 0.0003, 0.0004},
-                    ByLength{4096, 3.2e-6, 8.8e-6, 0.0020, 0.0031},
-                    ByLength{8192, 4.5e-6, 1.9e-5, 0.0060, 0.0061},
-                    ByLength{16384, 6.7e-6, 3.4e-5, 0.015, 0.012}));
+INSTANTIATE_TEST_SUITE_P(Widths, PublishedRowsByLength,
+                         testing::Values(ByLength{1024, 1.5e-6, 4.0e-6, 0.0003, 0.0004},
+                                         ByLength{4096, 3.2e-6, 8.8e-6, 0.0020, 0.0031},
+                                         ByLength{8192, 4.5e-6, 1.9e-5, 0.0060, 0.0061},
+                                         ByLength{16384, 6.7e-6, 3.4e-5, 0.015, 0.012}));
 
 TEST(PublishedRow, LandsInTheNeighbourMoreOftenTheLongerTheRow) {
   // Measured: 2e-5 (512), 2e-4 (4k), 4e-4 (8k), 8e-4 (16k).
@@ -220,7 +219,7 @@ TEST(PublishedRow, LandsInTheNeighbourMoreOftenTheLongerTheRow) {
   for (const auto [width, share] :
        {Measured{512, 2e-5}, Measured{4096, 2e-4}, Measured{8192, 4e-4}, Measured{16384, 8e-4}}) {
     const double found = lognormal_row(width, 1).lands_in_neighbour();
-      EXPECT_GT(found, share / 1.5) << width;
+    EXPECT_GT(found, share / 1.5) << width;
     EXPECT_LT(found, share * 1.5) << width;
   }
 }

@@ -49,10 +49,9 @@ int run(const Options& options) {
     for (const std::string& line : stability_lines(result)) fmt::print("{}\n", line);
   }
   const RunDescription run = describe_run(options.command_line);
-  write_output(options.json,
-               options.json.empty()
-                   ? std::string()
-                   : stability_json(result, {options.seed, options.thorough}, run));
+  write_output(options.json, options.json.empty()
+                                 ? std::string()
+                                 : stability_json(result, {options.seed, options.thorough}, run));
   write_output(options.html,
                options.html.empty() ? std::string() : stability_page(result, run.version));
   return keeps_claims(result) ? kPassed : kRejected;
@@ -66,7 +65,8 @@ void add_stability(CLI::App& app, const CommandLine& line, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "stability", "Hard inputs, method by method: right, wrong by how much, NaN, out of range");
   command
-      ->add_option("--only", options->cases, "a case, by name or number; may be given several times")
+      ->add_option("--only", options->cases,
+                   "a case, by name or number; may be given several times")
       ->type_name("CASE");
   command
       ->add_option("--method", options->methods,
@@ -80,7 +80,8 @@ void add_stability(CLI::App& app, const CommandLine& line, int& exit_code) {
   add_output(*command, "--json", options->json, "write what was found as JSON");
   add_output(*command, "--html", options->html, "write what was found as a page with charts");
   command->footer(
-      "Methods are those of the registries; published ones are run as they are listed. Exit codes:\n"
+      "Methods are those of the registries; published ones are run as they are listed. Exit "
+      "codes:\n"
       "0 every claim is kept, 1 one is not, 2 usage or input, 70 internal error, 71 not enough\n"
       "memory, 128 + N ended by signal N.");
   command->callback([options, &exit_code] { exit_code = run(*options); });

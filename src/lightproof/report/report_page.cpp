@@ -34,16 +34,16 @@ constexpr std::string_view kNavigation = R"(<nav aria-label="Sections"><ul>
 }  // namespace
 
 std::string report_page(const StudyResult& study) {
-  const std::string body =
-      opening_section(study) + accuracy_section(study.accuracy) + recommendation_section(study) +
-      overview_section(study) + gate_section(study.gate, study.directions_origin) +
-      self_test_section(study.self_test) + map_section(study.maps) + methods_section(study) +
-      convergence_section(study.convergence) + variance_section(study.convergence) +
-      throughput_section(study) + render_section(study.renders) +
-      level_cost_section(study.level_costs) + point_section(study.points) +
-      frame_section(study.frames) + stability_section(study.stability) +
-      split_sum_section(study.split_sum) +
-      published_section(study.published_forms, study.published_pictures);
+  const std::string body = opening_section(study) + accuracy_section(study.accuracy) +
+                           recommendation_section(study) + overview_section(study) +
+                           gate_section(study.gate, study.directions_origin) +
+                           self_test_section(study.self_test) + map_section(study.maps) +
+                           methods_section(study) + convergence_section(study.convergence) +
+                           variance_section(study.convergence) + throughput_section(study) +
+                           render_section(study.renders) + level_cost_section(study.level_costs) +
+                           point_section(study.points) + frame_section(study.frames) +
+                           stability_section(study.stability) + split_sum_section(study.split_sum) +
+                           published_section(study.published_forms, study.published_pictures);
   return html_document("Lightproof: " + headline(study), kNavigation, with_words_explained(body),
                        study.version);
 }

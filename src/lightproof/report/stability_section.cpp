@@ -78,6 +78,12 @@ std::vector<std::string> kinds_of(const std::vector<StabilityRecord>& records) {
   return unique_names(kinds);
 }
 
+std::string plural(std::string kind) {
+  if (!kind.ends_with('y')) return kind + "s";
+  kind.pop_back();
+  return kind + "ies";
+}
+
 Json state_scale(const std::vector<std::string>& shown) {
   Json domain = Json::array();
   Json range = Json::array();
@@ -89,31 +95,42 @@ Json state_scale(const std::vector<std::string>& shown) {
   return {{"domain", domain}, {"range", range}};
 }
 
-Json name_axis(const char* field, const std::vector<std::string>& names, int angle, int limit) {
-  Json domain = Json::array();
-  for (const std::string& name : unique_names(names)) domain.push_back(name);
-  Json axis = {{"labelFontSize", 11}, {"labelOverlap", false}, {"labelLimit", limit}};
-  if (angle != 0) axis["labelAngle"] = angle;
-  return {{"field", field},
+Json names_json(const std::vector<std::string>& names) {
+  Json list = Json::array();
+  for (const std::string& name : unique_names(names)) list.push_back(name);
+  return list;
+}
+
+Json method_axis(const std::vector<std::string>& methods) {
+  return {{"field", "method"},
           {"type", "nominal"},
           {"title", nullptr},
-          {"scale", {{"domain", domain}}},
-          {"axis", axis}};
+          {"scale", {{"domain", names_json(methods)}}},
+          {"axis", {{"labelFontSize", 11}, {"labelOverlap", false}, {"labelLimit", 170}}}};
+}
+
+Json case_axis(const std::vector<std::string>& numbers) {
+  return {{"field", "number"},
+          {"type", "nominal"},
+          {"title", "number of the case"},
+          {"scale", {{"domain", names_json(numbers)}}},
+          {"axis", {{"labelFontSize", 11}, {"labelOverlap", false}, {"labelAngle", 0}}}};
 }
 
 /// The matrix of one kind of method.
 std::string matrix_chart(const StabilityResult& stability, const std::string& kind) {
   Json rows = Json::array();
   std::vector<std::string> methods;
-  std::vector<std::string> cases;
+  std::vector<std::string> numbers;
   std::vector<std::string> states;
   for (const StabilityRecord& record : stability.records) {
     if (record.kind != kind) continue;
     methods.push_back(record.method);
-    cases.push_back(case_name(stability, record.number));
+    numbers.push_back(std::to_string(record.number));
     states.emplace_back(state_of(record));
     rows.push_back({{"method", record.method},
-                    {"case", cases.back()},
+                    {"number", numbers.back()},
+                    {"case", case_name(stability, record.number)},
                     {"state", states.back()},
                     {"required", required_of(stability, record.number)},
                     {"input", record.put_in},
@@ -134,8 +151,8 @@ std::string matrix_chart(const StabilityResult& stability, const std::string& ki
   const Json border = {{"condition", {{"test", "datum.broken == 'yes'"}, {"value", "#000000"}}},
                        {"value", "#ffffff"}};
   Json cells = {{"mark", {{"type", "rect"}, {"strokeWidth", 1.2}}}};
-  cells["encoding"] = {{"x", name_axis("case", cases, -55, 260)},
-                       {"y", name_axis("method", methods, 0, 230)},
+  cells["encoding"] = {{"x", case_axis(numbers)},
+                       {"y", method_axis(methods)},
                        {"color", colour},
                        {"stroke", border},
                        {"tooltip",
@@ -157,8 +174,7 @@ std::string matrix_finding(const StabilityResult& stability, const std::string& 
     if (!passes(record)) failing.push_back(record.method);
   }
   const StabilityTally tally = tally_of(of_kind);
-  std::string text = fmt::format("{}: {} of {} claims kept",
-                                 kind == "BRDF table" ? "BRDF tables" : kind + "s", tally.passed,
+  std::string text = fmt::format("{}: {} of {} claims kept", plural(kind), tally.passed,
                                  tally.passed + tally.broken);
   text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
   const std::size_t methods = unique_names(failing).size();
@@ -166,15 +182,40 @@ std::string matrix_finding(const StabilityResult& stability, const std::string& 
   return fmt::format("{}; {} fail somewhere", text, counted(methods, "method"));
 }
 
+/// Whether the matrix of a kind has so many cases that a narrow window scrolls it.
+bool has_many_cases(const StabilityResult& stability, const std::string& kind) {
+  std::vector<std::string> numbers;
+  for (const StabilityRecord& record : stability.records) {
+    if (record.kind == kind) numbers.push_back(std::to_string(record.number));
+  }
+  return unique_names(numbers).size() > 6;
+}
+
+std::string cases_table(const StabilityResult& stability) {
+  Table table("Hard inputs", {"Case", "Name", "Input", "Required", "Source"});
+  for (const StabilityCaseRecord& row : stability.cases) {
+    table.add({text_cell(std::to_string(row.number)),
+               text_cell(row.name),
+               {row.input, "detail", ""},
+               {row.required, "detail", ""},
+               {row.source, "detail", ""}});
+  }
+  return table.html();
+}
+
 std::string failures_table(const StabilityResult& stability) {
   Table table("What failed",
               {"Method", "Case", "Outcome", "Amount", "Allowed", "Put in", "Came out", "Claim"});
   for (const StabilityRecord& record : stability.records) {
     if (passes(record)) continue;
-    table.add({text_cell(record.method), text_cell(case_name(stability, record.number)),
-               text_cell(std::string(state_of(record))), number_cell(record.amount),
-               number_cell(record.bound), {record.put_in, "detail", ""},
-               {record.came_out, "detail", ""}, text_cell(claim_of(record))});
+    table.add({text_cell(record.method),
+               text_cell(case_name(stability, record.number)),
+               text_cell(std::string(state_of(record))),
+               number_cell(record.amount),
+               number_cell(record.bound),
+               {record.put_in, "detail", ""},
+               {record.came_out, "detail", ""},
+               text_cell(claim_of(record))});
   }
   return table.html();
 }
@@ -211,7 +252,7 @@ std::string breaking_chart(const Points& points) {
     if (points.front().hardest < points.front().easiest) x["scale"]["reverse"] = true;
     return x;
   };
-  const Json y = name_axis("method", methods, 0, 230);
+  const Json y = method_axis(methods);
   const Json colour = series(styles, &SeriesStyle::colour, legend);
   const auto count = static_cast<int>(unique_names(methods).size());
   Json chart = base_chart(kHead + kRowHeight * count);
@@ -238,14 +279,15 @@ std::string breaking_chart(const Points& points) {
 std::string breaking_finding(const Points& points) {
   const auto failing = static_cast<std::size_t>(
       std::ranges::count_if(points, [](const BreakingPoint& p) { return p.failed.has_value(); }));
-  return fmt::format("{}, {}: {} of {} {}s fail somewhere", points.front().quantity,
-                     points.front().criterion, failing, points.size(), points.front().kind);
+  return fmt::format("Against {}, {} of {} {} fail; required: {}", points.front().quantity, failing,
+                     points.size(), plural(points.front().kind), points.front().criterion);
 }
 
 std::string breaking_table(const Points& points) {
   Table table("Breaking points", {"Method", "Quantity", "First fails"});
   for (const BreakingPoint& point : points) {
-    table.add({text_cell(point.method), text_cell(point.quantity), text_cell(interval_text(point))});
+    table.add(
+        {text_cell(point.method), text_cell(point.quantity), text_cell(interval_text(point))});
   }
   return table.html();
 }
@@ -288,10 +330,14 @@ std::string stability_section(const StabilityResult& stability) {
   std::string note(kMatrixNote);
   const std::vector<std::string> kinds = kinds_of(stability.records);
   for (std::size_t i = 0; i < kinds.size(); ++i) {
-    html += chart_figure({fmt::format("stability-{}", i), matrix_finding(stability, kinds[i]),
+    html += chart_figure({fmt::format("stability-{}", i),
+                          matrix_finding(stability, kinds[i]),
                           fmt::format("Outcomes of hard inputs by method, of kind {}", kinds[i]),
-                          note, matrix_chart(stability, kinds[i])},
-                         "");
+                          note,
+                          matrix_chart(stability, kinds[i]),
+                          {},
+                          has_many_cases(stability, kinds[i])},
+                         i == 0 ? collapsible("Cases as a table", cases_table(stability)) : "");
     note.clear();
   }
   if (!stability.records.empty()) {
@@ -301,11 +347,11 @@ std::string stability_section(const StabilityResult& stability) {
   note = kBreakingNote;
   const std::vector<Points> groups = by_criterion(stability.breaking_points);
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    html += chart_figure({fmt::format("breaking-{}", i), breaking_finding(groups[i]),
-                          fmt::format("Where methods first fail as {} is made harder",
-                                      groups[i].front().quantity),
-                          note, breaking_chart(groups[i])},
-                         collapsible("Breaking points as a table", breaking_table(groups[i])));
+    html += chart_figure(
+        {fmt::format("breaking-{}", i), breaking_finding(groups[i]),
+         fmt::format("Where methods first fail as {} is made harder", groups[i].front().quantity),
+         note, breaking_chart(groups[i])},
+        collapsible("Breaking points as a table", breaking_table(groups[i])));
     note.clear();
   }
   if (!groups.empty()) {

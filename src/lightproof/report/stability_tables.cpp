@@ -74,7 +74,7 @@ TextRows failures_of(const StabilityResult& stability) {
   TextRows rows = {{"case", "method", "outcome", "amount", "put in", "came out"}};
   for (const StabilityRecord& record : stability.records) {
     if (passes(record)) continue;
-    const std::string why = record.known_defects ? " (as published)"
+    const std::string why = record.known_defects   ? " (as published)"
                             : record.limit.empty() ? ""
                                                    : " (by its nature: " + record.limit + ")";
     rows.push_back({std::to_string(record.number), record.method, to_string(record.outcome),

@@ -52,22 +52,20 @@ struct StabilityCaseRecord {
   std::string required;
   std::string source;  ///< paper, book, lecture or measurement that it comes from
 
-  static auto fields(auto& r) {
-    return std::tie(r.number, r.name, r.input, r.required, r.source);
-  }
+  static auto fields(auto& r) { return std::tie(r.number, r.name, r.input, r.required, r.source); }
 };
 
 /// What one method made of one hard input.
 struct StabilityRecord {
-  int number = 0;      ///< of the case
-  std::string kind;    ///< of the method: "sampler"
-  std::string method;  ///< "alias/B"
+  int number = 0;              ///< of the case
+  std::string kind;            ///< of the method: "sampler"
+  std::string method;          ///< "alias/B"
   bool known_defects = false;  ///< whether the method is kept as published
   StabilityOutcome outcome = StabilityOutcome::right;
   double amount = 0.0;  ///< how far off, in the unit of the case; 0 where nothing was measured
   double bound = 0.0;   ///< how far off it may be
   std::string put_in;
-  std::string came_out;  ///< in words; of a refusal its message, of one that does not apply why
+  std::string came_out;     ///< in words; of a refusal its message, of one that does not apply why
   bool may_refuse = false;  ///< whether a refusal is what is required
   /// Why the method cannot pass by its nature; empty if it claims that it does.
   std::string limit;

@@ -70,6 +70,18 @@ bool draws_width(const SamplerUnderTest& method, double width, const TrialOption
   return is_right(check_drawn(on_map, points));
 }
 
+bool places_samples(const SamplerUnderTest& method, double width, const TrialOptions& options) {
+  const SamplerOnMap on_map(method,
+                            hard_maps::lognormal({static_cast<int>(width), 1}, 2.0, options.seed));
+  return misplaced_share(on_map, method.resolution) <= 1e-3;
+}
+
+/// Whether columns follow each other along u.s, each with the share of the numbers that is its
+/// probability.
+bool inverts_sums(const SamplerUnderTest& method) {
+  return method.resolution > 0.0 && method.target.lookup == Lookup::nearest;
+}
+
 bool draws_sparse(const SamplerUnderTest& method, double period, const TrialOptions& /*options*/) {
   constexpr Extent kExtent = {1024, 2};
   EnvironmentMap map = hard_maps::constant(kExtent, 0.0F);
@@ -150,19 +162,28 @@ constexpr SearchRange kRoughness = {.easiest = 1.0, .hardest = 1e-4, .resolution
 constexpr SearchRange kCosine = {.easiest = 1.0, .hardest = 1e-12, .resolution = 1.05};
 
 constexpr std::array kSamplerSearches = {
-    Search<SamplerUnderTest>{"contrast",
-                             "at most 1e-3 of a sky of 1024x2 texels is never drawn beside a sun in "
-                             "one of them",
-                             kContrast, keeps_sky},
+    Search<SamplerUnderTest>{
+        "contrast",
+        "at most 1e-3 of a sky of 1024x2 texels is never drawn beside a sun in "
+        "one of them",
+        kContrast, keeps_sky},
     Search<SamplerUnderTest>{"contrast",
                              "rounding of probabilities adds at most 1e-3 to the relative variance "
                              "of one radiance, beside a sun in one of 1024x2 texels",
                              kContrast, keeps_weights},
-    Search<SamplerUnderTest>{"width",
-                             "a lognormal row has the declared density, and the last random numbers "
-                             "stay on it",
-                             {.easiest = 64, .hardest = 32768, .is_whole = true},
-                             draws_width},
+    Search<SamplerUnderTest>{
+        "width",
+        "a lognormal row has the declared density, and the last random numbers "
+        "stay on it",
+        {.easiest = 64, .hardest = 32768, .is_whole = true},
+        draws_width},
+    Search<SamplerUnderTest>{
+        "width",
+        "at most 1e-3 of the random numbers of a lognormal row (sigma 2) lead to "
+        "another texel than the exact one",
+        {.easiest = 64, .hardest = 32768, .is_whole = true},
+        places_samples,
+        inverts_sums},
     Search<SamplerUnderTest>{"zero pattern",
                              "one texel of so many is lit, the last of each group: none without "
                              "light is drawn, whatever the numbers",
@@ -179,10 +200,11 @@ constexpr std::array kPrefilterSearches = {
 };
 
 constexpr std::array kLobeSearches = {
-    Search<LobeMethod>{"roughness",
-                       "unit vectors of positive finite density, which is known to 1e-4, seen at 45 "
-                       "degrees",
-                       kRoughness, draws_lobe, has_roughness},
+    Search<LobeMethod>{
+        "roughness",
+        "unit vectors of positive finite density, which is known to 1e-4, seen at 45 "
+        "degrees",
+        kRoughness, draws_lobe, has_roughness},
     Search<LobeMethod>{"cosine of the view",
                        "unit vectors of positive finite density, which is known to 1e-4, roughness "
                        "0.3",
@@ -227,27 +249,26 @@ void add(std::vector<WorkCell<BreakingPoint>>& cells, std::string_view kind,
     for (const Method& method : methods) {
       if (!is_asked_for(method_name(method), options.methods)) continue;
       if (search.applies != nullptr && !search.applies(method)) continue;
-      cells.push_back({fmt::format("breaking/{}/{}/{}/{}", kind, number, search.quantity,
-                                   method_name(method)),
-                       [&search, &method, kind, trial = options.trial] {
-                         const Bracket found =
-                             find_breaking_point(search.range, [&](double value) {
-                               try {
-                                 return search.passes(method, value, trial);
-                               } catch (const InputError&) {
-                                 return false;
-                               }
-                             });
-                         return BreakingPoint{std::string(search.quantity),
-                                              std::string(search.criterion),
-                                              std::string(kind),
-                                              method_name(method),
-                                              has_known_defects(method),
-                                              search.range.easiest,
-                                              search.range.hardest,
-                                              found.passed,
-                                              found.failed};
-                       }});
+      cells.push_back(
+          {fmt::format("breaking/{}/{}/{}/{}", kind, number, search.quantity, method_name(method)),
+           [&search, &method, kind, trial = options.trial] {
+             const Bracket found = find_breaking_point(search.range, [&](double value) {
+               try {
+                 return search.passes(method, value, trial);
+               } catch (const InputError&) {
+                 return false;
+               }
+             });
+             return BreakingPoint{std::string(search.quantity),
+                                  std::string(search.criterion),
+                                  std::string(kind),
+                                  method_name(method),
+                                  has_known_defects(method),
+                                  search.range.easiest,
+                                  search.range.hardest,
+                                  found.passed,
+                                  found.failed};
+           }});
     }
   }
 }

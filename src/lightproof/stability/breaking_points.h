@@ -29,8 +29,8 @@ struct Bracket {
 };
 
 /// Where `passes` is first false: from the easiest value on the step is doubled or halved, so that
-/// each value is twice as hard, until one fails; between it and the one before the search goes on by
-/// bisection (of logarithms). A failure that is over before the next step is not seen.
+/// each value is twice as hard, until one fails; between it and the one before the search goes on
+/// by bisection (of logarithms). A failure that is over before the next step is not seen.
 Bracket find_breaking_point(const SearchRange& range,
                             const std::function<bool(double value)>& passes);
 

@@ -53,13 +53,13 @@ std::vector<SquarePoint> even_points() {
 using Draw = std::function<DrawnDirection(SquarePoint)>;
 
 Finding broken(const DrawnDirection& drawn, SquarePoint u, std::string_view fault) {
-  const bool finite = std::isfinite(drawn.direction.x + drawn.direction.y + drawn.direction.z +
-                                    drawn.pdf.value);
-  return {.outcome = finite ? StabilityOutcome::wrong : StabilityOutcome::not_a_number,
-          .put_in = fmt::format("u = ({:.17g}, {:.17g})", u.s, u.t),
-          .came_out = fmt::format("({:.6g}, {:.6g}, {:.6g}) of density {:.4g}: {}",
-                                  drawn.direction.x, drawn.direction.y, drawn.direction.z,
-                                  drawn.pdf.value, fault)};
+  const bool finite =
+      std::isfinite(drawn.direction.x + drawn.direction.y + drawn.direction.z + drawn.pdf.value);
+  return {
+      .outcome = finite ? StabilityOutcome::wrong : StabilityOutcome::not_a_number,
+      .put_in = fmt::format("u = ({:.17g}, {:.17g})", u.s, u.t),
+      .came_out = fmt::format("({:.6g}, {:.6g}, {:.6g}) of density {:.4g}: {}", drawn.direction.x,
+                              drawn.direction.y, drawn.direction.z, drawn.pdf.value, fault)};
 }
 
 Finding check_points(const Draw& draw, std::span<const SquarePoint> points, bool must_be_positive) {
@@ -149,7 +149,8 @@ bool depends_on_roughness(const LobeMethod& method) {
 }  // namespace
 
 std::string_view fault_of(const DrawnDirection& drawn, bool must_be_positive) {
-  if (!(std::abs(glm::dot(drawn.direction, drawn.direction) - 1.0) <= kUnit)) return "no unit vector";
+  if (!(std::abs(glm::dot(drawn.direction, drawn.direction) - 1.0) <= kUnit))
+    return "no unit vector";
   if (!(drawn.pdf.value >= 0.0) || std::isinf(drawn.pdf.value)) return "no finite density";
   if (must_be_positive && !(drawn.pdf.value > 0.0)) return "no positive density";
   return {};
@@ -198,7 +199,8 @@ Finding exact_poles(const LobeMethod& method, const TrialOptions& /*options*/) {
     for (const Direction light : {kUp, -kUp}) {
       const Scattering scattering =
           std::visit([&](const auto& m) { return m.evaluate(lobe.at, light); }, lobe.material);
-      if (std::isfinite(scattering.reflected_cosine) && std::isfinite(scattering.pdf.value)) continue;
+      if (std::isfinite(scattering.reflected_cosine) && std::isfinite(scattering.pdf.value))
+        continue;
       return {.outcome = StabilityOutcome::not_a_number,
               .put_in = fmt::format("roughness {:g}, light along {:+g} z", roughness, light.z),
               .came_out = fmt::format("{} of density {}", scattering.reflected_cosine,
@@ -253,8 +255,8 @@ Finding grazing_view(const LobeMethod& method, const TrialOptions& /*options*/) 
   for (const double cosine : {1e-3, 1e-6, 1e-9, 1e-12}) {
     for (const double roughness : {1.0, 0.1}) {
       found = check_lobe(method, roughness, cosine);
-      found.put_in =
-          fmt::format("roughness {:g}, cosine of the view {:g}, {}", roughness, cosine, found.put_in);
+      found.put_in = fmt::format("roughness {:g}, cosine of the view {:g}, {}", roughness, cosine,
+                                 found.put_in);
       if (found.outcome != StabilityOutcome::right) return found;
     }
   }

@@ -61,14 +61,13 @@ Finding check_counts(const SamplerOnMap& on_map, Coordinate coordinate, double o
   const MassRounding& r = on_map.rounding();
   // Of sums of at most twice the sampler's steps at either end, of a run of 32 texels, of an
   // average cell; and the reference's rounding.
-  const double rounding = r.relative + 2.0 * r.of_sums +
-                          (is_columns ? 32.0 * r.of_run : 0.0) + r.of_average + 1e-12;
+  const double rounding =
+      r.relative + 2.0 * r.of_sums + (is_columns ? 32.0 * r.of_run : 0.0) + r.of_average + 1e-12;
   Finding found{.bound = 2.0 + rounding * all};
   for (std::size_t cell = 0; cell < counts.size(); ++cell) {
-    const double mass =
-        is_columns ? on_map.exact().masses(static_cast<int>(cell), row) /
-                         on_map.exact().rows[static_cast<std::size_t>(row)]
-                   : on_map.exact().rows[cell];
+    const double mass = is_columns ? on_map.exact().masses(static_cast<int>(cell), row) /
+                                         on_map.exact().rows[static_cast<std::size_t>(row)]
+                                   : on_map.exact().rows[cell];
     const double off = std::abs(counts[cell] - mass * all);
     if (off <= found.amount) continue;
     found.amount = off;

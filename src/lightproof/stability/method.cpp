@@ -70,11 +70,10 @@ std::vector<LobeMethod> lobe_methods() {
                                  std::holds_alternative<BlinnMicrofacet>(info.material);
     // Their ways to draw are rows of their own.
     if (is_rough_mirror) continue;
-    methods.push_back({std::string(info.name),
-                       [material = info.material](double roughness) {
-                         return at_roughness(material, roughness);
-                       },
-                       std::holds_alternative<ModifiedPhong>(info.material) ? "phong:" : ""});
+    methods.push_back(
+        {std::string(info.name),
+         [material = info.material](double roughness) { return at_roughness(material, roughness); },
+         std::holds_alternative<ModifiedPhong>(info.material) ? "phong:" : ""});
   }
   for (const MicrofacetInfo& info : microfacets()) {
     const bool is_ggx = std::holds_alternative<Ggx>(info.of_roughness(0.5));
@@ -87,8 +86,7 @@ template <class T>
 FrameMethod frame_method(const FrameConstruction& info, std::string_view precision,
                          FrameOf<T> (*construct)(UnitVector<T>)) {
   return {fmt::format("{}, {}", info.name, precision), !info.defect.empty(),
-          static_cast<double>(std::numeric_limits<T>::epsilon()),
-          [construct](Direction normal) {
+          static_cast<double>(std::numeric_limits<T>::epsilon()), [construct](Direction normal) {
             return orthonormality_error(construct(UnitVector<T>(normal)));
           }};
 }
@@ -124,9 +122,8 @@ std::vector<BrdfTableMethod> brdf_table_methods() {
   std::vector<BrdfTableMethod> methods;
   for (const auto& [name, masking] : kMaskings) {
     methods.push_back(
-        {fmt::format("{}, quadrature", name), false, [masking = masking](double mu, double r) {
-           return integrate_brdf(mu, r, masking);
-         }});
+        {fmt::format("{}, quadrature", name), false,
+         [masking = masking](double mu, double r) { return integrate_brdf(mu, r, masking); }});
     methods.push_back(
         {fmt::format("{}, sum, published", name), true, [masking = masking](double mu, double r) {
            return integrate_brdf(mu, r, masking, HammersleyRange::published(1024));

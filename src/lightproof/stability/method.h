@@ -31,7 +31,8 @@ struct LobeMethod {
 struct FrameMethod {
   std::string name;
   bool known_defects = false;
-  double rounding = 0.0;  ///< the least error that the precision allows for, a unit in the last place
+  double rounding =
+      0.0;  ///< the least error that the precision allows for, a unit in the last place
   /// Largest error of a frame around a unit vector, see orthonormality_error().
   std::function<double(Direction normal)> error;
 };

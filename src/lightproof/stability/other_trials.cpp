@@ -45,7 +45,8 @@ std::array<Rgb, 2> reflected(const EstimatorInfo& method, const EnvironmentMap& 
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const Frame frame = frame_around(normals[i]);
     const ShadingPoint at = {glm::dvec3(0.0), frame, frame.to_world({0.6, 0.0, 0.8})};
-    values[i] = estimator.integrate(at, RandomStream("stability/estimator", seed), {0, kSamples}, {});
+    values[i] =
+        estimator.integrate(at, RandomStream("stability/estimator", seed), {0, kSamples}, {});
   }
   return values;
 }
@@ -86,7 +87,9 @@ Grid<Rgb> picture_with(float value) {
   return flip_rows(map.radiance);
 }
 
-MapLevels levels_of(const EnvironmentMap& map) { return {.levels = {lat_long_level(map.radiance)}}; }
+MapLevels levels_of(const EnvironmentMap& map) {
+  return {.levels = {lat_long_level(map.radiance)}};
+}
 
 /// A texel that no radiance can have: the format refuses it, or the reader does, who repairs it on
 /// request and says so.
@@ -120,8 +123,8 @@ Finding check_points(const PointSetInfo& method, std::uint64_t first, std::uint6
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto [s, t] = points[i];
     if (s >= 0.0 && s < 1.0 && t >= 0.0 && t < 1.0) continue;
-    return {.outcome = std::isnan(s + t) ? StabilityOutcome::not_a_number
-                                         : StabilityOutcome::out_of_range,
+    return {.outcome =
+                std::isnan(s + t) ? StabilityOutcome::not_a_number : StabilityOutcome::out_of_range,
             .put_in = fmt::format("index {}", first + i),
             .came_out = fmt::format("({:.9g}, {:.9g})", s, t)};
   }
@@ -165,7 +168,8 @@ Finding exposure(const EstimatorInfo& method, const TrialOptions& options) {
 
 Finding odd_sizes(const EstimatorInfo& method, const TrialOptions& options) {
   Finding found;
-  for (const Extent extent : {Extent{1, 1}, Extent{1, 7}, Extent{7, 1}, Extent{2, 1}, Extent{33, 17}}) {
+  for (const Extent extent :
+       {Extent{1, 1}, Extent{1, 7}, Extent{7, 1}, Extent{2, 1}, Extent{33, 17}}) {
     found = finite_or_not(
         reflected(method, hard_maps::lognormal(extent, 1.0, options.seed), options.seed),
         fmt::format("a map of {}x{}", extent.width, extent.height));
@@ -253,11 +257,13 @@ Finding late_frames(const PointSetInfo& method, const TrialOptions& /*options*/)
     fill_points(method.prepare(kMostPoints), first, points);
     std::array<double, kCells * kCells> counts{};
     for (const auto [s, t] : points) {
-      counts[static_cast<std::size_t>(t * kCells) * kCells + static_cast<std::size_t>(s * kCells)] += 1.0;
+      counts[static_cast<std::size_t>(t * kCells) * kCells +
+             static_cast<std::size_t>(s * kCells)] += 1.0;
     }
     constexpr double kExpected = static_cast<double>(kPointWindow) / (kCells * kCells);
     double statistic = 0.0;
-    for (const double count : counts) statistic += (count - kExpected) * (count - kExpected) / kExpected;
+    for (const double count : counts)
+      statistic += (count - kExpected) * (count - kExpected) / kExpected;
     found.amount = statistic;
     found.bound = 255.0 + 6.0 * std::sqrt(510.0);
     found.came_out += fmt::format("; chi-square {:.0f} of 255 degrees of freedom", statistic);

@@ -106,8 +106,8 @@ double energy_error(const PrefilterMethodInfo& method, float sun, Extent output)
 
 std::string_view fault_of(const ScaleBias& entry) {
   if (!std::isfinite(entry.scale) || !std::isfinite(entry.bias)) return "not finite";
-  // A sum of so many points errs by as much beyond 1.
-  constexpr double kAbove = 1.0 + 1e-5;
+  // A sum over 1024 points, which the least rough surface shifts by one at most, may err beyond 1.
+  constexpr double kAbove = 1.0 + 1.0 / 1024.0;
   if (entry.scale < 0.0 || entry.bias < 0.0 || entry.scale + entry.bias > kAbove) {
     return "not in [0, 1]";
   }
@@ -136,9 +136,8 @@ Finding seam(const PrefilterMethodInfo& method, const TrialOptions& /*options*/)
   const Extent extent = {32, 16};
   const Grid<Rgb> first = prefiltered(method, lit_column(0).radiance, extent, 0.5);
   const Grid<Rgb> last = prefiltered(method, lit_column(kMap.width - 1).radiance, extent, 0.5);
-  const double off = difference(first, last, [&](int x, int y) {
-    return std::pair(extent.width - 1 - x, y);
-  });
+  const double off =
+      difference(first, last, [&](int x, int y) { return std::pair(extent.width - 1 - x, y); });
   return judged(off, kFloats, "column 0 lit, then the last one",
                 fmt::format("mirrored to {:.2g} of the brightest value", off));
 }
@@ -148,8 +147,7 @@ Finding exposure(const PrefilterMethodInfo& method, const TrialOptions& options)
   double worst = 0.0;
   const Grid<Rgb> plain = prefiltered(method, map.radiance, {16, 8}, 0.4);
   for (const float factor : {1e9F, 1e-9F}) {
-    Grid<Rgb> other =
-        prefiltered(method, hard_maps::scaled(map, factor).radiance, {16, 8}, 0.4);
+    Grid<Rgb> other = prefiltered(method, hard_maps::scaled(map, factor).radiance, {16, 8}, 0.4);
     for (Rgb& v : other.values()) v /= factor;
     worst = std::max(worst, difference(plain, other, [](int x, int y) { return std::pair(x, y); }));
   }
@@ -161,8 +159,7 @@ Finding rotation(const PrefilterMethodInfo& method, const TrialOptions& options)
   const EnvironmentMap map = hard_maps::lognormal(kMap, 1.0, options.seed);
   const Grid<Rgb> one = prefiltered(method, map.radiance, {32, 16}, 0.4);
   const Grid<Rgb> two = prefiltered(method, hard_maps::turned(map, 10).radiance, {32, 16}, 0.4);
-  const double off =
-      difference(one, two, [](int x, int y) { return std::pair((x + 5) % 32, y); });
+  const double off = difference(one, two, [](int x, int y) { return std::pair((x + 5) % 32, y); });
   return judged(off, kFloats, "the map turned by 10 of 64 columns",
                 fmt::format("turned with it to {:.2g} of the brightest value", off));
 }
@@ -248,22 +245,22 @@ Finding output_sizes(const PrefilterMethodInfo& method, const TrialOptions& opti
   // The centre of a texel is that of the middle one of 3 x 3, 5 x 5, … smaller ones.
   const Grid<Rgb> smallest = level_of(32);
   double worst = 0.0;
-  for (const int factor : {3, 7, options.thorough ? 15 : 9}) {
+  for (const int factor : {3, options.thorough ? 15 : 5}) {
     worst = std::max(worst, difference(smallest, level_of(32 * factor), [&](int x, int y) {
                        return std::pair(factor * x + factor / 2, factor * y + factor / 2);
                      }));
   }
-  return judged(worst, 1e-4, "irradiance at 32x16 and at 3 to 9 times that",
+  return judged(worst, 1e-4, "irradiance at 32x16 and at 3 times and more of that",
                 fmt::format("the same to {:.2g} of the brightest value", worst));
 }
 
 Finding odd_sizes(const PrefilterMethodInfo& method, const TrialOptions& /*options*/) {
   double worst = 0.0;
   std::string where;
-  for (const Extent map : {Extent{1, 1}, Extent{1, 7}, Extent{7, 1}, Extent{2, 1}, Extent{33, 17}}) {
+  for (const Extent map :
+       {Extent{1, 1}, Extent{1, 7}, Extent{7, 1}, Extent{2, 1}, Extent{33, 17}}) {
     for (const Extent level : {Extent{1, 1}, Extent{5, 3}}) {
-      const Grid<Rgb> found =
-          prefiltered(method, hard_maps::constant(map).radiance, level, 0.5);
+      const Grid<Rgb> found = prefiltered(method, hard_maps::constant(map).radiance, level, 0.5);
       if (!all_finite(found)) return not_finite(fmt::format("{}x{}", map.width, map.height));
       for (const Rgb v : found.values()) {
         const double off = std::abs(static_cast<double>(v.r) - 1.0);
@@ -352,7 +349,8 @@ Finding white_furnace(const ReflectivityMethod& method, const TrialOptions& opti
     // Five standard errors of the mean weight: its variance is at most 1/3.
     bound = std::max(1e-3, 5.0 * std::sqrt(1.0 / 3.0 / (kTexels * kSamples)));
   }
-  return judged(worst, bound, fmt::format("white, roughness {:g} the worst of 0.1, 0.5 and 1", where),
+  return judged(worst, bound,
+                fmt::format("white, roughness {:g} the worst of 0.1, 0.5 and 1", where),
                 fmt::format("off by {:.3g}", worst));
 }
 
@@ -371,10 +369,11 @@ Finding grazing_view(const BrdfTableMethod& method, const TrialOptions& /*option
       const ScaleBias entry = method.at(cosine, roughness);
       const std::string_view fault = fault_of(entry);
       if (fault.empty()) continue;
-      return {.outcome = fault == "not finite" ? StabilityOutcome::not_a_number
-                                               : StabilityOutcome::wrong,
-              .put_in = fmt::format("cosine {:g}, roughness {:g}", cosine, roughness),
-              .came_out = fmt::format("scale {:.4g}, bias {:.4g}: {}", entry.scale, entry.bias, fault)};
+      return {
+          .outcome =
+              fault == "not finite" ? StabilityOutcome::not_a_number : StabilityOutcome::wrong,
+          .put_in = fmt::format("cosine {:g}, roughness {:g}", cosine, roughness),
+          .came_out = fmt::format("scale {:.4g}, bias {:.4g}: {}", entry.scale, entry.bias, fault)};
     }
   }
   return {.came_out = "finite and in [0, 1] for cosines and roughnesses from 1 to 0"};

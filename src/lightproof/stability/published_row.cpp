@@ -71,8 +71,10 @@ double PublishedRow::misplaced() const {
     if (i != j) share += to - from;
     from = to;
     if (i >= sums_.size() && j >= exact_.size()) break;
-    if (to_float <= to_exact && i < sums_.size()) ++i;
-    else ++j;
+    if (to_float <= to_exact && i < sums_.size())
+      ++i;
+    else
+      ++j;
   }
   return share;
 }

@@ -46,8 +46,8 @@ class PublishedRow {
   std::vector<double> exact_;  ///< the exact sums
 };
 
-/// The share of texels that a prefix sum in float over all texels of a constant map of N x N/2 never
-/// reaches: entries that are equal to the one before.
+/// The share of texels that a prefix sum in float over all texels of a constant map of N x N/2
+/// never reaches: entries that are equal to the one before.
 double unreachable_by_flat_sum(int width);
 
 }  // namespace lightproof

@@ -167,8 +167,8 @@ Finding compare_densities(const SamplerOnMap& one, const SamplerOnMap& two, doub
       const double off = a == b ? 0.0 : std::abs(a - b) / std::max(std::abs(a), std::abs(b));
       if (off <= found.amount) continue;
       found.amount = off;
-      found.came_out = fmt::format("densities {:.6g} and {:.6g} at ({:.4g}, {:.4g})", a, b, at.s,
-                                   at.t);
+      found.came_out =
+          fmt::format("densities {:.6g} and {:.6g} at ({:.4g}, {:.4g})", a, b, at.s, at.t);
       if (off > bound) found.outcome = StabilityOutcome::wrong;
       if (std::isnan(off)) return {StabilityOutcome::not_a_number, off, bound, "", found.came_out};
     }
@@ -279,9 +279,9 @@ Finding check_density(const SamplerOnMap& on_map) {
   } else if (found.lost_cells > 0) {
     finding.outcome = StabilityOutcome::wrong;
     finding.amount = found.unreachable_mass;
-    finding.came_out = fmt::format("density 0 at {} lit {}, first at texel ({}, {})",
-                                   found.lost_cells, found.compared, found.first_lost->x,
-                                   found.first_lost->y);
+    finding.came_out =
+        fmt::format("density 0 at {} lit {}, first at texel ({}, {})", found.lost_cells,
+                    found.compared, found.first_lost->x, found.first_lost->y);
   } else if (found.unlit_cells > 0) {
     finding.outcome = StabilityOutcome::wrong;
     finding.came_out = fmt::format("density {:.4g} at {} {} without light, first at texel ({}, {})",
@@ -293,8 +293,8 @@ Finding check_density(const SamplerOnMap& on_map) {
                                    found.worst->pdf, found.worst->declared, found.worst->x,
                                    found.worst->y, found.cells_off, found.compared);
   } else {
-    finding.came_out =
-        fmt::format("density within the declared rounding, at most {:.2g} off", found.largest_error);
+    finding.came_out = fmt::format("density within the declared rounding, at most {:.2g} off",
+                                   found.largest_error);
   }
   return finding;
 }
@@ -330,11 +330,41 @@ std::vector<bool> reached_columns(const SamplerOnMap& on_map, int row, double st
   return reached;
 }
 
+double misplaced_share(const SamplerOnMap& on_map, double step) {
+  const int width = on_map.extent().width;
+  const auto column_at = [&](std::uint64_t k) {
+    const SquarePoint point = {static_cast<double>(k) * step, 0.5};
+    return on_map.at({&point, 1}).front().x;
+  };
+  const int stride = std::max(1, width / 256);
+  double exact = 0.0;
+  double apart = 0.0;
+  int looked_at = 0;
+  for (int x = 0; x + 1 < width; ++x) {
+    exact += on_map.exact().masses(x, 0) / on_map.exact().rows[0];
+    if (x % stride != 0) continue;
+    // The first number that leads beyond column x.
+    std::uint64_t low = 0;
+    auto high = static_cast<std::uint64_t>(1.0 / step);
+    while (low < high) {
+      const std::uint64_t middle = low + (high - low) / 2;
+      if (column_at(middle) > x) {
+        high = middle;
+      } else {
+        low = middle + 1;
+      }
+    }
+    apart += std::abs(static_cast<double>(low) * step - exact);
+    ++looked_at;
+  }
+  return looked_at == 0 ? 0.0 : apart * (width - 1) / looked_at;
+}
+
 double lost_sky(const SamplerUnderTest& method, const SamplerOnMap& on_map) {
   const auto [width, height] = on_map.extent();
   const auto masses = on_map.exact().masses.values();
-  const auto sun = static_cast<std::size_t>(std::max_element(masses.begin(), masses.end()) -
-                                            masses.begin());
+  const auto sun =
+      static_cast<std::size_t>(std::max_element(masses.begin(), masses.end()) - masses.begin());
   double all = 0.0;
   double lost = 0.0;
   for (int y = 0; y < height; ++y) {
@@ -346,8 +376,7 @@ double lost_sky(const SamplerUnderTest& method, const SamplerOnMap& on_map) {
                          static_cast<std::size_t>(x);
       if (texel == sun) continue;
       all += masses[texel];
-      const double density =
-          on_map.sampler().pdf({(x + 0.5) / width, (y + 0.5) / height}).value;
+      const double density = on_map.sampler().pdf({(x + 0.5) / width, (y + 0.5) / height}).value;
       if (!(density > 0.0) || !reached[static_cast<std::size_t>(x)]) lost += masses[texel];
     }
   }
@@ -393,7 +422,8 @@ Finding own_filter(const SamplerUnderTest& method, const TrialOptions& /*options
   const SamplerOnMap on_map(method, hard_maps::one_texel(kSmall, 5, 7));
   Finding found = check_density(on_map);
   const bool is_nearest = on_map.exact().lookup == Lookup::nearest;
-  found.put_in = fmt::format("one texel in black, looked up {}", is_nearest ? "nearest" : "bilinear");
+  found.put_in =
+      fmt::format("one texel in black, looked up {}", is_nearest ? "nearest" : "bilinear");
   found.came_out += fmt::format("; a renderer that looks up {} would lose {:.2f} % of its light",
                                 is_nearest ? "bilinearly" : "the nearest texel",
                                 100.0 * lost_by_other_filter(on_map));
@@ -434,9 +464,10 @@ Finding constant_map(const SamplerUnderTest& method, const TrialOptions& /*optio
   const double bound = twice_rounding(on_map);
   found.amount = std::max(std::abs(integral - 1.0), std::sqrt(density.rounding_variance));
   found.bound = bound;
-  found.came_out = fmt::format("integral of the density 1 {:+.2g}, weights' standard deviation "
-                               "{:.2g} of their mean",
-                               integral - 1.0, std::sqrt(density.rounding_variance));
+  found.came_out = fmt::format(
+      "integral of the density 1 {:+.2g}, weights' standard deviation "
+      "{:.2g} of their mean",
+      integral - 1.0, std::sqrt(density.rounding_variance));
   if (!(found.amount <= bound)) found.outcome = StabilityOutcome::wrong;
   return found;
 }
@@ -533,8 +564,8 @@ Finding sun_over_sky(const SamplerUnderTest& method, const TrialOptions& options
     const double lost = lost_sky(method, on_map);
     if (lost <= found.amount) continue;
     found.amount = lost;
-    found.put_in = fmt::format("a sun of {:g} over a sky of 1, {}x{}", sun, extent.width,
-                               extent.height);
+    found.put_in =
+        fmt::format("a sun of {:g} over a sky of 1, {}x{}", sun, extent.width, extent.height);
     found.came_out = fmt::format("{:.3g} % of the sky is never drawn", 100.0 * lost);
     if (lost > found.bound) found.outcome = StabilityOutcome::wrong;
   }
@@ -650,8 +681,8 @@ Finding exposure(const SamplerUnderTest& method, const TrialOptions& options) {
     const SamplerOnMap other(method, hard_maps::scaled(map, factor));
     // Radiances are rounded to floats anew. Whole numbers of masses may then be rounded otherwise.
     const double bound = 4.0 * twice_rounding(as_it_is);
-    found = worse_of(found, compare_densities(as_it_is, other, bound,
-                                              [](SquarePoint at) { return at; }));
+    found = worse_of(found,
+                     compare_densities(as_it_is, other, bound, [](SquarePoint at) { return at; }));
   }
   return found;
 }

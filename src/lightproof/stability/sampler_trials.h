@@ -48,9 +48,14 @@ Finding check_density(const SamplerOnMap& on_map);
 /// no number that was tried leads to the row.
 std::vector<bool> reached_columns(const SamplerOnMap& on_map, int row, double step);
 
-/// The share of a map's light, that of its brightest texel left out, in texels that are never drawn:
-/// their density is 0, or no random number leads to them, in the steps of the sums that the method
-/// searches.
+/// The share of the random numbers u.s that lead to another column of row 0 than the exact one, of
+/// a sampler in which columns follow each other: how far its CDF entries lie from the exact ones,
+/// in steps of `step`. Of at most 256 entries, for all of them.
+double misplaced_share(const SamplerOnMap& on_map, double step);
+
+/// The share of a map's light, that of its brightest texel left out, in texels that are never
+/// drawn: their density is 0, or no random number leads to them, in the steps of the sums that the
+/// method searches.
 double lost_sky(const SamplerUnderTest& method, const SamplerOnMap& on_map);
 
 /// The worse of two findings: what is no number before what does not exist before what is wrong; of

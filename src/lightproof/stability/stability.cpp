@@ -40,7 +40,8 @@ Finding finding_of(Trial<Method> trial, const Method& method, const TrialOptions
 void check_names(const StabilityMethods& methods, const StabilityOptions& options) {
   for (const std::string& name : options.cases) {
     const auto cases = stability_cases();
-    if (std::ranges::any_of(cases, [&](const auto& row) { return is_case_asked_for(row, {name}); })) {
+    if (std::ranges::any_of(cases,
+                            [&](const auto& row) { return is_case_asked_for(row, {name}); })) {
       continue;
     }
     std::string known;
@@ -96,10 +97,10 @@ std::vector<WorkCell<StabilityRecord>> cells_of(const StabilityMethods& methods,
 }
 
 template <class Result>
-std::vector<Result> results_of(const std::vector<WorkCell<Result>>& cells,
-                               const Progress& progress, const Communicator& communicator) {
-  CellResults<Result> all = gather(
-      compute_cells<Result>(cells, communicator.share, progress, "stability"), communicator);
+std::vector<Result> results_of(const std::vector<WorkCell<Result>>& cells, const Progress& progress,
+                               const Communicator& communicator) {
+  CellResults<Result> all =
+      gather(compute_cells<Result>(cells, communicator.share, progress, "stability"), communicator);
   std::vector<Result> ordered;
   for (const WorkCell<Result>& cell : cells) ordered.push_back(std::move(all.at(cell.key)));
   return ordered;
@@ -117,8 +118,8 @@ StabilityResult run_stability(const StabilityMethods& methods, const StabilityOp
                             std::string(row.required), std::string(row.source)});
   }
   const double share = options.breaking_points ? 0.6 : 1.0;
-  result.records = results_of(cells_of(methods, options), part_of(progress, 0.0, share),
-                              communicator);
+  result.records =
+      results_of(cells_of(methods, options), part_of(progress, 0.0, share), communicator);
   if (options.breaking_points) {
     result.breaking_points = results_of(breaking_point_cells(methods, options),
                                         part_of(progress, share, 1.0), communicator);

@@ -22,12 +22,11 @@ struct StabilityOptions {
   bool breaking_points = false;  ///< whether breaking points are searched
 };
 
-/// Puts the inputs into the methods, a cell of work each, whose key is "stability/CASE/KIND/METHOD";
-/// the same bits for any number of threads. Throws InputError, which says what there is, if no case
-/// or no method has one of the names.
+/// Puts the inputs into the methods, a cell of work each, whose key is
+/// "stability/CASE/KIND/METHOD"; the same bits for any number of threads. Throws InputError, which
+/// says what there is, if no case or no method has one of the names.
 StabilityResult run_stability(const StabilityMethods& methods, const StabilityOptions& options,
-                              const Progress& progress = {},
-                              const Communicator& communicator = {});
+                              const Progress& progress = {}, const Communicator& communicator = {});
 
 /// All cases, methods and breaking points in the quick form, kept for the same program and seed.
 StabilityResult kept_stability(std::uint64_t seed, const MeasurementCache& cache,

@@ -19,8 +19,7 @@ constexpr std::array<FrameConstruction, 7> kConstructions = {{
     {"quaternion", "q v q^-1, the axis normalised", bare_quaternion_frame<float>,
      bare_quaternion_frame<double>, "not a number at the poles"},
     {"quaternion, published", "the same as a matrix in n, the poles treated apart",
-     published_quaternion_frame<float>, published_quaternion_frame<double>,
-     "loses digits near -z"},
+     published_quaternion_frame<float>, published_quaternion_frame<double>, "loses digits near -z"},
     {"quaternion, corrected", "the same, from -z below the horizon", quaternion_frame<float>,
      quaternion_frame<double>},
 }};
