@@ -193,7 +193,7 @@ TEST(StabilityLines, AreAMatrixWhatFailedAndAVerdict) {
   EXPECT_TRUE(has("limited    .  W"));
   EXPECT_TRUE(has("broken     O  -"));
   EXPECT_TRUE(has("(by its nature: by its nature)"));
-  EXPECT_TRUE(has("between 1000000 and 1050000"));
+  EXPECT_TRUE(has("between 1,000,000 and 1,050,000"));
   EXPECT_EQ(lines.back(), stability_verdict(testing::synthetic_stability()));
 }
 

@@ -69,9 +69,29 @@ bool misses_suns(const BreakingPoint& point) {
          (point.method == "uniform" || point.method == "half-vector" || point.method == "lobe");
 }
 
+/// Against where the exact sums lie: every method that rounds sums has such a point.
+bool is_of_exact_sums(const BreakingPoint& point) {
+  return point.criterion.find("exact one") != std::string::npos;
+}
+
+TEST(BreakingPoints, OfFloatSumsComeBeforeThoseOf31Bits) {
+  for (const BreakingPoint& point : all().breaking_points) {
+    if (!is_of_exact_sums(point)) continue;
+    ASSERT_TRUE(point.failed) << point.method;
+    if (point.known_defects) {
+      // Measured: 0.03 % of samples are misplaced at 1024 columns, 0.6 % at 8192, to a factor of
+      // two.
+      EXPECT_GT(*point.failed, 1024) << point.method;
+      EXPECT_LE(*point.failed, 8192) << point.method;
+    } else {
+      EXPECT_GT(*point.failed, 16384) << point.method;
+    }
+  }
+}
+
 TEST(BreakingPoints, OfCorrectedMethodsLieBeyondTheRange) {
   for (const BreakingPoint& point : all().breaking_points) {
-    if (point.known_defects || misses_suns(point)) continue;
+    if (point.known_defects || misses_suns(point) || is_of_exact_sums(point)) continue;
     EXPECT_FALSE(point.failed) << point.kind << " " << point.method << ": " << point.quantity << " "
                                << point.criterion << " " << point.failed.value_or(0);
   }

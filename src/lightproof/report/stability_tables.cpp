@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <map>
 
 #include "lightproof/page/numbers.h"
@@ -91,6 +93,15 @@ TextRows breaking_rows(const std::vector<BreakingPoint>& points, const std::stri
   return rows;
 }
 
+/// Whole numbers, which searches find to 1, with all their digits.
+std::string end_text(double value) {
+  constexpr double kWrittenOut = 1e10;
+  if (value == std::floor(value) && value < kWrittenOut) {
+    return with_thousands(static_cast<std::uint64_t>(value));
+  }
+  return significant(value);
+}
+
 }  // namespace
 
 StabilityTally tally_of(const std::vector<StabilityRecord>& records) {
@@ -110,9 +121,9 @@ StabilityTally tally_of(const std::vector<StabilityRecord>& records) {
 }
 
 std::string interval_text(const BreakingPoint& point) {
-  if (!point.failed) return fmt::format("none up to {}", significant(point.hardest));
-  if (!point.passed) return fmt::format("at {} already", significant(*point.failed));
-  return fmt::format("between {} and {}", significant(*point.passed), significant(*point.failed));
+  if (!point.failed) return fmt::format("none up to {}", end_text(point.hardest));
+  if (!point.passed) return fmt::format("at {} already", end_text(*point.failed));
+  return fmt::format("between {} and {}", end_text(*point.passed), end_text(*point.failed));
 }
 
 std::string stability_verdict(const StabilityResult& stability) {
