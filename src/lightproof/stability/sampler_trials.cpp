@@ -523,7 +523,7 @@ Finding trailing_zeros(const SamplerUnderTest& method, const TrialOptions& optio
 }
 
 Finding wide_constant_map(const SamplerUnderTest& method, const TrialOptions& options) {
-  const Extent extent = options.thorough ? Extent{16384, 8} : Extent{8192, 2};
+  const Extent extent = Extent{options.thorough ? 16384 : 8192, 2};
   const SamplerOnMap on_map(method, hard_maps::constant(extent));
   Finding found = check_density(on_map);
   if (found.outcome != StabilityOutcome::right) return found;
