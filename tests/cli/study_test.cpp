@@ -27,9 +27,9 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-const Words kStudy = {"study",        "constant", "--size",          "32x16",
-                      "-n",           "65536",    "--no-throughput", "--no-self-test",
-                      "--no-regimes", "-o",       "report"};
+const Words kStudy = {
+    "study",           "constant",       "--size",       "32x16",          "-n", "65536",
+    "--no-throughput", "--no-self-test", "--no-regimes", "--no-stability", "-o", "report"};
 constexpr auto kLimit = std::chrono::seconds(1000);
 
 /// A disk of 64 kB, on which an earlier report lies; then what is on it.

@@ -474,6 +474,7 @@ StudyResult synthetic_study() {
     study.renders.push_back(render(estimator));
   study.self_test = self_test();
   study.frames = synthetic_frames();
+  study.stability = synthetic_stability();
   study.points = synthetic_points();
   study.level_costs = synthetic_level_costs();
   study.published_forms = {{"004-2", "factor of the diffuse term", 1.0, 9.8696, 1.0}};

@@ -142,7 +142,8 @@ TEST(StudyJson, HoldsEverythingButThePixels) {
                                                       "split_sum",
                                                       "frames",
                                                       "points",
-                                                      "level_costs"}));
+                                                      "level_costs",
+                                                      "stability"}));
   EXPECT_EQ(document["maps"].size(), 8U);
   EXPECT_EQ(document["maps"][0]["size"], (json{64, 32}));
   EXPECT_EQ(document["maps"][0]["drawn"].size(), 300U);

@@ -92,4 +92,33 @@ LevelCosts synthetic_level_costs() {
   return costs;
 }
 
+StabilityResult synthetic_stability() {
+  StabilityResult stability;
+  stability.cases = {{3, "black-map", "a black map", "an error", "a lecture"},
+                     {8, "zero-numbers", "random numbers of 0", "a lit texel", "a <lecture>"}};
+  const auto add = [&](int number, const char* method, StabilityOutcome outcome, double amount) {
+    StabilityRecord record{number, "sampler",  method,     false,       outcome, amount,
+                           0.5,    "put <in>", "came out", number == 3, ""};
+    record.known_defects = record.method == "published";
+    if (record.method == "limited" && !passes(record)) record.limit = "by its nature";
+    stability.records.push_back(record);
+  };
+  add(3, "steady", StabilityOutcome::refused, 0.0);
+  add(3, "published", StabilityOutcome::not_a_number, std::nan(""));
+  add(3, "limited", StabilityOutcome::right, 0.0);
+  add(3, "broken", StabilityOutcome::out_of_range, 0.0);
+  add(8, "steady", StabilityOutcome::right, 0.0);
+  add(8, "published", StabilityOutcome::wrong, 0.7);
+  add(8, "limited", StabilityOutcome::wrong, 0.001);
+  add(8, "broken", StabilityOutcome::not_applicable, 0.0);
+  const auto point = [](const char* method, std::optional<double> passed,
+                        std::optional<double> failed) {
+    return BreakingPoint{"contrast", "the sky is kept", "sampler", method, false, 1.0, 1e12, passed,
+                         failed};
+  };
+  stability.breaking_points = {point("steady", 1e12, std::nullopt), point("published", 1e6, 1.05e6),
+                               point("broken", std::nullopt, 1.0)};
+  return stability;
+}
+
 }  // namespace lightproof::testing

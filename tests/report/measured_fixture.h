@@ -7,6 +7,7 @@
 #include "lightproof/results/frame_record.h"
 #include "lightproof/results/level_cost.h"
 #include "lightproof/results/point_study.h"
+#include "lightproof/results/stability_result.h"
 
 namespace lightproof::testing {
 
@@ -19,5 +20,9 @@ PointStudy synthetic_points();
 
 /// Three methods on two maps; "slow and wrong" is beaten by both others.
 LevelCosts synthetic_level_costs();
+
+/// Two cases; "steady" passes both, "published" and "limited" fail, "broken" breaks its claim.
+/// Three breaking points: one is found, one lies at the easiest value, one beyond the hardest.
+StabilityResult synthetic_stability();
 
 }  // namespace lightproof::testing

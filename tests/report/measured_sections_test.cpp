@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "lightproof/report/measured_csv.h"
 #include "lightproof/report/measured_json.h"
 #include "lightproof/report/sections.h"
+#include "lightproof/report/stability_json.h"
+#include "lightproof/report/stability_tables.h"
 #include "measured_fixture.h"
 
 namespace lightproof {
@@ -141,6 +144,64 @@ TEST(MeasuredJson, HasNumbersAndNull) {
   const json costs = json::parse(level_costs_json(testing::synthetic_level_costs()).dump());
   EXPECT_EQ(costs["thread_gains"][0]["gain"], 2.0);
   EXPECT_EQ(costs["levels"][0]["map_size"], (json{1024, 512}));
+}
+
+TEST(StabilitySection, ShowsEveryOutcomeAndFramesBrokenClaims) {
+  const std::string html = stability_section(testing::synthetic_stability());
+  EXPECT_THAT(html,
+              AllOf(HasSubstr("3 of 4 claims kept, 1 broken; 3 failures that are published or "
+                              "in the nature of the method; 1 not applicable."),
+                    HasSubstr("Samplers: 3 of 4 claims kept; 3 methods fail somewhere"),
+                    HasSubstr("put &lt;in&gt;"), Not(HasSubstr("put <in>"))));
+  const json chart = chart_of(html, "stability-0");
+  std::map<std::string, std::string> states;
+  for (const json& row : chart["data"]["values"]) {
+    states[std::string(row["number"]) + " " + std::string(row["method"])] = row["state"];
+    EXPECT_EQ(row["broken"] == "yes", row["method"] == "broken" && row["number"] == "3");
+  }
+  EXPECT_EQ(states["3 steady"], "refused, as required");
+  EXPECT_EQ(states["3 published"], "not a number");
+  EXPECT_EQ(states["3 broken"], "out of range");
+  EXPECT_EQ(states["8 published"], "off by more");
+  EXPECT_EQ(states["8 limited"], "off by less than 1 %");
+  EXPECT_EQ(states["8 broken"], "not applicable");
+}
+
+TEST(StabilitySection, DrawsBreakingPointsWhereTheyAreKnown) {
+  const std::string html = stability_section(testing::synthetic_stability());
+  EXPECT_THAT(html, HasSubstr("Against contrast, 2 of 3 samplers fail; required: the sky is kept"));
+  const json rows = chart_of(html, "breaking-0")["data"]["values"];
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0]["series"], "passes up to here");
+  EXPECT_EQ(rows[0]["interval"], "none up to 1e12");
+  EXPECT_EQ(rows[1]["failed"], 1.05e6);
+  EXPECT_EQ(rows[2]["interval"], "at 1 already");
+}
+
+TEST(StabilitySection, SaysSoIfNothingWasTried) {
+  EXPECT_THAT(stability_section({}), HasSubstr("Hard inputs were not tried in this study."));
+}
+
+TEST(StabilityLines, AreAMatrixWhatFailedAndAVerdict) {
+  const std::vector<std::string> lines = stability_lines(testing::synthetic_stability());
+  const auto has = [&](std::string_view text) {
+    return std::ranges::any_of(
+        lines, [&](const std::string& line) { return line.find(text) != std::string::npos; });
+  };
+  EXPECT_TRUE(has("steady     r  ."));
+  EXPECT_TRUE(has("published  N  W"));
+  EXPECT_TRUE(has("limited    .  W"));
+  EXPECT_TRUE(has("broken     O  -"));
+  EXPECT_TRUE(has("(by its nature: by its nature)"));
+  EXPECT_TRUE(has("between 1,000,000 and 1,050,000"));
+  EXPECT_EQ(lines.back(), stability_verdict(testing::synthetic_stability()));
+}
+
+TEST(StabilityCsv, HasALineForEveryRecord) {
+  const StabilityResult stability = testing::synthetic_stability();
+  const auto lines = [](const std::string& csv) { return std::ranges::count(csv, '\n'); };
+  EXPECT_EQ(lines(stability_csv(stability.records)), 9);
+  EXPECT_EQ(lines(breaking_points_csv(stability.breaking_points)), 4);
 }
 
 }  // namespace

@@ -50,6 +50,7 @@ TEST(Page, SaysWhatWasNotMeasured) {
   study.frames.clear();
   study.points = {};
   study.level_costs = {};
+  study.stability = {};
   study.accuracy.clear();
   study.recommendations.clear();
   study.method_regimes = {};

@@ -128,13 +128,17 @@ void add_shared_options(CLI::App& command, CommonOptions& options, const std::st
       "bring octahedral pictures, cubes and nodes to texels of latitude and longitude; "
       "`precompute` always does, `study` for all but the gate; other commands keep the file's own "
       "texels");
-  add_number(command, "--seed", options.seed, 0, UINT64_MAX, "base seed of all random numbers");
-  command.add_option("-t,--threads", options.threads, "threads; 0 is one per core")
-      ->check(CLI::Range(0, 4096))
-      ->capture_default_str();
   command.add_option("--color", options.color, "colours on stdout (NO_COLOR is honoured)")
       ->check(one_of("choice", {"auto", "always", "never"}))
       ->type_name("auto|always|never")
+      ->capture_default_str();
+  add_run_options(command, options);
+}
+
+void add_run_options(CLI::App& command, CommonOptions& options) {
+  add_number(command, "--seed", options.seed, 0, UINT64_MAX, "base seed of all random numbers");
+  command.add_option("-t,--threads", options.threads, "threads; 0 is one per core")
+      ->check(CLI::Range(0, 4096))
       ->capture_default_str();
   add_number(command, "--progress", options.progress_seconds, 0, 86400,
              "seconds between lines of progress on stderr, where it is no terminal; 0: none");

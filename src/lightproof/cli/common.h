@@ -45,6 +45,9 @@ struct CommonOptions : InputOptions {
 void add_shared_options(CLI::App& command, CommonOptions& options,
                         const std::string& size_option = "--size");
 
+/// Adds those of the options above that do not depend on maps: seed, threads, progress.
+void add_run_options(CLI::App& command, CommonOptions& options);
+
 /// Adds the positional MAP… and the options above.
 void add_common_options(CLI::App& command, CommonOptions& options,
                         const std::string& size_option = "--size");
@@ -92,6 +95,7 @@ bool use_color(const CommonOptions& options, int stream);
 void add_gate(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_check(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_precompute(CLI::App& app, const CommandLine& line, int& exit_code);
+void add_stability(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_study(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_info(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_recommend(CLI::App& app, const CommandLine& line, int& exit_code);

@@ -66,6 +66,7 @@ int run(int argc, char** argv) {
   add_gate(app, line, exit_code);
   add_check(app, line, exit_code);
   add_recommend(app, line, exit_code);
+  add_stability(app, line, exit_code);
   add_info(app, line, exit_code);
   add_history(app, line, exit_code);
   add_list(app, line, exit_code);

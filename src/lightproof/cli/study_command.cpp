@@ -15,6 +15,7 @@
 #include "lightproof/core/text_escapes.h"
 #include "lightproof/report/report.h"
 #include "lightproof/self_test/kept_self_test.h"
+#include "lightproof/stability/stability.h"
 #include "lightproof/study/frame_study.h"
 #include "lightproof/study/level_costs.h"
 #include "lightproof/study/method_regimes.h"
@@ -34,6 +35,7 @@ struct Options : CommonOptions {
   bool force = false;
   bool no_throughput = false;
   bool no_self_test = false;
+  bool no_stability = false;
   bool measure_again = false;
   std::uint64_t largest_width = 8192;
   std::vector<std::string> materials = {"ggx:0.3"};
@@ -90,6 +92,9 @@ StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
         kept_level_costs(result.maps, {.threads = thread_count(options.threads)}, cache, progress);
   }
   result.published_pictures = system_pictures(progress);
+  if (!options.no_stability) {
+    result.stability = kept_stability(options.seed, cache, progress);
+  }
   if (!options.no_self_test) {
     result.self_test =
         kept_self_test(result.maps, self_test_options(options.seed), cache, progress);
@@ -171,6 +176,8 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
   command->add_flag("--no-regimes", options->no_regimes,
                     "leave out which method wins where, over the width of light and lobe: a minute "
                     "at the first study");
+  command->add_flag("--no-stability", options->no_stability,
+                    "try no hard inputs (once for each seed, some seconds, and kept)");
   command->add_flag("--no-self-test", options->no_self_test,
                     "leave out the test of the gate itself (mutants, calibration, power)");
   command->footer(

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "lightproof/gate/material_distribution.h"
-#include "lightproof/materials/material.h"
 #include "lightproof/warp/hemisphere.h"
 #include "lightproof/warp/hemisphere_around.h"
 
@@ -110,13 +109,6 @@ DirectionSampler seen_from(const NamedMaterial& named, double degrees) {
 
 constexpr std::array kRoughnesses = {0.01, 0.1, 0.3, 0.6, 1.0};
 
-/// A way to draw microfacets, at any roughness.
-struct MicrofacetInfo {
-  std::string_view name;
-  std::string_view description;
-  Material (*of_roughness)(double roughness);
-};
-
 template <MicrofacetSampling kSampling>
 Material ggx_of(double roughness) {
   return Ggx{roughness, 1.0, SmithMasking::height_correlated, kSampling};
@@ -174,6 +166,10 @@ std::vector<DirectionSampler> samplers_of(bool all_roughnesses) {
 }
 
 }  // namespace
+
+std::vector<DirectionSampler> warp_samplers() { return warps(); }
+
+std::span<const MicrofacetInfo> microfacets() { return kMicrofacets; }
 
 std::vector<DirectionSampler> direction_samplers() { return samplers_of(false); }
 

@@ -5,11 +5,13 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lightproof/gate/direction_distribution.h"
 #include "lightproof/gate/sampler_under_test.h"
 #include "lightproof/gate/test_case.h"
+#include "lightproof/materials/material.h"
 
 namespace lightproof {
 
@@ -21,6 +23,19 @@ struct DirectionSampler {
   std::function<DrawnDirection(SquarePoint)> sample;
   std::function<PerSteradian(Direction)> pdf;
 };
+
+/// The warps of the hemisphere, around +z and around an oblique normal.
+std::vector<DirectionSampler> warp_samplers();
+
+/// A way to draw microfacets, at any roughness in (0, 1].
+struct MicrofacetInfo {
+  std::string_view name;
+  std::string_view description;
+  Material (*of_roughness)(double roughness);
+};
+
+/// Every way to draw microfacets.
+std::span<const MicrofacetInfo> microfacets();
 
 /// Every warp, around +z and around an oblique normal, and every kind of material seen from the
 /// normal, at 45, at 80 and at 89.9 degrees: their names end in the angle. Each way to draw

@@ -151,13 +151,26 @@ Extent Expectation::smooth_cells() const {
   return lookup == Lookup::nearest ? texels : Extent{2 * texels.width, 2 * texels.height};
 }
 
-Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
+Expectation texel_expectation_of(const EnvironmentMap& map, TargetDensity target) {
   Expectation expectation;
   expectation.density_space = target.density_space;
   expectation.mapping = map.mapping;
   expectation.lookup = target.lookup;
   expectation.luminance = luminance_of(map, target.weights);
   expectation.masses = reference::texel_masses(map, target);
+  expectation.rows = reference::row_marginal(expectation.masses);
+  expectation.columns = reference::column_marginal(expectation.masses);
+  set_transform(expectation, map, target);
+  const auto values = expectation.luminance.values();
+  expectation.mean_luminance =
+      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  expectation.is_summed = true;
+  expectation.set_flags();
+  return expectation;
+}
+
+Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
+  Expectation expectation = texel_expectation_of(map, target);
   if (!is_plain(map.mapping) && expectation.positions() == MapMeasure::square) {
     expectation.shares =
         std::make_shared<const reference::BinShares>(map.mapping, map.radiance.extent(), kGateBins);
@@ -169,20 +182,12 @@ Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
   expectation.bins = target.lookup == Lookup::bilinear
                          ? reference::bin_masses(map, target, kGateBins)
                          : expectation.bins_of(expectation.masses);
-  expectation.rows = reference::row_marginal(expectation.masses);
-  expectation.columns = reference::column_marginal(expectation.masses);
-  set_transform(expectation, map, target);
-  const auto values = expectation.luminance.values();
-  expectation.mean_luminance =
-      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   for (std::size_t i = 0; i < kMeanCaseCount; ++i) {
     const auto moments = light_moments(expectation, kMeanCases[i].normal);
     expectation.estimators[i] = moments[reference::sampled_density(target.density_space)];
     expectation.uniform[i] = moments[reference::SampledDensity::uniform];
   }
   expectation.inverse_pdf = inverse_pdf_moments(expectation);
-  expectation.is_summed = true;
-  expectation.set_flags();
   return expectation;
 }
 

@@ -10,6 +10,7 @@
 #include "lightproof/report/measured_json.h"
 #include "lightproof/report/names.h"
 #include "lightproof/report/recommendation_json.h"
+#include "lightproof/report/stability_json.h"
 
 namespace lightproof {
 namespace {
@@ -385,6 +386,7 @@ std::string study_json(const StudyResult& study, const RunDescription& run) {
                   {"frames", frames_json(study.frames)},
                   {"points", points_json(study.points)},
                   {"level_costs", level_costs_json(study.level_costs)},
+                  {"stability", stability_parts_json(study.stability)},
                   {"published_pictures", list_of(study.published_pictures)},
                   {"split_sum", list_of(study.split_sum)},
                   {"convergence", list_of(study.convergence)},

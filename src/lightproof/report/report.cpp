@@ -13,6 +13,7 @@
 #include "lightproof/report/names.h"
 #include "lightproof/report/pictures.h"
 #include "lightproof/report/report_page.h"
+#include "lightproof/report/stability_tables.h"
 
 namespace lightproof {
 namespace fs = std::filesystem;
@@ -63,6 +64,8 @@ NamedTables tables_of(const StudyResult& study) {
           {"decay.csv", decay_csv(study.points.decay)},
           {"levels.csv", level_costs_csv(study.level_costs.levels)},
           {"thread-gains.csv", thread_gains_csv(study.level_costs.gains)},
+          {"stability.csv", stability_csv(study.stability.records)},
+          {"breaking-points.csv", breaking_points_csv(study.stability.breaking_points)},
           {"mutants.csv", mutants_csv(self_test.mutants)}};
 }
 

@@ -18,7 +18,7 @@ std::set<std::string> report_file_names();
 ///   results.json   everything but the pixels (report/json.h)
 ///   gate.csv, convergence.csv, variance.csv, throughput.csv, growth.csv, build.csv, tables.csv,
 ///   directions.csv, renders.csv, maps.csv, published.csv, frames.csv, points.csv, discrepancy.csv,
-///   decay.csv, levels.csv, thread-gains.csv, mutants.csv
+///   decay.csv, levels.csv, thread-gains.csv, mutants.csv, stability.csv, breaking-points.csv
 ///   <map>-<receiver>-<material>-<estimator>.exr, …-error.exr (signed, relative to the reference's
 ///   mean, the same in R, G and B), <map>-<receiver>-<material>-reference.exr; the pictures and
 ///   the reference as .png too, at one exposure a scene

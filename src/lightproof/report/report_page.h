@@ -11,4 +11,7 @@ namespace lightproof {
 /// them are inside, and it opens from a disk without a network.
 std::string report_page(const StudyResult& study);
 
+/// A page of what hard inputs made of methods alone.
+std::string stability_page(const StabilityResult& stability, const std::string& version);
+
 }  // namespace lightproof

@@ -28,6 +28,7 @@ std::string render_section(const std::vector<RenderRecord>& renders);
 std::string frame_section(const std::vector<FrameErrorRecord>& frames);
 std::string point_section(const PointStudy& points);
 std::string level_cost_section(const LevelCosts& costs);
+std::string stability_section(const StabilityResult& stability);
 std::string split_sum_section(const std::vector<SplitSumRecord>& records);
 std::string published_section(const std::vector<PublishedComparison>& comparisons,
                               const std::vector<PublishedPicture>& pictures);

@@ -21,6 +21,7 @@
 #include "lightproof/results/render_record.h"
 #include "lightproof/results/self_test_result.h"
 #include "lightproof/results/split_sum_record.h"
+#include "lightproof/results/stability_result.h"
 #include "lightproof/results/throughput_record.h"
 #include "lightproof/results/warp_grid.h"
 
@@ -54,6 +55,7 @@ struct StudyResult {
   LevelCosts level_costs = {};
   std::vector<PublishedPicture> published_pictures = {};
   std::vector<SplitSumRecord> split_sum = {};
+  StabilityResult stability = {};
 };
 
 }  // namespace lightproof

@@ -16,6 +16,7 @@
 #include "lightproof/core/huge_pages.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/select.h"
+#include "lightproof/samplers/sampler.h"
 #include "lightproof/samplers/texel_weights.h"
 #include "lightproof/samplers/weight_vectors.h"
 
@@ -188,9 +189,9 @@ class AliasTable {
   };
   /// The column of two uniform numbers in [0,1): one names it, one chooses in it.
   Column column(double number, double choice) const {
-    const double scaled = number * static_cast<double>(entries_.size());
+    const double scaled = below_one(number) * static_cast<double>(entries_.size());
     const auto index = static_cast<std::uint32_t>(scaled);
-    return {index, scaled - index, choice};
+    return {index, scaled - index, below_one(choice)};
   }
   /// Asks the memory for a column.
   void prefetch(const Column& column) const { __builtin_prefetch(&entries_[column.index]); }

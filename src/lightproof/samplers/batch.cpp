@@ -10,8 +10,9 @@ void BatchPoints::fill(std::size_t from, std::span<double> s, std::span<double> 
     return;
   }
   for (std::size_t i = 0; i < s.size(); ++i) {
-    s[i] = given_[from + i].s;
-    t[i] = given_[from + i].t;
+    const SquarePoint u = below_one(given_[from + i]);
+    s[i] = u.s;
+    t[i] = u.t;
   }
 }
 

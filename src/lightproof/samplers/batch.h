@@ -21,7 +21,7 @@ namespace lightproof {
 /// Where the points of a batch come from: they are given, or they are those of a stream.
 class BatchPoints {
  public:
-  /// Points that are given; they outlive this.
+  /// Points that are given, as below_one() takes them; they outlive this.
   explicit BatchPoints(std::span<const SquarePoint> given)
       : given_(given), stream_("", 0), first_(0), is_stream_(false) {}
   /// The points first, first + 1, … of a stream.

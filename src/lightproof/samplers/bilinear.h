@@ -106,8 +106,8 @@ class Bilinear {
       : patches_(map, target), table_(patches_.weights()), guides_(table_) {}
 
   TexelSample sample(SquarePoint u) const {
-    const double scaled_t = u.t * kCdfOne;
-    const double scaled_s = u.s * kCdfOne;
+    const double scaled_t = below_one(u.t) * kCdfOne;
+    const double scaled_s = below_one(u.s) * kCdfOne;
     const CdfCell row = guides_.row(table_, static_cast<std::uint32_t>(scaled_t));
     const CdfCell column = guides_.column(table_, row.index, static_cast<std::uint32_t>(scaled_s));
     return patches_.sample(column.index, row.index, column.fraction(scaled_s),

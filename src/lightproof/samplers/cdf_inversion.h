@@ -100,9 +100,9 @@ class CdfInversion {
 
  private:
   Row row_of(SquarePoint u) const {
-    const double scaled_t = u.t * kCdfOne;
+    const double scaled_t = below_one(u.t) * kCdfOne;
     const CdfCell row = finder_.row(table_, static_cast<std::uint32_t>(scaled_t));
-    return {row.index, row.units(), row.fraction(scaled_t), u.s * kCdfOne};
+    return {row.index, row.units(), row.fraction(scaled_t), below_one(u.s) * kCdfOne};
   }
 
   CdfTable table_;

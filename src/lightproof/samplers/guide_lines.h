@@ -68,8 +68,8 @@ class GuideLines {
   GuideLines(const Grid<double>& weights, DensitySpace density_space, const Mapping& mapping);
 
   Run run_of(SquarePoint u) const {
-    const double scaled_t = u.t * kCdfOne;
-    const double scaled_s = u.s * kCdfOne;
+    const double scaled_t = below_one(u.t) * kCdfOne;
+    const double scaled_s = below_one(u.s) * kCdfOne;
     const CdfCell row = guides_.row(table_, static_cast<std::uint32_t>(scaled_t));
     const CdfCell run = guides_.column(table_, row.index, static_cast<std::uint32_t>(scaled_s));
     return {row.index, run.index, run.fraction(scaled_s), row.fraction(scaled_t),

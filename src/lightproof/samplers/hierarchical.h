@@ -21,7 +21,8 @@ class Hierarchical {
   /// Throws InputError if the map is black.
   Hierarchical(const EnvironmentMap& map, TargetDensity target);
 
-  TexelDraw draw(SquarePoint u) const {
+  TexelDraw draw(SquarePoint point) const {
+    SquarePoint u = below_one(point);
     int x = 0;
     int y = 0;
     double mass = 1.0;

@@ -33,6 +33,12 @@ float to_shader_random(double u) { return static_cast<float>(std::floor(u * 0x1p
 }  // namespace
 
 LinearScanPublished::LinearScanPublished(const EnvironmentMap& map, TargetDensity target)
+    : LinearScanPublished(map, target, AsListed{}) {
+  if (!(total_average_ > 0.0F)) refuse_black(map);
+}
+
+LinearScanPublished::LinearScanPublished(const EnvironmentMap& map, TargetDensity target,
+                                         AsListed /*unguarded*/)
     : map_(&map),
       position_measure_(position_measure(target.density_space, map.mapping)),
       solid_angle_rows_(map.radiance.extent()),
@@ -54,7 +60,6 @@ LinearScanPublished::LinearScanPublished(const EnvironmentMap& map, TargetDensit
     total += row_average_.back();
   }
   total_average_ = total / static_cast<float>(extent.height);
-  if (!(total_average_ > 0.0F)) refuse_black(map);
 }
 
 float LinearScanPublished::weight(int x, int y) const {

@@ -16,6 +16,11 @@ class LinearScanPublished {
  public:
   /// Refers to the map, which must outlive the sampler. Throws InputError if the map is black.
   LinearScanPublished(const EnvironmentMap& map, TargetDensity target);
+  /// As listed: without that refusal. On a black map, or one of whose texels is not a number, no
+  /// sum ever reaches a random number.
+  static LinearScanPublished as_listed(const EnvironmentMap& map, TargetDensity target) {
+    return {map, target, AsListed{}};
+  }
 
   TexelSample sample(SquarePoint u) const;
   PerSquare pdf(SquarePoint at) const;
@@ -24,6 +29,9 @@ class LinearScanPublished {
   const Mapping& mapping() const { return map_->mapping; }
 
  private:
+  struct AsListed {};
+  LinearScanPublished(const EnvironmentMap& map, TargetDensity target, AsListed);
+
   float weight(int x, int y) const;
   float average_of(int y) const;
   PerSquare pdf_in(int x, int y, SquarePoint at) const;

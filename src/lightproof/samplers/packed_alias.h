@@ -96,9 +96,9 @@ class PackedAlias {
 
  private:
   Column column_of(SquarePoint u) const {
-    const double scaled = u.s * columns_;
+    const double scaled = below_one(u.s) * columns_;
     const auto index = static_cast<std::int64_t>(scaled);
-    return {index, scaled - static_cast<double>(index), u.t};
+    return {index, scaled - static_cast<double>(index), below_one(u.t)};
   }
   double palette_mass(std::uint64_t code) const {
     return static_cast<double>(palette_[code & layout_.code_mask]);

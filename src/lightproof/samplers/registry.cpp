@@ -36,6 +36,11 @@ AnySampler make(const EnvironmentMap& map, DensitySpace density_space) {
                          });
 }
 
+AnySampler make_published_as_listed(const EnvironmentMap& map, DensitySpace density_space) {
+  return LinearScanPublished::as_listed(
+      map, on_map({density_space, kPublishedLuminance, Lookup::nearest}, map));
+}
+
 double linear_steps(Extent map) { return map.width + map.height; }
 double binary_steps(Extent map) { return std::log2(map.width) + std::log2(map.height); }
 double quadtree_steps(Extent map) { return std::log2(std::max(map.width, map.height)); }
@@ -81,7 +86,8 @@ constexpr auto kSamplers = std::to_array<SamplerInfo>({
      .monotone = true,
      .known_defects = true,
      .inverts_shared_cdf = false,
-     .make = make<LinearScanPublished, kPublishedLuminance>},
+     .make = make<LinearScanPublished, kPublishedLuminance>,
+     .make_as_listed = make_published_as_listed},
     {.name = "linear_scan",
      .source = "the lecture's scan, corrected, over stored sums",
      .growth = "S + T",

@@ -42,7 +42,14 @@ struct TexelDraw {
   double mass;
 };
 
-/// A sampler maps uniform points of the square to points of the map. Immutable once built.
+/// The number itself, or the largest below 1 if it is 1, which is no random number of [0,1), but
+/// what generators of floats round up to: float(uint32) 2^-32 once in 3e7 numbers. Every sampler
+/// takes it for the last number.
+inline double below_one(double number) { return std::min(number, 1.0 - 0x1p-53); }
+inline SquarePoint below_one(SquarePoint u) { return {below_one(u.s), below_one(u.t)}; }
+
+/// A sampler maps uniform points of the square to points of the map; a coordinate of exactly 1
+/// counts as the last one below. Immutable once built.
 template <class T>
 concept EnvSampler = requires(const T sampler, SquarePoint point) {
   { sampler.sample(point) } -> std::same_as<TexelSample>;

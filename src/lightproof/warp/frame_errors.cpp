@@ -10,15 +10,16 @@ namespace lightproof {
 namespace {
 
 constexpr std::array<FrameConstruction, 7> kConstructions = {{
-    {"frisvad", "Frisvad 2012, listing 2", frisvad_frame<float>, frisvad_frame<double>},
+    {"frisvad", "Frisvad 2012, listing 2", frisvad_frame<float>, frisvad_frame<double>,
+     "loses digits near -z"},
     {"duff", "Duff et al. 2017, listing 3", duff_frame<float>, duff_frame<double>},
     {"householder", "Householder 1958", householder_frame<float>, householder_frame<double>},
     {"tangent frame", "z x n and n x (z x n)", bare_tangent_frame<float>,
-     bare_tangent_frame<double>},
+     bare_tangent_frame<double>, "not a number at the poles"},
     {"quaternion", "q v q^-1, the axis normalised", bare_quaternion_frame<float>,
-     bare_quaternion_frame<double>},
+     bare_quaternion_frame<double>, "not a number at the poles"},
     {"quaternion, published", "the same as a matrix in n, the poles treated apart",
-     published_quaternion_frame<float>, published_quaternion_frame<double>},
+     published_quaternion_frame<float>, published_quaternion_frame<double>, "loses digits near -z"},
     {"quaternion, corrected", "the same, from -z below the horizon", quaternion_frame<float>,
      quaternion_frame<double>},
 }};

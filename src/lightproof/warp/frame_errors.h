@@ -15,6 +15,7 @@ struct FrameConstruction {
   std::string_view source;  ///< paper or book
   FrameOf<float> (*in_float)(UnitVector<float> normal);
   FrameOf<double> (*in_double)(UnitVector<double> normal);
+  std::string_view defect = {};  ///< what is known to be wrong with it; empty if nothing
 };
 
 std::span<const FrameConstruction> frame_constructions();
