@@ -434,6 +434,22 @@ void set_products(MapSummary& summary) {
 
 }  // namespace
 
+double MapSummary::light_above(double of_mean) const {
+  if (of_mean == 0.0) return light;
+  if (of_mean == 0.5) return light_above_half;
+  if (of_mean == 1.0) return light_above_mean;
+  const double floor = of_mean * light / kSphere;
+  double above = 0.0;
+  for (int y = 0; y < finest.extent().height; ++y) {
+    double row = 0.0;
+    for (const float luminance : finest.row(y)) {
+      row += std::max(0.0, static_cast<double>(luminance) - floor);
+    }
+    above += row * texel_solid_angle(finest.extent(), y);
+  }
+  return above;
+}
+
 double MapSummary::power(int degree) const {
   double sum = 0.0;
   for (int m = -degree; m <= degree; ++m) {
