@@ -342,7 +342,7 @@ TEST_F(Recommended, IsRefusedAfterASearchWithEveryFamily) {
                                     {"lambert", material_of("lambert")},
                                     {.error = 1e-5, .budget_seconds = 8.5e-6}};
   try {
-    recommend(make_synthetic_map("sun-sky", kMap), options, even_costs());
+    recommend(make_synthetic_map("sun-sky", kSmall), options, even_costs());
     FAIL() << "nothing was thrown";
   } catch (const NoMethodReaches& none) {
     EXPECT_EQ(none.refused().unreached.size(), 10U) << none.what();

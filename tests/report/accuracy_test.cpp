@@ -85,7 +85,7 @@ TEST(AccuracyChartSpec, MarksWhatLeadsAndDashesWhatIsPredicted) {
 // What is the fastest with its set-up for nothing is not if 100 points pay for it.
 TEST(AccuracyChartSpec, HasAFrontForEachShareOfTheSetUp) {
   AccuracyLine prepared = look_up("c", 1e-7, 0.3);
-  prepared.set_up_seconds = 1.0;
+  prepared.set_up_processor_seconds = 1.0;
   const json spec = json::parse(accuracy_chart({chart_of({falling("a", "MIS"), prepared})}));
   std::vector<double> first(4, HUGE_VAL);
   json leads;

@@ -312,6 +312,7 @@ AccuracyLine accuracy_line(const char* estimator, const char* family, double err
   line.family = family;
   line.is_biased = is_biased;
   line.set_up_seconds = 0.02;
+  line.set_up_processor_seconds = 0.03;
   line.bytes = 3163136;
   if (is_biased) {
     line.floor = error;

@@ -28,13 +28,19 @@ TEST(DescribeMap, ShowsItInLatitudeAndLongitudeAndTellsItsOwnTexels) {
   EXPECT_TRUE(describe_map(plain, 1).map.notes.empty());
 }
 
-// A scene in which nothing can be recommended is told, and what is recommended in others stays.
-TEST(RecommendMethods, HasAnAnswerForEveryScene) {
-  const TemporaryFolder folder;
-  const EnvironmentMap map = make_synthetic_map("gradient", {64, 32});
+/// A lambert sphere, of which costs are measured once.
+StudyOptions on_a_sphere() {
+  static const TemporaryFolder folder;
   StudyOptions options;
   options.cache = {folder / "", "/proc/self/exe", "", false};
   options.accuracy_scenes = {{&receiver_by_name("sphere"), {"lambert", material_of("lambert")}}};
+  return options;
+}
+
+// A scene in which nothing can be recommended is told, and what is recommended in others stays.
+TEST(RecommendMethods, HasAnAnswerForEveryScene) {
+  const EnvironmentMap map = make_synthetic_map("gradient", {64, 32});
+  StudyOptions options = on_a_sphere();
   StudyResult result;
   for (const double error : {0.05, 1e-7}) {
     options.recommended_error = error;
@@ -48,14 +54,11 @@ TEST(RecommendMethods, HasAnAnswerForEveryScene) {
   EXPECT_FALSE(result.refused_recommendations[0].unreached.empty());
 }
 
-// A map that cannot be read by what recommends is no scene without a method.
+// A map without light is no scene without a method.
 TEST(RecommendMethods, DoesNotTakeOtherErrorsForRefusals) {
-  const TemporaryFolder folder;
-  StudyOptions options;
-  options.cache = {folder / "", "/proc/self/exe", "", false};
-  options.accuracy_scenes = {{&receiver_by_name("point"), {"lambert", material_of("lambert")}}};
   StudyResult result;
-  EXPECT_THROW(recommend_methods({"black", Grid<Rgb>({16, 8})}, options, {}, result), InputError);
+  EXPECT_THROW(recommend_methods({"black", Grid<Rgb>({16, 8})}, on_a_sphere(), {}, result),
+               InputError);
   EXPECT_TRUE(result.refused_recommendations.empty());
 }
 
