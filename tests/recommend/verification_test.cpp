@@ -204,6 +204,7 @@ TEST(Verification, DropsALookUpThatMissesTheErrorAndGoesOn) {
   EXPECT_EQ(names_of(made.reaching), std::vector<std::string>{"environment B"});
   ASSERT_EQ(made.failed.size(), 2U);
   EXPECT_EQ(made.failed[0].second.reason, "median cut 64 has an error of 30 %, measured");
+  EXPECT_THAT(known.asked["median cut 64"], ElementsAre(1U));
 }
 
 TEST(Verification, RanksByMeasuredTime) {
