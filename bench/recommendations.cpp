@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -72,12 +73,16 @@ EnvironmentMap map_of(const std::string& name) {
 
 std::string time_text(double seconds) { return fmt::format("{:.3g} us", 1e6 * seconds); }
 
+std::string error_text(double error) {
+  return std::isfinite(error) ? fmt::format("{:.2f} %", 100.0 * error) : "not";
+}
+
 void print(const SurveyCase& one) {
   fmt::print("{:10} {:10} {:4.0f} %  ", one.map, one.material, 100.0 * one.error);
   if (one.choice) {
-    fmt::print("{}, {}: {:.2f} % predicted, {:.2f} % verified, {:.2f} % measured, {}",
-               one.choice->estimator, one.choice->samples, 100.0 * one.choice->predicted_error,
-               100.0 * one.choice->verified_error, 100.0 * one.choice->error,
+    fmt::print("{}, {}: {} predicted, {} verified, {} measured, {}", one.choice->estimator,
+               one.choice->samples, error_text(one.choice->predicted_error),
+               error_text(one.choice->verified_error), error_text(one.choice->error),
                time_text(one.choice->seconds));
   } else {
     fmt::print("no method");
