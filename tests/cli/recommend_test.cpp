@@ -27,7 +27,8 @@ TEST(RecommendCommand, NamesAMethodARunnerUpAndAReason) {
       recommend({"gradient", "--material", "lambert", "--error", "2%", "-q", "--json", "r.json"},
                 folder / "");
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_THAT(finished.out, AllOf(StartsWith("gradient: "), HasSubstr(" measured; "),
+  EXPECT_THAT(finished.out, AllOf(StartsWith("gradient: for 2 % error: "), HasSubstr(" measured; "),
+                                  HasSubstr(" \u00b5s predicted, set-up "),
                                   HasSubstr("\nrunner-up: "), HasSubstr("\nreason: ")));
   EXPECT_THAT(finished.err, IsEmpty());
   expect_valid("recommendation.schema.json", folder / "r.json");
@@ -45,7 +46,20 @@ TEST(RecommendCommand, PredictsOnlyIfItIsNotToVerify) {
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   const json answer = json::parse(finished.out);
   EXPECT_TRUE(answer.at("measured_error").is_null());
+  EXPECT_TRUE(answer.at("measured_time").at("point_ms").is_null());
+  EXPECT_EQ(answer.at("unpredicted").size(), 3U);
   EXPECT_LE(answer.at("predicted_error").get<double>(), 0.05);
+}
+
+TEST(RecommendCommand, WarnsOfWhatIsInTheWayAndNamesWhatIsNotPredicted) {
+  const TemporaryFolder folder;
+  const Finished finished = recommend({"gradient", "--material", "lambert", "--error", "5%",
+                                       "--receiver", "sphere-on-plane", "--no-verify", "-q"},
+                                      folder / "");
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(finished.out, AllOf(HasSubstr("\nwarning: the error is that of a receiver with "
+                                            "nothing in the way of light"),
+                                  HasSubstr("\nnot predicted: riemann: ")));
 }
 
 TEST(RecommendCommand, RefusesAnErrorThatNoMethodReaches) {
@@ -69,6 +83,11 @@ TEST(RecommendCommand, RefusesWhatItCannotRead) {
                 HasSubstr("--error"))
         << error;
   }
+  EXPECT_THAT(message({"constant", "--material", "lambert", "--error", "20"}),
+              HasSubstr("\"20\" is 2000 %, and errors are below 1000 %; 20 % is written 20%"));
+  EXPECT_THAT(message({"constant", "--material", "lambert", "--error", "2%", "--size", "48x8",
+                       "--preset", "cube"}),
+              HasSubstr("--resample"));
   EXPECT_THAT(message({"constant", "--material", "glass", "--error", "2%"}), HasSubstr("lambert"));
   EXPECT_THAT(message({"constant", "--material", "ggx:7", "--error", "2%"}),
               HasSubstr("0.02 to 1"));

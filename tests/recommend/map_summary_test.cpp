@@ -118,6 +118,23 @@ TEST(MapSummary, SecondMomentsAreThoseOfEveryDensity) {
   EXPECT_EQ(summary.byte_variance, rounded_table_variance(map, MassForm::byte));
 }
 
+// What compensation takes off may be any share of the mean.
+TEST(MapSummary, KnowsTheLightAboveAnyShareOfTheMean) {
+  const EnvironmentMap map = random_map({64, 32}, 2.0);
+  const Grid<double> luminance = luminance_of(map);
+  const MapSummary summary = summarise(map);
+  for (const double share : {0.0, 0.25, 0.5, 0.8, 1.0, 3.0}) {
+    const double floor = share * summary.light / kSphere;
+    double above = 0.0;
+    for (int y = 0; y < 32; ++y) {
+      for (const double value : luminance.row(y)) {
+        above += std::max(0.0, value - floor) * texel_solid_angle({64, 32}, y);
+      }
+    }
+    EXPECT_NEAR(summary.light_above(share) / above, 1.0, 1e-6) << share;
+  }
+}
+
 TEST(MapSummary, FollowsTheMapsOwnWeights) {
   EnvironmentMap map = make_synthetic_map("checker", {64, 32});
   map.weights = {1.0, 0.0, 0.0};

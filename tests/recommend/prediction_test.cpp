@@ -324,7 +324,8 @@ TEST(Prediction, HasARowForEveryEstimatorWithAReasonIfThereIsNone) {
       ASSERT_LT(row, prediction.estimators.size());
       const EstimatorPrediction& predicted = prediction.estimators[row++];
       EXPECT_EQ(predicted.estimator, info.name);
-      EXPECT_NE(predicted.error.has_value(), !predicted.reason.empty()) << info.name;
+      EXPECT_EQ(predicted.error.has_value(), info.unpredicted.empty()) << info.name;
+      EXPECT_EQ(predicted.reason, info.unpredicted) << info.name;
       if (!predicted.error) continue;
       EXPECT_TRUE(std::isfinite(predicted.error->at(1))) << info.name;
       EXPECT_EQ(predicted.error->law == ErrorLaw::at_most, info.kind == EstimatorKind::point_set)

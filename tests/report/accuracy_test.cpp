@@ -85,7 +85,7 @@ TEST(AccuracyChartSpec, MarksWhatLeadsAndDashesWhatIsPredicted) {
 // What is the fastest with its set-up for nothing is not if 100 points pay for it.
 TEST(AccuracyChartSpec, HasAFrontForEachShareOfTheSetUp) {
   AccuracyLine prepared = look_up("c", 1e-7, 0.3);
-  prepared.set_up_seconds = 1.0;
+  prepared.set_up_processor_seconds = 1.0;
   const json spec = json::parse(accuracy_chart({chart_of({falling("a", "MIS"), prepared})}));
   std::vector<double> first(4, HUGE_VAL);
   json leads;
@@ -147,14 +147,32 @@ TEST(AccuracyTables, NameWhatWasLeftOutAndWhy) {
 TEST(RecommendationSection, HasARowForEachMapOrWhatWasMeasured) {
   StudyResult study = testing::synthetic_study();
   const std::string recommended = recommendation_section(study);
-  EXPECT_NE(recommended.find("environment B alias, 64 samples, 5\u00a0% error"), std::string::npos);
+  EXPECT_NE(recommended.find("environment B alias, 64 samples, for 5\u00a0% error"),
+            std::string::npos);
   EXPECT_NE(recommended.find("its floor is 8 %"), std::string::npos);
   EXPECT_NE(recommended.find("table 512\u00d7256"), std::string::npos);
+  EXPECT_NE(recommended.find("no method reaches 5\u00a0% error"), std::string::npos);
+  EXPECT_NE(recommended.find("brdf needs 2e+05 samples, of 65536 at most"), std::string::npos);
   study.recommendations.clear();
+  EXPECT_NE(recommendation_section(study).find("no method reaches"), std::string::npos);
+  study.refused_recommendations.clear();
   const std::string measured = recommendation_section(study);
   EXPECT_NE(measured.find("as it was measured here"), std::string::npos);
   study.accuracy.clear();
   EXPECT_EQ(recommendation_section(study), "");
+}
+
+TEST(RecommendationSection, ShowsHowGoodAnswersAreWithTheMapsApart) {
+  StudyResult study = testing::synthetic_study();
+  const std::string html = recommendation_section(study);
+  const auto has = [&](const char* text) { return html.find(text) != std::string::npos; };
+  EXPECT_TRUE(has("looked at while building"));
+  EXPECT_TRUE(has("100\u00a0% (goal: 95\u00a0%)"));
+  EXPECT_TRUE(has("0\u00a0% (goal: 90\u00a0%)"));  // the one on the other map takes twice as long
+  EXPECT_TRUE(has("The worst cases"));
+  EXPECT_TRUE(has("sh-9"));
+  study.recommendation_survey.reset();
+  EXPECT_EQ(recommendation_section(study).find("goal: 95"), std::string::npos);
 }
 
 }  // namespace

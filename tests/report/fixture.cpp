@@ -312,6 +312,7 @@ AccuracyLine accuracy_line(const char* estimator, const char* family, double err
   line.family = family;
   line.is_biased = is_biased;
   line.set_up_seconds = 0.02;
+  line.set_up_processor_seconds = 0.03;
   line.bytes = 3163136;
   if (is_biased) {
     line.floor = error;
@@ -363,22 +364,32 @@ std::vector<AccuracyChart> accuracy() {
 std::vector<Recommendation> recommendations() {
   std::vector<Recommendation> all(2);
   Recommendation& first = all[0];
-  first.map = kMaps[0];
-  first.receiver = "sphere";
-  first.material = "ggx:0.3";
-  first.error = 0.05;
-  first.shading_points = 307200;
+  first.question = {kMaps[0], "sphere", "ggx:0.3", 0.05, 307200};
   first.choice = {
-      "environment B alias", 64, true, 3163136, {512, 256}, 0.048, false, 0.049, 0.002, 0.012, 8.1};
+      "environment B alias", 64,          true, 3163136, {512, 256}, 0.048, false, 0.049, 0.002,
+      {0.011, 7.5},          {0.012, 8.1}};
   first.runner_up = RecommendedMethod{"split-sum", 1, false, 3163136, {}, 0.05};
+  first.runner_up->predicted_time = {0.0004, 31.0};
   first.reason = "Small lights rule this map, and the material is rough.";
   first.unreached = {{"precomputed", "its floor is 8 %"}};
   all[1] = all[0];
-  all[1].map = kMaps[7];
+  all[1].question.map = kMaps[7];
   all[1].runner_up.reset();
+  all[1].choice.measured_time = {};
+  all[1].unpredicted = {{"riemann", "its error depends on where its steps fall"}};
   all[1].choice.measured_error = std::nan("");
   all[1].warning = "The error was not measured.";
   return all;
+}
+
+/// One answer that is as it should be, one that is slow, one that is rightly refused.
+RecommendationSurvey survey() {
+  RecommendationSurvey made = {"2024-06-07T13:41:08+00:00", "sphere", "default", {}};
+  const SurveyedChoice choice = {"brdf", 24, 0.05, 0.049, 0.051, 2e-6};
+  made.cases = {{kMaps[0], "lambert", 0.05, choice, "brdf", 1.9e-6, true},
+                {kMaps[7], "lambert", 0.05, choice, "sh-9", 1e-6, false},
+                {kMaps[7], "lambert", 0.01, std::nullopt, "", 0.0, false}};
+  return made;
 }
 
 /// Look-ups win in wide light, and reach nothing in narrow light.
@@ -453,6 +464,9 @@ StudyResult synthetic_study() {
   }
   study.accuracy = accuracy();
   study.recommendations = recommendations();
+  study.refused_recommendations = {{{kMaps[3], "sphere", "ggx:0.3", 0.05, 307200},
+                                    {{"lobes", "brdf needs 2e+05 samples, of 65536 at most"}}}};
+  study.recommendation_survey = survey();
   study.method_regimes = method_regimes();
   study.warps = warps();
   study.throughput = throughput();

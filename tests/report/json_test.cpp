@@ -127,6 +127,8 @@ TEST(StudyJson, HoldsEverythingButThePixels) {
                                                       "convergence",
                                                       "accuracy",
                                                       "recommendations",
+                                                      "refused_recommendations",
+                                                      "recommendation_survey",
                                                       "method_regimes",
                                                       "throughput",
                                                       "throughput_origin",

@@ -53,6 +53,7 @@ TEST(Page, SaysWhatWasNotMeasured) {
   study.stability = {};
   study.accuracy.clear();
   study.recommendations.clear();
+  study.refused_recommendations.clear();
   study.method_regimes = {};
   const std::string page = report_page(study);
   EXPECT_NE(page.find("Throughput was not measured in this study. Build"), std::string::npos);

@@ -76,7 +76,7 @@ TEST(AccuracyFront, LeavesOutWhatIsSlowerAndHardlyBetter) {
 
 TEST(AccuracyFront, CountsTheShareOfTheSetUpThatIsAskedFor) {
   AccuracyLine prepared = look_up("c", 1e-7, 0.3);
-  prepared.set_up_seconds = 10.0;
+  prepared.set_up_processor_seconds = 10.0;
   const AccuracyChart chart = chart_of({falling("a", "lobes"), prepared});
   EXPECT_EQ(pareto_front(chart).front().line->estimator, "c");
   EXPECT_EQ(pareto_front(chart, 1e-2).front().line->estimator, "a");

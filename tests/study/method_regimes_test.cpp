@@ -27,5 +27,31 @@ TEST(OneLight, IsBrightestWhereTheCameraSeesItsReflection) {
   EXPECT_LE(brightest, 1.0F);
 }
 
+AccuracyLine line_of(const char* estimator, bool is_biased, double seconds, double error) {
+  AccuracyLine line;
+  line.estimator = estimator;
+  line.family = is_biased ? "precomputed" : "lobes";
+  line.is_biased = is_biased;
+  line.points = {{1, seconds, error, 0.01 * error}, {4, 4.0 * seconds, 0.5 * error, 0.01 * error}};
+  return line;
+}
+
+TEST(RegimeOf, NamesTheFastestWithBiasAndWithout) {
+  AccuracyChart chart;
+  chart.lines = {line_of("brdf", false, 1e-6, 0.1), line_of("sh-9", true, 1e-8, 0.04),
+                 line_of("uniform", false, 1e-6, 1.0)};
+  const MethodRegime regime = regime_of(chart, 0.3, 0.02);
+  EXPECT_EQ(regime.roughness, 0.3);
+  EXPECT_EQ(regime.effective_fraction, 0.02);
+  EXPECT_EQ(regime.estimator, "sh-9");
+  EXPECT_EQ(regime.family, "precomputed");
+  EXPECT_DOUBLE_EQ(regime.seconds, 1e-8);
+  EXPECT_EQ(regime.unbiased_estimator, "brdf");
+  EXPECT_NEAR(regime.unbiased_seconds, 4e-6, 1e-18);  // where 10 % has fallen to 5 %
+  chart.lines = {line_of("uniform", false, 1e-6, 1.0)};
+  EXPECT_EQ(regime_of(chart, 0.3, 0.02).estimator, "");
+  EXPECT_EQ(regime_of(chart, 0.3, 0.02).unbiased_estimator, "");
+}
+
 }  // namespace
 }  // namespace lightproof

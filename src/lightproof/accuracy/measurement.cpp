@@ -77,7 +77,8 @@ std::uint64_t estimates_of_a_round(const EstimatorInfo& info, const AccuracyOpti
 struct Contender {
   const EstimatorInfo* info;
   BoundEstimator estimator;
-  double set_up_seconds;
+  double set_up_seconds;  ///< elapsed
+  double set_up_processor_seconds;
   std::size_t bytes;
 };
 
@@ -88,7 +89,8 @@ struct Course {
   const AccuracyOptions* options;
 
   std::string key(int round) const {
-    return fmt::format("accuracy/{}/{}/{}/{}/{:04}", lit->map().name, lit->receiver().name,
+    return fmt::format("accuracy{}{}/{}/{}/{}/{}/{:04}", options->purpose.empty() ? "" : " for ",
+                       options->purpose, lit->map().name, lit->receiver().name,
                        lit->material().name, contender->info->name, round);
   }
 };
@@ -209,6 +211,7 @@ AccuracyLine line_of(const Course& course, const Round& levels) {
   line.family = to_string(info.family);
   line.is_biased = info.is_biased || (info.ignores_occlusion && course.lit->receiver().occluded);
   line.set_up_seconds = course.contender->set_up_seconds;
+  line.set_up_processor_seconds = course.contender->set_up_processor_seconds;
   line.bytes = course.contender->bytes;
   const std::optional<Spread> own = course.lit->spread(info);
   const EstimatorInfo& independent =
@@ -225,31 +228,17 @@ AccuracyLine line_of(const Course& course, const Round& levels) {
   return line;
 }
 
-/// Why an estimator is left out of a chart; empty if it is not.
-std::string reason_to_leave_out(const EstimatorInfo& info, const EnvironmentMap& map,
-                                const Material& material) {
-  if (!info.serves(material)) return "it does not serve this material";
-  const Extent extent = map.radiance.extent();
-  if (info.tabulates_each_point && extent.count() > kMostTabulatedTexels) {
-    return fmt::format("a table of {} x {} texels at every shading point takes too long",
-                       extent.width, extent.height);
-  }
-  return {};
-}
-
 /// An estimator that is prepared for the map.
 struct Prepared {
   const EstimatorInfo* info;
-  PreparedEstimator estimator;
-  double seconds;
+  Timed<PreparedEstimator> estimator;
 };
 
 std::vector<Prepared> prepare_all(const EnvironmentMap& map,
                                   std::span<const EstimatorInfo* const> chosen) {
   std::vector<Prepared> all;
   for (const EstimatorInfo* info : chosen) {
-    auto [estimator, seconds] = timed([&] { return info->prepare(map); });
-    all.push_back({info, std::move(estimator), seconds});
+    all.push_back({info, timed([&] { return info->prepare(map); })});
   }
   return all;
 }
@@ -257,12 +246,16 @@ std::vector<Prepared> prepare_all(const EnvironmentMap& map,
 /// The contenders of one scene.
 std::vector<Contender> bind_all(const LitReceiver& lit, std::span<const Prepared> prepared) {
   std::vector<Contender> bound;
-  for (const Prepared& made : prepared) {
+  const Extent extent = lit.map().radiance.extent();
+  for (const Prepared& one : prepared) {
     const Material& material = lit.material().material;
-    if (!reason_to_leave_out(*made.info, lit.map(), material).empty()) continue;
-    auto [estimator, seconds] = timed([&] { return made.estimator.bind(lit.scene(), material); });
-    const std::size_t bytes = made.estimator.bytes + estimator.bytes;
-    bound.push_back({made.info, std::move(estimator), made.seconds + seconds, bytes});
+    if (!one.info->serves(material) || !reason_to_leave_out(*one.info, extent).empty()) continue;
+    const PreparedEstimator& of_map = one.estimator.made;
+    auto of_material = timed([&] { return of_map.bind(lit.scene(), material); });
+    const std::size_t bytes = of_map.bytes + of_material.made.bytes;
+    bound.push_back({one.info, std::move(of_material.made),
+                     one.estimator.elapsed_seconds + of_material.elapsed_seconds,
+                     one.estimator.processor_seconds + of_material.processor_seconds, bytes});
   }
   return bound;
 }
@@ -293,7 +286,9 @@ class Charts {
       if (options_->select && !options_->select(info)) continue;
       std::size_t shown = 0;
       for (std::size_t i = 0; i < lit_.size(); ++i) {
-        std::string reason = reason_to_leave_out(info, *map_, lit_[i]->material().material);
+        std::string reason = info.serves(lit_[i]->material().material)
+                                 ? reason_to_leave_out(info, map_->radiance.extent())
+                                 : "it does not serve this material";
         if (reason.empty()) {
           ++shown;
         } else {
@@ -387,6 +382,14 @@ std::vector<AccuracyChart> measure_all(const EnvironmentMap& map,
 }  // namespace
 
 std::span<const AccuracyQuality> accuracy_qualities() { return kQualities; }
+
+std::string reason_to_leave_out(const EstimatorInfo& info, Extent map) {
+  if (info.tabulates_each_point && map.count() > kMostTabulatedTexels) {
+    return fmt::format("a table of {} x {} texels at every shading point takes too long", map.width,
+                       map.height);
+  }
+  return {};
+}
 
 const AccuracyQuality& accuracy_quality_by_name(std::string_view name) {
   std::string known;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,8 @@ const AccuracyQuality& accuracy_quality_by_name(std::string_view name);
 struct AccuracyOptions {
   AccuracyQuality quality = accuracy_qualities()[0];
   std::uint64_t seed = 1;
+  /// What the errors are for; another purpose has other random numbers. Empty: a chart.
+  std::string_view purpose = {};
   /// Which estimators are charted; empty: all that serve the material.
   EstimatorFilter select = {};
   /// The numbers of samples at which an estimator is measured, ascending; empty: those of the
@@ -42,6 +45,9 @@ struct AccuracyOptions {
   std::uint64_t samples_of_a_round = 256;
   std::uint64_t most_estimates_of_a_round = 16;
 };
+
+/// Why an estimator is not run on maps of this size: it would take minutes; empty if it is.
+std::string reason_to_leave_out(const EstimatorInfo& info, Extent map);
 
 /// A receiver and a material that are lit by the map.
 struct AccuracyScene {

@@ -13,6 +13,7 @@
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
 #include "lightproof/estimators/registry.h"
+#include "lightproof/estimators/specular_tables.h"
 #include "lightproof/image/synthetic.h"
 
 namespace lightproof {
@@ -40,11 +41,11 @@ Runner set_up(const EstimatorInfo& info, const EnvironmentMap& map, const Scene&
   runner.cost.estimator = info.name;
   runner.cost.set_up_seconds = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kRounds; ++i) {
-    auto [prepared, prepare_seconds] = timed([&] { return info.prepare(map); });
-    auto [bound, bind_seconds] = timed([&] { return prepared.bind(scene, material); });
-    runner.prepared = std::move(prepared);
-    runner.bound = std::move(bound);
-    const double seconds = prepare_seconds + bind_seconds;
+    auto prepared = timed([&] { return info.prepare(map); });
+    auto bound = timed([&] { return prepared.made.bind(scene, material); });
+    runner.prepared = std::move(prepared.made);
+    runner.bound = std::move(bound.made);
+    const double seconds = prepared.processor_seconds + bound.processor_seconds;
     runner.cost.set_up_seconds = std::min(runner.cost.set_up_seconds, seconds);
     if (seconds > kShortSetUp) break;
   }
@@ -112,13 +113,6 @@ double power_law_at(double x, double x0, double y0, double x1, double y1) {
   return y0 * std::pow(y1 / y0, std::log(x / x0) / std::log(x1 / x0));
 }
 
-/// The kind of a material: those of one kind take the same time.
-std::string_view kind_of(const Material& material) {
-  constexpr std::array<std::string_view, std::variant_size_v<Material>> kKinds = {
-      "lambert", "phong", "ggx", "blinn"};
-  return kKinds[material.index()];
-}
-
 }  // namespace
 
 double MethodCost::seconds_of(std::uint64_t wanted) const {
@@ -152,6 +146,17 @@ std::optional<MethodCost> MethodCosts::of(std::string_view estimator, Extent ext
   return cost;
 }
 
+std::string material_of_costs(const Material& material) {
+  constexpr std::array<std::string_view, std::variant_size_v<Material>> kKinds = {
+      "lambert", "phong", "ggx", "blinn"};
+  const std::string kind(kKinds[material.index()]);
+  const auto* phong = std::get_if<ModifiedPhong>(&material);
+  if (phong == nullptr) return kind;
+  return fmt::format("{}, prefiltered to {} rows, exponents from 1e{:.0f}", kind,
+                     prefilter_extent(prefilter_lobe(*phong)).height,
+                     std::floor(std::log10(phong->exponent)));
+}
+
 MethodCosts measure_method_costs(const Material& material, const ReceiverInfo& receiver,
                                  const Progress& progress) {
   return {costs_on(kSmall, material, receiver, part_of(progress, 0.0, 0.4)),
@@ -162,7 +167,7 @@ KeptMeasurement<MethodCosts> kept_method_costs(const Material& material,
                                                const ReceiverInfo& receiver,
                                                const MeasurementCache& cache,
                                                const Progress& progress) {
-  const std::string dependence = fmt::format("{}/{}", kind_of(material), receiver.name);
+  const std::string dependence = fmt::format("{}/{}", material_of_costs(material), receiver.name);
   return MeasurementKeeper(cache).get<MethodCosts>("method-costs", dependence, [&] {
     return measure_method_costs(material, receiver, progress);
   });

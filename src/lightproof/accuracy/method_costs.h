@@ -21,7 +21,7 @@ namespace lightproof {
 /// What an estimator takes on maps of one extent.
 struct MethodCost {
   std::string estimator;
-  double set_up_seconds = 0.0;         ///< elapsed, once for a map and a material
+  double set_up_seconds = 0.0;         ///< processor time of all threads, once for a map
   double bytes = 0.0;                  ///< beside the map itself
   std::vector<std::uint64_t> samples;  ///< ascending
   std::vector<double> seconds;  ///< of an estimate at a shading point by so many; processor time
@@ -49,8 +49,12 @@ struct MethodCosts {
 MethodCosts measure_method_costs(const Material& material, const ReceiverInfo& receiver,
                                  const Progress& progress = {});
 
-/// What measure_method_costs() returns, kept for this machine: materials of one kind share their
-/// costs.
+/// Names the materials that share their costs: those of one kind, "ggx"; of Phong's, for which a
+/// map is prefiltered, those with exponents of one order of magnitude and maps of one size. Narrow
+/// lobes take several times as long.
+std::string material_of_costs(const Material& material);
+
+/// What measure_method_costs() returns, kept for this machine and material_of_costs().
 KeptMeasurement<MethodCosts> kept_method_costs(const Material& material,
                                                const ReceiverInfo& receiver,
                                                const MeasurementCache& cache,

@@ -15,8 +15,10 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/text_escapes.h"
+#include "lightproof/image/lat_long_texels.h"
 #include "lightproof/recommend/recommend.h"
 #include "lightproof/report/recommendation_json.h"
+#include "lightproof/results/percent.h"
 #include "outputs.h"
 #include "whole_number.h"
 
@@ -35,7 +37,9 @@ struct Options : CommonOptions {
   std::string json;
 };
 
-/// "2%" or "0.02", above 0 and below 1000 %.
+constexpr double kMostError = 10.0;
+
+/// "2%" or "0.02", above 0 and below kMostError.
 double error_of(const std::string& text) {
   const bool is_percent = !text.empty() && text.back() == '%';
   const std::string_view number =
@@ -44,17 +48,17 @@ double error_of(const std::string& text) {
   const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), error);
   if (is_percent) error /= 100.0;
   const bool is_number = status == std::errc() && end == number.data() + number.size();
-  if (!is_number || !(error > 0.0 && error < 10.0)) {
+  if (!is_number || !(error > 0.0)) {
     throw InputError(
         fmt::format("--error: \"{}\" is no error above 0, as in 2% or 0.02", terminal_text(text)));
   }
+  if (error >= kMostError) {
+    const std::string meant =
+        is_percent ? "" : fmt::format("; {:g} % is written {:g}%", error, error);
+    throw InputError(fmt::format("--error: \"{}\" is {:g} %, and errors are below {:g} %{}",
+                                 terminal_text(text), 100.0 * error, 100.0 * kMostError, meant));
+  }
   return error;
-}
-
-std::string percent(double share) {
-  if (share < 1e-5) return "below 0.001 %";
-  return share < 0.1 ? fmt::format("{:.2g} %", 100.0 * share)
-                     : fmt::format("{:.0f} %", 100.0 * share);
 }
 
 std::string samples_text(const RecommendedMethod& method) {
@@ -62,28 +66,48 @@ std::string samples_text(const RecommendedMethod& method) {
   return method.samples == 1 ? ", 1 sample" : fmt::format(", {} samples", method.samples);
 }
 
+/// "of at most 5 % predicted, 4.9 % measured".
+std::string errors_text(const RecommendedMethod& method) {
+  std::string text = std::isfinite(method.predicted_error)
+                         ? fmt::format("{}{} predicted", method.is_upper_bound ? "of at most " : "",
+                                       plain_percent(method.predicted_error))
+                         : "not predicted";
+  if (std::isfinite(method.measured_error)) {
+    text += fmt::format(", {} measured", plain_percent(method.measured_error));
+  }
+  return text;
+}
+
+/// "3.1 µs a shading point measured, 3 µs predicted".
+std::string times_text(const RecommendedMethod& method) {
+  const double predicted = 1e3 * method.predicted_time.point;
+  const double measured = 1e3 * method.measured_time.point;
+  if (!std::isfinite(measured)) return fmt::format("{:.2g} \u00b5s a shading point", predicted);
+  return fmt::format("{:.2g} \u00b5s a shading point measured, {:.2g} \u00b5s predicted", measured,
+                     predicted);
+}
+
 /// One line: what, its errors, what it takes.
 std::string line_of(const RecommendedMethod& method) {
-  std::string errors =
-      fmt::format("error {}{} predicted", method.is_upper_bound ? "of at most " : "",
-                  percent(method.predicted_error));
-  if (std::isfinite(method.measured_error)) {
-    errors += fmt::format(", {} measured", percent(method.measured_error));
-  }
   std::string table;
   if (method.table.width > 0) {
     table = fmt::format(", table of {}x{}", method.table.width, method.table.height);
   }
-  return fmt::format("{}{}; {}; {:.2g} \u00b5s a shading point, set-up {:.2g} ms, {:.2g} MB{}",
-                     method.estimator, samples_text(method), errors, 1e3 * method.milliseconds,
-                     method.set_up_milliseconds, 1e-6 * static_cast<double>(method.bytes), table);
+  return fmt::format("{}{}; error {}; {}, set-up {:.2g} ms, {:.2g} MB{}", method.estimator,
+                     samples_text(method), errors_text(method), times_text(method),
+                     method.known_time().set_up, 1e-6 * static_cast<double>(method.bytes), table);
 }
 
 void print(const Recommendation& recommendation) {
-  fmt::print("{}: {}\n", recommendation.map, line_of(recommendation.choice));
+  const RecommendationQuestion& question = recommendation.question;
+  fmt::print("{}: for {} error: {}\n", question.map, plain_percent(question.error),
+             line_of(recommendation.choice));
   if (recommendation.runner_up) fmt::print("runner-up: {}\n", line_of(*recommendation.runner_up));
   fmt::print("reason: {}\n", recommendation.reason);
   if (!recommendation.warning.empty()) fmt::print("warning: {}\n", recommendation.warning);
+  for (const UnpredictedMethod& method : recommendation.unpredicted) {
+    fmt::print("not predicted: {}: {}\n", method.estimator, method.reason);
+  }
 }
 
 int run(const Options& options) {
@@ -99,6 +123,7 @@ int run(const Options& options) {
   const std::string outputs[] = {options.json};
   const bool stdout_is_taken = check_outputs(outputs);
   const std::vector<EnvironmentMap> maps = load_maps(options);
+  require_lat_long(maps.front(), "a recommendation");
   const RunDescription description = describe_run(options, maps);
   const Progress progress = progress_of(options);
   const MethodCosts costs =

@@ -13,6 +13,7 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/text_escapes.h"
+#include "lightproof/recommend/survey.h"
 #include "lightproof/report/report.h"
 #include "lightproof/self_test/kept_self_test.h"
 #include "lightproof/stability/stability.h"
@@ -83,6 +84,7 @@ StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
   result.published_forms = system_comparisons();
   const MeasurementCache& cache = options.study.cache;
   result.frames = study_frames();
+  if (!options.no_accuracy) result.recommendation_survey = kept_survey(cache.folder);
   if (!options.no_accuracy && !options.no_regimes) {
     result.method_regimes = kept_method_regimes(options.seed, cache, progress);
   }

@@ -9,6 +9,13 @@
 
 namespace lightproof {
 
+std::string origin_now(std::string_view commit) {
+  const std::string now =
+      fmt::format("{:%Y-%m-%dT%H:%M:%S}+00:00", fmt::gmtime(std::time(nullptr)));
+  return fmt::format("{}, {}, {}{}{}", now, machine_name(), LIGHTPROOF_COMPILER,
+                     commit.empty() ? "" : ", commit ", commit.substr(0, 12));
+}
+
 MeasurementKeeper::MeasurementKeeper(MeasurementCache cache)
     : cache_(std::move(cache)), program_(hash_of_file(cache_.program)) {}
 
@@ -20,13 +27,6 @@ KeptFile MeasurementKeeper::file_of(std::string name, std::string_view dependenc
   identity.add(cache_.commit);
   identity.add(dependence);
   return {program_ ? cache_.folder : std::filesystem::path(), std::move(name), identity.take()};
-}
-
-std::string MeasurementKeeper::origin_now() const {
-  const std::string now =
-      fmt::format("{:%Y-%m-%dT%H:%M:%S}+00:00", fmt::gmtime(std::time(nullptr)));
-  const std::string commit = cache_.commit.empty() ? "" : ", commit " + cache_.commit.substr(0, 12);
-  return fmt::format("{}, {}, {}{}", now, machine_name(), LIGHTPROOF_COMPILER, commit);
 }
 
 }  // namespace lightproof

@@ -34,6 +34,10 @@ struct KeptMeasurement {
   static auto fields(auto& kept) { return std::tie(kept.origin, kept.value); }
 };
 
+/// When and where something is measured, as an origin: now, on this machine, by this compiler, and
+/// of a commit if it is not empty.
+std::string origin_now(std::string_view commit);
+
 /// The measurements that are kept of one program. Damaged files are replaced.
 class MeasurementKeeper {
  public:
@@ -49,7 +53,7 @@ class MeasurementKeeper {
     if (!cache_.measure_again) {
       if (auto kept = read<Value>(file)) return *std::move(kept);
     }
-    const KeptMeasurement<Value> measured = {origin_now(), measure()};
+    const KeptMeasurement<Value> measured = {origin_now(cache_.commit), measure()};
     ValueWriter writer;
     writer.add(measured);
     keep(file, writer.take());
@@ -71,7 +75,6 @@ class MeasurementKeeper {
   }
 
   KeptFile file_of(std::string name, std::string_view dependence) const;
-  std::string origin_now() const;
 
   MeasurementCache cache_;
   std::optional<std::uint64_t> program_;  ///< a hash of it

@@ -113,6 +113,10 @@ struct EstimatorInfo {
   std::uint64_t samples_per_estimate = 1;
   /// By how much its table of the map is smaller than the map, along either side.
   int table_reduction = 1;
+  /// How it draws GGX's microfacets, whatever the material says; none if it does not do so.
+  std::optional<MicrofacetSampling> microfacets = {};
+  /// How many lights stand for the map; 0 if it has none.
+  std::size_t lights = 0;
   /// Directions that are drawn for each sample of the budget.
   std::uint64_t candidates = 1;
   /// Whether every shading point needs a set-up that takes as long as one of the map.
@@ -121,6 +125,8 @@ struct EstimatorInfo {
   bool ignores_occlusion = false;
   /// Whether the budget is without meaning to it: one estimate costs what it costs.
   bool ignores_budget = false;
+  /// Why its error on a map is not predicted; empty of those of which it is.
+  std::string_view unpredicted = {};
   /// Whether studies measure how it converges, if its moments are known, and render by it.
   bool is_studied = false;
   /// Whether it can be used for a material. Binding to one that it cannot serve throws InputError.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lightproof/estimators/sum_pyramid.h"
 #include "lightproof/estimators/tabulated_source.h"
 #include "lightproof/estimators/texel_directions.h"
 #include "lightproof/samplers/texel_positions.h"
@@ -13,25 +14,6 @@ namespace {
 
 constexpr Extent kMostSquares = HierarchicalProduct::kMostSquares;
 constexpr double kDefensiveShare = HierarchicalProduct::kDefensiveShare;
-
-/// Grids from one cell down; each cell has up to 2 x 2 in the next one.
-using Pyramid = std::vector<Grid<double>>;
-
-/// The grid whose cells are the sums of 2 x 2 cells, fewer at the edges.
-Grid<double> halved(const Grid<double>& cells) {
-  Grid<double> sums({(cells.extent().width + 1) / 2, (cells.extent().height + 1) / 2});
-  for (int y = 0; y < cells.extent().height; ++y) {
-    for (int x = 0; x < cells.extent().width; ++x) sums(x / 2, y / 2) += cells(x, y);
-  }
-  return sums;
-}
-
-Pyramid pyramid_of(Grid<double> cells) {
-  Pyramid pyramid = {std::move(cells)};
-  while (pyramid.back().extent().count() > 1) pyramid.push_back(halved(pyramid.back()));
-  std::reverse(pyramid.begin(), pyramid.end());
-  return pyramid;
-}
 
 /// The solid angles of texels.
 Grid<double> solid_angles(Extent extent) {
@@ -58,8 +40,8 @@ Choice choose(double u, double low, double high) {
 class Quadtree {
  public:
   explicit Quadtree(const EnvironmentMap& map)
-      : light_(pyramid_of(texel_weights(map, on_map({DensitySpace::solid_angle}, map)))),
-        area_(pyramid_of(solid_angles(map.radiance.extent()))),
+      : light_(sum_pyramid(texel_weights(map, on_map({DensitySpace::solid_angle}, map)))),
+        area_(sum_pyramid(solid_angles(map.radiance.extent()))),
         positions_(map.radiance.extent(), DensitySpace::solid_angle),
         squares_(level_of_squares()),
         centres_(square_size(), 0.5, light_[squares_].extent()) {}
@@ -74,7 +56,7 @@ class Quadtree {
   }
 
   /// The map's sums times averages of k, for all levels at which k is known.
-  Pyramid table(const Material& material, const ShadingPoint& at) const {
+  SumPyramid table(const Material& material, const ShadingPoint& at) const {
     const Grid<double>& light = light_[squares_];
     Grid<double> k(light.extent());
     for (int y = 0; y < k.extent().height; ++y) centres_.reflected(material, at, y, k.row(y));
@@ -85,7 +67,7 @@ class Quadtree {
     for (std::size_t i = 0; i < k.values().size(); ++i) {
       k.values()[i] = (k.values()[i] + least) * area_[squares_].values()[i];
     }
-    Pyramid product = pyramid_of(std::move(k));
+    SumPyramid product = sum_pyramid(std::move(k));
     for (std::size_t level = 0; level < product.size(); ++level) {
       for (std::size_t i = 0; i < product[level].values().size(); ++i) {
         product[level].values()[i] *= light_[level].values()[i] / area_[level].values()[i];
@@ -94,7 +76,7 @@ class Quadtree {
     return product;
   }
 
-  LightSample sample(const Pyramid& product, SquarePoint u) const {
+  LightSample sample(const SumPyramid& product, SquarePoint u) const {
     int x = 0;
     int y = 0;
     double mass = 1.0;
@@ -133,8 +115,8 @@ class Quadtree {
     return {texels / extent.width, texels / extent.height};
   }
 
-  Pyramid light_;  ///< luminance times solid angle
-  Pyramid area_;   ///< solid angle
+  SumPyramid light_;  ///< luminance times solid angle
+  SumPyramid area_;   ///< solid angle
   TexelPositions positions_;
   std::size_t squares_;  ///< the level at which k is taken
   TexelDirections centres_;

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +26,7 @@ struct MethodDemand {
   std::optional<std::size_t> memory = {};                     ///< beside the map itself, in bytes
   std::uint64_t shading_points = std::uint64_t{1920} * 1080;  ///< over which a set-up is shared out
   bool is_occluded = false;  ///< whether something blocks light: what ignores that is no choice
-  /// Whether methods of which only an upper bound is predicted are given the benefit of the doubt:
+  /// Whether methods whose number of samples is not predicted, or only bounded, may be candidates:
   /// they will be tried.
   bool will_be_tried = false;
 };
@@ -32,9 +34,10 @@ struct MethodDemand {
 /// An estimator at the number of samples at which it is predicted to reach the error.
 struct Candidate {
   const EstimatorInfo* info;
-  PredictedError error;
+  std::optional<PredictedError> error;  ///< none: it is not predicted
   MethodCost cost;
-  std::uint64_t samples;  ///< 0 if no number of samples reaches the error
+  /// 0 if no number of samples is predicted to reach the error.
+  std::uint64_t samples = 0;
 
   /// Processor time of a shading point, with its part of the set-up.
   double seconds(const MethodDemand& demand, std::uint64_t of_samples) const {
@@ -43,11 +46,29 @@ struct Candidate {
   }
 };
 
-/// All methods, those that are predicted to reach the error and, a family each, why the others are
-/// not.
+/// What keeps a method from reaching an error.
+struct Obstacle {
+  double distance = std::numeric_limits<double>::infinity();  ///< how many times too much
+  std::string reason;  ///< "environment B needs 5e+05 samples, of 65536 at most"
+};
+
+/// What keeps families from reaching an error: of each the method that misses it least.
+class FamilyObstacles {
+ public:
+  void add(EstimatorFamily family, Obstacle obstacle);
+  /// Of all families but those that are reached, in their order.
+  std::vector<UnreachedFamily> list(const std::vector<EstimatorFamily>& reached) const;
+
+ private:
+  std::map<EstimatorFamily, Obstacle> nearest_;
+};
+
+/// All methods: those that reach the error or may do so, why the others do not, and of what nothing
+/// is predicted.
 struct Candidates {
-  std::vector<Candidate> reaching;  ///< the cheapest first
-  std::vector<UnreachedFamily> unreached;
+  std::vector<Candidate> possible;  ///< the cheapest first, by hoped_seconds()
+  FamilyObstacles obstacles;
+  std::vector<UnpredictedMethod> unpredicted;
 };
 
 /// The number of samples at which an error is reached, a multiple of those that make an estimate;
@@ -55,18 +76,26 @@ struct Candidates {
 std::optional<std::uint64_t> samples_for(const EstimatorInfo& info, const PredictedError& predicted,
                                          double error);
 
-/// Whether the number of samples that is predicted is not the one that is needed, but at most that,
-/// or, where something is in the way, a guess.
-bool is_uncertain(const PredictedError& error, const MethodDemand& demand);
+/// Whether it takes a run to know how many samples the candidate needs, and whether any number
+/// does: where nothing is predicted, where it is an upper bound, and where something is in the way
+/// of light.
+bool is_uncertain(const Candidate& candidate, const MethodDemand& demand);
 
-/// The fewest samples with which the candidate may be expected to reach the error; those of the
-/// prediction if that is certain.
-std::uint64_t fewest_samples(const Candidate& candidate, const MethodDemand& demand);
+/// A number of samples that may turn out to do, no more than there is hope for: of an uncertain one
+/// that will be tried by the slope of the best point sets and by what may be blocked; else what is
+/// predicted.
+std::uint64_t hoped_samples(const Candidate& candidate, const MethodDemand& demand);
+/// The time of so many.
+double hoped_seconds(const Candidate& candidate, const MethodDemand& demand);
 
-/// What keeps a candidate at a number of samples from being a choice: "environment B needs 5e+05
-/// samples"; empty if nothing does.
-std::string obstacle_to(const MethodDemand& demand, const Candidate& candidate,
-                        std::uint64_t samples);
+/// The largest number of samples with which the candidate keeps to budget and kMostDirections, in
+/// whole estimates; 0 if there is none.
+std::uint64_t most_samples(const Candidate& candidate, const MethodDemand& demand);
+
+/// What keeps a candidate at a number of samples from being a choice; nothing if it can be one. 0
+/// samples: no number of them is predicted to reach the error.
+std::optional<Obstacle> obstacle_to(const MethodDemand& demand, const Candidate& candidate,
+                                    std::uint64_t samples);
 
 /// So many samples, or the next whole number of the estimator's independent estimates.
 std::uint64_t in_steps(const EstimatorInfo& info, double samples);

@@ -7,6 +7,7 @@
 #include "lightproof/estimators/hierarchical_product.h"
 #include "lightproof/estimators/reduced_table.h"
 #include "lightproof/estimators/rounded_table.h"
+#include "lightproof/estimators/sum_pyramid.h"
 #include "lightproof/estimators/two_level_product.h"
 #include "lightproof/prefilter/spherical_harmonics.h"
 #include "lightproof/samplers/sampler.h"
@@ -379,23 +380,6 @@ BlockTotals totals_of(const MapSummary& summary, const BlockIndex& index, Extent
   return totals;
 }
 
-/// The grid of sums of 2 x 2 cells, fewer at the edges.
-Grid<double> halved(const Grid<double>& cells) {
-  Grid<double> sums({(cells.extent().width + 1) / 2, (cells.extent().height + 1) / 2});
-  for (int y = 0; y < cells.extent().height; ++y) {
-    for (int x = 0; x < cells.extent().width; ++x) sums(x / 2, y / 2) += cells(x, y);
-  }
-  return sums;
-}
-
-/// From one cell down to these.
-std::vector<Grid<double>> pyramid_of(Grid<double> cells) {
-  std::vector<Grid<double>> pyramid = {std::move(cells)};
-  while (pyramid.back().extent().count() > 1) pyramid.push_back(halved(pyramid.back()));
-  std::reverse(pyramid.begin(), pyramid.end());
-  return pyramid;
-}
-
 void set_products(MapSummary& summary) {
   constexpr int kMost = TwoLevelProduct::kMostBlocks;
   const Extent blocks = {std::min(kMost, summary.extent.width),
@@ -418,8 +402,8 @@ void set_products(MapSummary& summary) {
   summary.quadrant_index =
       index_of(summary, squares, [side](int texel, int, int) { return texel / side; });
   BlockTotals totals = totals_of(summary, summary.quadrant_index, squares);
-  summary.quadtree_light = pyramid_of(std::move(totals.light));
-  summary.quadtree_area = pyramid_of(std::move(totals.area));
+  summary.quadtree_light = sum_pyramid(std::move(totals.light));
+  summary.quadtree_area = sum_pyramid(std::move(totals.area));
 
   const Extent extent = summary.finest.extent();
   LightCells& cells = summary.cells;
@@ -433,6 +417,22 @@ void set_products(MapSummary& summary) {
 }
 
 }  // namespace
+
+double MapSummary::light_above(double of_mean) const {
+  if (of_mean == 0.0) return light;
+  if (of_mean == 0.5) return light_above_half;
+  if (of_mean == 1.0) return light_above_mean;
+  const double floor = of_mean * light / kSphere;
+  double above = 0.0;
+  for (int y = 0; y < finest.extent().height; ++y) {
+    double row = 0.0;
+    for (const float luminance : finest.row(y)) {
+      row += std::max(0.0, static_cast<double>(luminance) - floor);
+    }
+    above += row * texel_solid_angle(finest.extent(), y);
+  }
+  return above;
+}
 
 double MapSummary::power(int degree) const {
   double sum = 0.0;

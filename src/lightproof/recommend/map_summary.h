@@ -116,6 +116,9 @@ struct MapSummary {
   std::array<std::vector<DirectedLight>, kCuts.size()> lights;
 
   bool has_light() const { return light > 0.0; }
+  /// ∫ of what stands above so many times the mean over the sphere, from 0 on: exact of 0, 1/2 and
+  /// 1, else of the means of the finest grid's texels.
+  double light_above(double of_mean) const;
   /// Sum over m of |L_lm|^2.
   double power(int degree) const;
 };

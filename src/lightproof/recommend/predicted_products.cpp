@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "lightproof/estimators/hierarchical_product.h"
+#include "lightproof/estimators/sum_pyramid.h"
 #include "lightproof/estimators/two_level_product.h"
 
 namespace lightproof {
@@ -16,16 +17,6 @@ Extent nodes_of(const MapSummary& summary) {
 CellSize quadrant_size(const MapSummary& summary) {
   return {summary.quadrant_side / summary.extent.width,
           summary.quadrant_side / summary.extent.height};
-}
-
-/// The level above one of a quadtree.
-Grid<double> sums_of_quarters(const Grid<double>& level) {
-  const Extent extent = level.extent();
-  Grid<double> sums({(extent.width + 1) / 2, (extent.height + 1) / 2});
-  for (int y = 0; y < extent.height; ++y) {
-    for (int x = 0; x < extent.width; ++x) sums(x / 2, y / 2) += level(x, y);
-  }
-  return sums;
 }
 
 /// The probabilities of the squares of the last level: that of a square is its parent's times its
@@ -89,8 +80,7 @@ std::vector<double> PredictedProducts::two_level_scales(const ShadingPoint& at) 
 std::vector<double> PredictedProducts::quadrant_scales(const ShadingPoint& at) const {
   const std::vector<Grid<double>>& light = summary_->quadtree_light;
   const std::vector<Grid<double>>& area = summary_->quadtree_area;
-  std::vector<Grid<double>> k(light.size());
-  Grid<double>& finest = k.back() = Grid<double>(light.back().extent());
+  Grid<double> finest(light.back().extent());
   double sum = 0.0;
   for (int y = 0; y < finest.extent().height; ++y) {
     quadrant_centres_.reflected(material_, at, y, finest.row(y));
@@ -101,10 +91,7 @@ std::vector<double> PredictedProducts::quadrant_scales(const ShadingPoint& at) c
   for (std::size_t i = 0; i < finest.values().size(); ++i) {
     finest.values()[i] = (finest.values()[i] + least) * area.back().values()[i];
   }
-  for (std::size_t level = k.size() - 1; level > 0; --level) {
-    k[level - 1] = sums_of_quarters(k[level]);
-  }
-  const Grid<double> mass = masses_of_squares(k, light, area);
+  const Grid<double> mass = masses_of_squares(sum_pyramid(std::move(finest)), light, area);
   std::vector<double> scales(mass.values().size());
   for (std::size_t i = 0; i < scales.size(); ++i) {
     if (mass.values()[i] > 0.0) scales[i] = light.back().values()[i] / mass.values()[i];

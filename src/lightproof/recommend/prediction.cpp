@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/estimators/outgoing_table.h"
@@ -19,6 +20,7 @@ namespace {
 
 using reference::CombinedSampling;
 using reference::Heuristic;
+using reference::SampledDensity;
 
 /// Of an estimator at one point: the variance of a sample, and the bias.
 struct ErrorAt {
@@ -29,7 +31,7 @@ struct ErrorAt {
 };
 
 /// By the estimator's name.
-using ErrorsAt = std::map<std::string, ErrorAt, std::less<>>;
+using ErrorsAt = std::map<std::string_view, ErrorAt>;
 
 /// The density of the map after compensation, over the luminance above a floor.
 struct Compensated {
@@ -40,9 +42,7 @@ struct Compensated {
 };
 
 Compensated compensated(const MapSummary& summary, double compensation) {
-  const double left = compensation == 0.0   ? summary.light
-                      : compensation == 0.5 ? summary.light_above_half
-                                            : summary.light_above_mean;
+  const double left = summary.light_above(compensation);
   if (!(left >= 1e-6 * summary.light)) return {0.0, 1.0 / summary.light};
   return {compensation * summary.light / kSphere, 1.0 / left};
 }
@@ -96,7 +96,14 @@ class Predictor {
         material_(material),
         products_(summary, material),
         look_ups_(summary, material),
-        strata_(summary, material) {}
+        strata_(summary, material) {
+    densities_.emplace(0.0, compensated(summary, 0.0));
+    for (const EstimatorInfo& info : estimators()) {
+      if (!info.combined) continue;
+      const double compensation = info.combined->compensation;
+      densities_.try_emplace(compensation, compensated(summary, compensation));
+    }
+  }
 
   /// The errors of all estimators at a point, and the exact radiance.
   double predict(const ShadingPoint& at, ErrorsAt& errors) const {
@@ -121,10 +128,12 @@ class Predictor {
 
  private:
   /// From E[X^2]; `whole` is the integral of the density over the nodes.
+  static ErrorAt of_one_sample(double square, double mean, double whole = 1.0) {
+    return {ErrorLaw::independent, std::max(0.0, square - mean * mean * (2.0 - whole)), 0.0};
+  }
   static void one_sample(std::string_view name, double square, double mean, ErrorsAt& errors,
                          double whole = 1.0) {
-    const double variance = std::max(0.0, square - mean * mean * (2.0 - whole));
-    errors.emplace(name, ErrorAt{ErrorLaw::independent, variance, 0.0});
+    errors.emplace(name, of_one_sample(square, mean, whole));
   }
 
   void add_lobes(const ScatteredLight& light, const ShadingPoint& at, ErrorsAt& errors) const {
@@ -150,20 +159,23 @@ class Predictor {
     one_sample("brdf", by_material, light.mean, errors, light.lobes);
     const auto* ggx = std::get_if<Ggx>(&material_);
     if (ggx == nullptr) return;
-    add_normals("ggx normals", *ggx, MicrofacetSampling::normals, light, at, errors);
-    add_normals("ggx visible normals", *ggx, MicrofacetSampling::visible_normals, light, at,
-                errors);
-    add_normals("ggx bounded caps", *ggx, MicrofacetSampling::bounded_caps, light, at, errors);
-    errors.emplace("ggx spherical caps", errors.find("ggx visible normals")->second);
+    // Caps and projected hemispheres have one density.
+    const auto density_of = [](MicrofacetSampling of) {
+      return of == MicrofacetSampling::spherical_caps ? MicrofacetSampling::visible_normals : of;
+    };
+    std::map<MicrofacetSampling, ErrorAt> known = {
+        {density_of(ggx->sampling), errors.find("brdf")->second}};
+    for (const EstimatorInfo& info : estimators()) {
+      if (!info.microfacets) continue;
+      const MicrofacetSampling sampling = density_of(*info.microfacets);
+      if (!known.contains(sampling)) known.emplace(sampling, of_normals(*ggx, sampling, light, at));
+      errors.emplace(info.name, known.at(sampling));
+    }
   }
 
   /// GGX with its normals drawn in one way.
-  static void add_normals(std::string_view name, Ggx ggx, MicrofacetSampling sampling,
-                          const ScatteredLight& light, const ShadingPoint& at, ErrorsAt& errors) {
-    if (ggx.sampling == sampling) {
-      errors.emplace(name, errors.find("brdf")->second);
-      return;
-    }
+  static ErrorAt of_normals(Ggx ggx, MicrofacetSampling sampling, const ScatteredLight& light,
+                            const ShadingPoint& at) {
     ggx.sampling = sampling;
     const LightNodes& nodes = light.nodes;
     std::vector<double> k(nodes.size());
@@ -175,7 +187,7 @@ class Predictor {
       whole += pdf[i] * nodes.solid_angle[i];
       if (pdf[i] > 0.0) square += nodes.square[i] * k[i] * k[i] / pdf[i];
     }
-    one_sample(name, square, light.mean, errors, whole);
+    return of_one_sample(square, light.mean, whole);
   }
 
   void add_tables(const ScatteredLight& light, ErrorsAt& errors) const {
@@ -188,13 +200,18 @@ class Predictor {
       for (std::size_t j = 0; j < kTableDensities; ++j) second[j] += square * nodes.second[j][i];
     }
     exact *= summary_->light;
-    one_sample("environment A", second[0], light.mean, errors);
-    one_sample("environment B", exact, light.mean, errors);
-    one_sample("environment C", second[1], light.mean, errors);
-    one_sample("environment B alias", exact, light.mean, errors);
-    for (std::size_t i = 0; i < kReductions.size(); ++i) {
-      one_sample("environment B alias 1/" + std::to_string(kReductions[i]), second[2 + i],
-                 light.mean, errors);
+    for (const EstimatorInfo& info : estimators()) {
+      if (info.density == SampledDensity::texture_space) {
+        one_sample(info.name, second[0], light.mean, errors);
+      } else if (info.density == SampledDensity::solid_angle) {
+        one_sample(info.name, exact, light.mean, errors);
+      } else if (info.density == SampledDensity::sine_weighted) {
+        one_sample(info.name, second[1], light.mean, errors);
+      } else if (info.table_reduction > 1) {
+        const auto reduction = std::ranges::find(kReductions, info.table_reduction);
+        const auto i = static_cast<std::size_t>(reduction - kReductions.begin());
+        one_sample(info.name, second.at(2 + i), light.mean, errors);
+      }
     }
     // Rounding knows nothing of k.
     one_sample("environment B half", exact * (1.0 + summary_->half_float_variance), light.mean,
@@ -209,7 +226,7 @@ class Predictor {
       auto found = known.find(key);
       if (found == known.end()) {
         const Combined sums =
-            combine(light, compensated(*summary_, sampling.compensation), sampling.heuristic);
+            combine(light, densities_.at(sampling.compensation), sampling.heuristic);
         found = known.emplace(key, sums).first;
       }
       return variance_of(found->second, light, sampling.is_one_sample);
@@ -268,8 +285,12 @@ class Predictor {
   }
 
   void add_lights(const ScatteredLight& light, const ShadingPoint& at, ErrorsAt& errors) const {
-    for (std::size_t cut = 0; cut < summary_->lights.size(); ++cut) {
-      const auto& lights = summary_->lights[cut];
+    for (const EstimatorInfo& info : estimators()) {
+      if (info.lights == 0) continue;
+      const auto cut = std::ranges::find_if(
+          MapSummary::kCuts, [&](int cuts) { return std::size_t{1} << cuts == info.lights; });
+      const auto& lights =
+          summary_->lights.at(static_cast<std::size_t>(cut - MapSummary::kCuts.begin()));
       double sum = 0.0;
       for (const DirectedLight& each : lights) {
         const double k = std::visit(
@@ -279,7 +300,7 @@ class Predictor {
             material_);
         sum += k * luminance_of(Rgb(each.flux), summary_->weights);
       }
-      biased("median cut " + std::to_string(1 << MapSummary::kCuts[cut]), sum, light, errors);
+      biased(info.name, sum, light, errors);
     }
   }
 
@@ -287,7 +308,7 @@ class Predictor {
     const ShadingPoint entry = outgoing_table_point(at);
     const ScatteredLight there =
         scattered(*summary_, material_, entry, lobe_of(material_, entry), Direction(0.0));
-    const Combined sums = combine(there, compensated(*summary_, 0.0), Heuristic::balance);
+    const Combined sums = combine(there, densities_.at(0.0), Heuristic::balance);
     const double variance = variance_of(sums, there, true) / kOutgoingTableSamples;
     errors.emplace("outgoing table",
                    ErrorAt{ErrorLaw::constant, variance, there.mean - light.mean});
@@ -298,15 +319,16 @@ class Predictor {
   PredictedProducts products_;
   PredictedLookUps look_ups_;
   PredictedStrata strata_;
+  std::map<double, Compensated> densities_;  ///< by what is taken off
 };
 
-std::string reason_for(std::string_view name) {
-  if (name == "light sets") return "sets that are drawn beforehand are not known before they are";
-  if (name == "riemann") return "its error depends on where its steps fall";
-  if (name == "filtered importance sampling") {
-    return "its blur depends on the number of samples and on their densities";
+/// A prediction under a name that is no row's would be one that nobody finds.
+void require_rows(const ErrorsAt& errors) {
+  for (const auto& [name, error] : errors) {
+    if (std::ranges::find(estimators(), name, &EstimatorInfo::name) == estimators().end()) {
+      throw std::logic_error("a prediction of no estimator: " + std::string(name));
+    }
   }
-  return "there is no formula for it";
 }
 
 }  // namespace
@@ -336,6 +358,7 @@ Prediction predict(const MapSummary& summary, const Material& material,
     const Predictor predictor(summary, material);
     parallel_for(points.size(),
                  [&](std::size_t i) { means[i] = predictor.predict(points[i], errors[i]); });
+    require_rows(errors.front());
   }
   const auto count = static_cast<double>(points.size());
   for (const double mean : means) prediction.mean += mean / count;
@@ -348,7 +371,7 @@ Prediction predict(const MapSummary& summary, const Material& material,
     if (!(prediction.mean > 0.0)) {
       row.reason = "no light is reflected";
     } else if (!errors.front().contains(known)) {
-      row.reason = reason_for(info.name);
+      row.reason = info.unpredicted;
     } else {
       PredictedError sum;
       for (const ErrorsAt& at : errors) {

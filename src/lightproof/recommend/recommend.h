@@ -7,6 +7,7 @@
 
 #include "lightproof/accuracy/lit_receiver.h"
 #include "lightproof/accuracy/method_costs.h"
+#include "lightproof/core/error.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/image/environment_map.h"
 #include "lightproof/recommend/candidates.h"
@@ -23,12 +24,25 @@ struct RecommendOptions {
   std::uint64_t seed = 1;  ///< of the verification
 };
 
+/// No method reaches the error. The message names the method of each family that misses it least,
+/// and what stops it.
+class NoMethodReaches : public InputError {
+ public:
+  explicit NoMethodReaches(RefusedRecommendation refused);
+  const RefusedRecommendation& refused() const { return refused_; }
+
+ private:
+  RefusedRecommendation refused_;
+};
+
 /// The cheapest method that reaches the error at the points of the receiver, at least
 /// kReceiverPoints of them.
-/// Predicted from a summary of the map and the costs; if it is to be verified, the cheapest ones
-/// are run, the numbers of samples corrected by what was measured, and the cheapest of those that
-/// do reach the error is the choice. What is in the way of light is not predicted but measured.
-/// Throws InputError, which tells what stops each family, if no method reaches the error.
+/// Predicted from a summary of the map and the costs; if it is to be verified, those that may be
+/// the cheapest are run, others if none of these reaches the error, numbers of samples found and
+/// corrected by what was measured, and the choice is what takes the least measured time of those
+/// that do reach the error. What is in the way of light is not predicted but measured.
+/// Throws NoMethodReaches if none does, and InputError if the map's texels are not those of
+/// latitude and longitude or no light reaches the receiver.
 Recommendation recommend(const EnvironmentMap& map, const RecommendOptions& options,
                          const MethodCosts& costs, const Progress& progress = {});
 

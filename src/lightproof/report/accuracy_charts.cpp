@@ -75,7 +75,7 @@ Json point_row(const AccuracyLine& line, std::size_t i) {
               {"family", line.family},
               {"n", p.samples},
               {"seconds", rounded(p.seconds)},
-              {"setup", rounded(line.set_up_seconds)},
+              {"setup", rounded(line.set_up_processor_seconds)},
               {"time", seconds_text(p.seconds)},
               {"prepared", seconds_text(line.set_up_seconds)},
               {"memory", bytes_text(static_cast<double>(line.bytes))},
@@ -94,7 +94,7 @@ Json floor_row(const AccuracyLine& line, double right) {
           {"family", line.family},
           {"floor", drawn(line.floor)},
           {"seconds", rounded(line.points.back().seconds)},
-          {"setup", rounded(line.set_up_seconds)},
+          {"setup", rounded(line.set_up_processor_seconds)},
           {"right", rounded(right)}};
 }
 

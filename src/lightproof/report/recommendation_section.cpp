@@ -7,6 +7,7 @@
 #include "lightproof/page/numbers.h"
 #include "lightproof/report/accuracy_findings.h"
 #include "lightproof/report/sections.h"
+#include "lightproof/report/survey_html.h"
 #include "lightproof/results/accuracy_reading.h"
 
 namespace lightproof {
@@ -18,8 +19,13 @@ Cell error_cell(const RecommendedMethod& method) {
                         percent(method.predicted_error)),
             "number", "not measured"};
   }
+  const std::string predicted =
+      std::isnan(method.predicted_error)
+          ? "not predicted"
+          : fmt::format("{}{} predicted", method.is_upper_bound ? "at most " : "",
+                        percent(method.predicted_error));
   return {percent_with_error(method.measured_error, method.measured_error_error) + " measured",
-          "number", percent(method.predicted_error) + " predicted"};
+          "number", predicted};
 }
 
 /// "environment B, 64 samples".
@@ -29,7 +35,7 @@ std::string name_of(const RecommendedMethod& method) {
 }
 
 std::string choice_text(const RecommendedMethod& method, double error) {
-  return fmt::format("{}, {} error", name_of(method), percent(error));
+  return fmt::format("{}, for {} error", name_of(method), percent(error));
 }
 
 /// "3 MiB, 512×256".
@@ -39,26 +45,55 @@ std::string memory_text(const RecommendedMethod& method) {
                                 : bytes;
 }
 
-std::string rival_text(const std::optional<RecommendedMethod>& rival) {
-  if (!rival) return "none";
-  return fmt::format("{}, {}", name_of(*rival), seconds_text(1e-3 * rival->milliseconds));
+Cell time_cell_of(double known, double predicted) {
+  return {seconds_text(1e-3 * known), "number", seconds_text(1e-3 * predicted) + " predicted"};
 }
 
-std::string recommendation_table(const std::vector<Recommendation>& recommendations) {
+std::string rival_text(const std::optional<RecommendedMethod>& rival) {
+  if (!rival) return "none";
+  return fmt::format("{}, {}", name_of(*rival), seconds_text(1e-3 * rival->known_time().point));
+}
+
+std::string reasons_text(const std::vector<UnreachedFamily>& unreached) {
+  std::string text;
+  for (const UnreachedFamily& family : unreached) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", family.family, family.reason);
+  }
+  return text;
+}
+
+void add_row(Table& table, const Recommendation& r) {
+  const std::string why = r.warning.empty() ? r.reason : r.reason + " Note: " + r.warning;
+  const MethodTime& known = r.choice.known_time();
+  table.add({text_cell(r.question.map),
+             {choice_text(r.choice, r.question.error), "take", ""},
+             text_cell(r.question.receiver + ", " + r.question.material),
+             error_cell(r.choice),
+             time_cell_of(known.point, r.choice.predicted_time.point),
+             time_cell_of(known.set_up, r.choice.predicted_time.set_up),
+             {memory_text(r.choice), "number", ""},
+             {rival_text(r.runner_up), "detail", ""},
+             {why, "detail", ""}});
+}
+
+void add_row(Table& table, const RefusedRecommendation& r) {
+  const Cell none = {"\u2013", "number", ""};
+  table.add({text_cell(r.question.map),
+             {fmt::format("no method reaches {} error", percent(r.question.error)), "take", ""},
+             text_cell(r.question.receiver + ", " + r.question.material),
+             none,
+             none,
+             none,
+             none,
+             {"none", "detail", ""},
+             {reasons_text(r.unreached), "detail", ""}});
+}
+
+std::string recommendation_table(const StudyResult& study) {
   Table table("Recommendations", {"Map", "Take", "Receiver, material", "Error", "Time", "Set-up",
                                   "Memory", "Runner-up", "Why"});
-  for (const Recommendation& r : recommendations) {
-    const std::string why = r.warning.empty() ? r.reason : r.reason + " Note: " + r.warning;
-    table.add({text_cell(r.map),
-               {choice_text(r.choice, r.error), "take", ""},
-               text_cell(r.receiver + ", " + r.material),
-               error_cell(r.choice),
-               {seconds_text(1e-3 * r.choice.milliseconds), "number", ""},
-               {seconds_text(1e-3 * r.choice.set_up_milliseconds), "number", ""},
-               {memory_text(r.choice), "number", ""},
-               {rival_text(r.runner_up), "detail", ""},
-               {why, "detail", ""}});
-  }
+  for (const Recommendation& r : study.recommendations) add_row(table, r);
+  for (const RefusedRecommendation& r : study.refused_recommendations) add_row(table, r);
   return table.html();
 }
 
@@ -69,8 +104,8 @@ std::string unreached_html(const std::vector<Recommendation>& recommendations) {
   for (const Recommendation& r : recommendations) {
     for (const UnreachedFamily& family : r.unreached) {
       ++count;
-      table.add({text_cell(r.map),
-                 text_cell(r.receiver + ", " + r.material),
+      table.add({text_cell(r.question.map),
+                 text_cell(r.question.receiver + ", " + r.question.material),
                  text_cell(family.family),
                  {family.reason, "detail", ""}});
     }
@@ -108,20 +143,21 @@ constexpr std::string_view kMeasuredNote =
 constexpr std::string_view kRecommendedNote =
     "The cheapest method that reaches the error (root mean square over the receiver's pixels, bias "
     "included, over the mean of the reference), predicted from the map and checked by a short run. "
-    "Time "
-    "is that of one shading point, without set-up.";
+    "Time is that of a processor for one shading point, without set-up.";
 
 }  // namespace
 
 std::string recommendation_section(const StudyResult& study) {
-  if (study.recommendations.empty() && study.accuracy.empty()) return "";
+  const bool has_answers = !study.recommendations.empty() || !study.refused_recommendations.empty();
+  if (!has_answers && study.accuracy.empty()) return "";
   std::string html = "<section id=\"recommendations\">\n<h2>What to do</h2>\n";
-  if (study.recommendations.empty()) {
+  if (!has_answers) {
     return html + measured_table(study.accuracy) + paragraph(kMeasuredNote, "note") +
            "</section>\n";
   }
-  return html + recommendation_table(study.recommendations) + paragraph(kRecommendedNote, "note") +
-         unreached_html(study.recommendations) + "</section>\n";
+  return html + recommendation_table(study) + paragraph(kRecommendedNote, "note") +
+         unreached_html(study.recommendations) + survey_html(study.recommendation_survey) +
+         "</section>\n";
 }
 
 }  // namespace lightproof

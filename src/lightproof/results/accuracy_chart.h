@@ -34,9 +34,10 @@ struct AccuracyLine {
   std::string estimator;  ///< name in the registry of estimators
   std::string family;     ///< what it belongs to: "environment", "mis", "precomputed", …
   bool is_biased = false;
-  double set_up_seconds = 0.0;        ///< elapsed, once for a map and a material
-  std::size_t bytes = 0;              ///< memory of what was set up, beside the map itself
-  std::vector<AccuracyPoint> points;  ///< ascending numbers of samples; at least one
+  double set_up_seconds = 0.0;            ///< elapsed, once for a map and a material
+  double set_up_processor_seconds = 0.0;  ///< the same as processor time of all threads
+  std::size_t bytes = 0;                  ///< memory of what was set up, beside the map itself
+  std::vector<AccuracyPoint> points;      ///< ascending numbers of samples; at least one
   /// Slope of log rmse against log samples with its standard error; not a number where fewer than
   /// three points could be measured to a quarter of their error.
   double slope = std::numeric_limits<double>::quiet_NaN();
@@ -46,8 +47,9 @@ struct AccuracyLine {
   double floor = 0.0;
 
   static auto fields(auto& line) {
-    return std::tie(line.estimator, line.family, line.is_biased, line.set_up_seconds, line.bytes,
-                    line.points, line.slope, line.slope_error, line.floor);
+    return std::tie(line.estimator, line.family, line.is_biased, line.set_up_seconds,
+                    line.set_up_processor_seconds, line.bytes, line.points, line.slope,
+                    line.slope_error, line.floor);
   }
 };
 

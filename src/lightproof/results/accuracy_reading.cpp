@@ -84,7 +84,7 @@ double efficiency(const AccuracyLine& line) {
 }
 
 double total_seconds(const ChartPoint& point, double set_up_share) {
-  return point.point->seconds + set_up_share * point.line->set_up_seconds;
+  return point.point->seconds + set_up_share * point.line->set_up_processor_seconds;
 }
 
 std::vector<ChartPoint> pareto_front(const AccuracyChart& chart, double set_up_share) {

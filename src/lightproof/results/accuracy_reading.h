@@ -46,8 +46,8 @@ struct ChartPoint {
   const AccuracyPoint* point;
 };
 
-/// The time of a shading point with this share of the set-up: 0 if it is not counted, 1e-4 if
-/// 10,000 points share it.
+/// The processor time of a shading point with this share of the set-up: 0 if it is not counted,
+/// 1e-4 if 10,000 points share it.
 double total_seconds(const ChartPoint& point, double set_up_share);
 
 /// The points than which no other is as fast and as exact, the fastest first. One that is slower

@@ -12,42 +12,80 @@
 
 namespace lightproof {
 
+/// Processor time in milliseconds.
+struct MethodTime {
+  double point = std::numeric_limits<double>::quiet_NaN();  ///< of one shading point, no set-up
+  /// Of all threads, once for the map and the material.
+  double set_up = std::numeric_limits<double>::quiet_NaN();
+
+  /// Of one shading point, with its part of a set-up that so many share.
+  double with_set_up(std::uint64_t shading_points) const {
+    return point + set_up / static_cast<double>(shading_points);
+  }
+};
+
 /// An estimator with a number of samples, what it is expected to do, and what it did.
 struct RecommendedMethod {
   std::string estimator;      ///< name in the registry of estimators
   std::uint64_t samples = 0;  ///< of one shading point; 1 if has_samples is false
   bool has_samples = true;    ///< whether their number has a meaning: not for a look-up
   std::size_t bytes = 0;      ///< memory beside the map itself
-  /// Size of the table that directions are drawn from; 0 x 0 if there is none.
+  /// Size of the table of the map that directions are drawn from; 0 x 0 if there is none.
   Extent table = {0, 0};
-  /// Expected root mean square error over the receiver's pixels, bias included, over the mean.
-  double predicted_error = 0.0;
+  /// Expected root mean square error over the receiver's pixels, bias included, over the mean, if
+  /// nothing is in the way of light; not a number if there is no prediction.
+  double predicted_error = std::numeric_limits<double>::quiet_NaN();
   bool is_upper_bound = false;  ///< whether the prediction is no more than one
-  /// The same as measured; not a number if it was not.
+  /// The same as measured, whatever is in the way; not a number if it was not.
   double measured_error = std::numeric_limits<double>::quiet_NaN();
   double measured_error_error = std::numeric_limits<double>::quiet_NaN();  ///< its standard error
-  double milliseconds = 0.0;         ///< of one shading point, without set-up
-  double set_up_milliseconds = 0.0;  ///< once for the map
+  MethodTime predicted_time = {};  ///< from costs on other maps
+  MethodTime measured_time = {};   ///< on this map; not numbers if it was not run
+
+  /// The measured time if there is one, else the predicted one.
+  const MethodTime& known_time() const {
+    return measured_time.point > 0.0 ? measured_time : predicted_time;
+  }
 };
 
 /// A family of methods none of which reaches the error, and what stops it.
 struct UnreachedFamily {
   std::string family;
-  std::string reason;  ///< "its floor is 3.1 %", "needs 1.2e6 samples"
+  std::string reason;  ///< "the floor of sh-9 is 3.1 %, above 2 %"
+};
+
+/// A method of which nothing is predicted, and why.
+struct UnpredictedMethod {
+  std::string estimator;
+  std::string reason;
+};
+
+/// What was asked.
+struct RecommendationQuestion {
+  std::string map;
+  std::string receiver;
+  std::string material;
+  double error = 0.0;
+  std::uint64_t shading_points = 0;  ///< over which set-ups are shared out
 };
 
 /// The answer to: what is the least that this scene needs?
 struct Recommendation {
-  std::string map;
-  std::string receiver;
-  std::string material;
-  double error = 0.0;                ///< that was asked for
-  std::uint64_t shading_points = 0;  ///< over which set-ups are shared out
+  RecommendationQuestion question;
   RecommendedMethod choice;
   std::optional<RecommendedMethod> runner_up;
   std::string reason;  ///< one sentence
-  /// What was off, if a measured error was not as predicted; empty if none was.
+  /// What was off, if a measured error was not as predicted, or what was left out of a prediction;
+  /// empty if nothing was.
   std::string warning;
+  std::vector<UnreachedFamily> unreached;
+  /// What was neither predicted nor tried.
+  std::vector<UnpredictedMethod> unpredicted;
+};
+
+/// The answer that no method reaches the error.
+struct RefusedRecommendation {
+  RecommendationQuestion question;
   std::vector<UnreachedFamily> unreached;
 };
 

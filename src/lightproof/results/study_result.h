@@ -18,6 +18,7 @@
 #include "lightproof/results/published_comparison.h"
 #include "lightproof/results/published_picture.h"
 #include "lightproof/results/recommendation.h"
+#include "lightproof/results/recommendation_survey.h"
 #include "lightproof/results/render_record.h"
 #include "lightproof/results/self_test_result.h"
 #include "lightproof/results/split_sum_record.h"
@@ -39,6 +40,8 @@ struct StudyResult {
   std::vector<ConvergenceRecord> convergence;
   std::vector<AccuracyChart> accuracy;
   std::vector<Recommendation> recommendations;
+  std::vector<RefusedRecommendation> refused_recommendations = {};
+  std::optional<RecommendationSurvey> recommendation_survey = {};
   MethodRegimes method_regimes = {};
   std::vector<WarpGrid> warps = {};
   std::vector<ThroughputRecord> throughput;

@@ -25,22 +25,6 @@ const Direction kTowardsLight = glm::normalize(Direction(-0.5, -0.6, 0.62));
 /// Tables for every shading point take most of the time, and win nowhere.
 bool is_charted(const EstimatorInfo& info) { return !info.tabulates_each_point; }
 
-MethodRegime regime_of(const AccuracyChart& chart, double roughness, double effective_fraction) {
-  MethodRegime regime{roughness, effective_fraction, {}, {}, 0.0, {}, 0.0};
-  if (const auto fastest = fastest_to(chart, kError)) {
-    regime.estimator = fastest->line->estimator;
-    regime.family = fastest->line->family;
-    regime.seconds = fastest->place.seconds;
-  }
-  AccuracyChart unbiased = chart;
-  std::erase_if(unbiased.lines, [](const AccuracyLine& line) { return line.is_biased; });
-  if (const auto fastest = fastest_to(unbiased, kError)) {
-    regime.unbiased_estimator = fastest->line->estimator;
-    regime.unbiased_seconds = fastest->place.seconds;
-  }
-  return regime;
-}
-
 std::vector<MethodRegime> measure(std::uint64_t seed, const Progress& progress) {
   std::vector<AccuracyScene> scenes;
   for (const double roughness : kRoughnesses) {
@@ -65,6 +49,22 @@ std::vector<MethodRegime> measure(std::uint64_t seed, const Progress& progress) 
 }
 
 }  // namespace
+
+MethodRegime regime_of(const AccuracyChart& chart, double roughness, double effective_fraction) {
+  MethodRegime regime{roughness, effective_fraction, {}, {}, 0.0, {}, 0.0};
+  if (const auto fastest = fastest_to(chart, kError)) {
+    regime.estimator = fastest->line->estimator;
+    regime.family = fastest->line->family;
+    regime.seconds = fastest->place.seconds;
+  }
+  AccuracyChart unbiased = chart;
+  std::erase_if(unbiased.lines, [](const AccuracyLine& line) { return line.is_biased; });
+  if (const auto fastest = fastest_to(unbiased, kError)) {
+    regime.unbiased_estimator = fastest->line->estimator;
+    regime.unbiased_seconds = fastest->place.seconds;
+  }
+  return regime;
+}
 
 EnvironmentMap one_light(double concentration, Extent extent) {
   EnvironmentMap map;

@@ -6,6 +6,7 @@
 #include "lightproof/core/kept_measurement.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/image/environment_map.h"
+#include "lightproof/results/accuracy_chart.h"
 #include "lightproof/results/method_regime.h"
 
 namespace lightproof {
@@ -13,6 +14,10 @@ namespace lightproof {
 /// A map of one light from above the camera, L = exp(k (cos - 1)) (von Mises and Fisher's), which
 /// fills η = (1 - e^-2k)^2 / (k (1 - e^-4k)) of the sphere.
 EnvironmentMap one_light(double concentration, Extent extent);
+
+/// Which estimator of a chart is the fastest to the error, and which of those without bias; names
+/// are empty where none reaches it.
+MethodRegime regime_of(const AccuracyChart& chart, double roughness, double effective_fraction);
 
 /// Charts of GGX spheres of six roughnesses under seven lights, for an error of 5 %; half a minute,
 /// kept for this machine and seed.

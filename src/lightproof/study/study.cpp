@@ -47,11 +47,10 @@ MapRecord describe_map(EnvironmentMap own, std::uint64_t seed) {
   return record;
 }
 
-namespace {
+namespace {}  // namespace
 
-/// What is recommended in each scene; nothing where no method reaches the error.
 void recommend_methods(const EnvironmentMap& map, const StudyOptions& options,
-                       const Progress& progress, std::vector<Recommendation>& all) {
+                       const Progress& progress, StudyResult& result) {
   for (const AccuracyScene& scene : options.accuracy_scenes) {
     const MethodCosts costs =
         kept_method_costs(scene.material.material, *scene.receiver, options.cache, progress).value;
@@ -61,12 +60,14 @@ void recommend_methods(const EnvironmentMap& map, const StudyOptions& options,
                                     true,
                                     options.accuracy.seed};
     try {
-      all.push_back(recommend(map, asked, costs, progress));
-    } catch (const InputError&) {
-      continue;
+      result.recommendations.push_back(recommend(map, asked, costs, progress));
+    } catch (const NoMethodReaches& none) {
+      result.refused_recommendations.push_back(none.refused());
     }
   }
 }
+
+namespace {
 
 void study_accuracy(std::span<const EnvironmentMap> maps, const StudyOptions& options,
                     const Progress& progress, StudyResult& result) {
@@ -81,7 +82,7 @@ void study_accuracy(std::span<const EnvironmentMap> maps, const StudyOptions& op
         measure_accuracy(maps[i], options.accuracy_scenes, options.accuracy, part(0.0, 0.7));
     std::move(charts.begin(), charts.end(), std::back_inserter(result.accuracy));
     if (options.recommended_error) {
-      recommend_methods(maps[i], options, part(0.7, 1.0), result.recommendations);
+      recommend_methods(maps[i], options, part(0.7, 1.0), result);
     }
   }
 }

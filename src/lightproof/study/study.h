@@ -35,6 +35,11 @@ struct StudyOptions {
 /// points that binary_search draws from it.
 MapRecord describe_map(EnvironmentMap map, std::uint64_t seed);
 
+/// Puts what is recommended on the map in each scene into the study, and where no method reaches
+/// the error that. `options` has an error.
+void recommend_methods(const EnvironmentMap& map, const StudyOptions& options,
+                       const Progress& progress, StudyResult& result);
+
 /// Puts what was measured into the study, and how it grows.
 void set_throughput(StudyResult& study, Throughput measured);
 
