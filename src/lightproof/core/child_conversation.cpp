@@ -36,6 +36,7 @@ constexpr milliseconds kGrace{500};
 constexpr int kFile = 3;
 /// Of this process, out of the way of those of the child.
 constexpr int kOutOfTheWay = 10;
+constexpr const char* kNowhere = "/dev/null";
 constexpr int kSocketBuffer = 1 << 20;
 
 [[noreturn]] void fail(const fs::path& program, int error) {
@@ -74,7 +75,11 @@ class Redirections {
     try {
       require(posix_spawn_file_actions_adddup2(&actions_, socket, STDIN_FILENO));
       require(posix_spawn_file_actions_adddup2(&actions_, socket, STDOUT_FILENO));
-      require(posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0));
+      // A bare root has no devices: words that nobody reads may as well fail.
+      require(
+          ::access(kNowhere, W_OK) == 0
+              ? posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, kNowhere, O_WRONLY, 0)
+              : posix_spawn_file_actions_addclose(&actions_, STDERR_FILENO));
       if (file >= 0) require(posix_spawn_file_actions_adddup2(&actions_, file, kFile));
     } catch (...) {
       posix_spawn_file_actions_destroy(&actions_);
