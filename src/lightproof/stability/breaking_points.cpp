@@ -239,6 +239,28 @@ constexpr std::array kMeanSearches = {
                        keeps_mean},
 };
 
+/// Searches for the breaking point of one method. A refusal is a failure.
+template <class Method>
+BreakingPoint point_of(const Search<Method>& search, std::string_view kind, const Method& method,
+                       const TrialOptions& options) {
+  const Bracket found = find_breaking_point(search.range, [&](double value) {
+    try {
+      return search.passes(method, value, options);
+    } catch (const InputError&) {
+      return false;
+    }
+  });
+  return {std::string(search.quantity),
+          std::string(search.criterion),
+          std::string(kind),
+          method_name(method),
+          has_known_defects(method),
+          search.range.easiest,
+          search.range.hardest,
+          found.passed,
+          found.failed};
+}
+
 /// Adds the searches of methods of one kind.
 template <class Method, std::size_t kCount>
 void add(std::vector<WorkCell<BreakingPoint>>& cells, std::string_view kind,
@@ -252,22 +274,7 @@ void add(std::vector<WorkCell<BreakingPoint>>& cells, std::string_view kind,
       cells.push_back(
           {fmt::format("breaking/{}/{}/{}/{}", kind, number, search.quantity, method_name(method)),
            [&search, &method, kind, trial = options.trial] {
-             const Bracket found = find_breaking_point(search.range, [&](double value) {
-               try {
-                 return search.passes(method, value, trial);
-               } catch (const InputError&) {
-                 return false;
-               }
-             });
-             return BreakingPoint{std::string(search.quantity),
-                                  std::string(search.criterion),
-                                  std::string(kind),
-                                  method_name(method),
-                                  has_known_defects(method),
-                                  search.range.easiest,
-                                  search.range.hardest,
-                                  found.passed,
-                                  found.failed};
+             return point_of(search, kind, method, trial);
            }});
     }
   }

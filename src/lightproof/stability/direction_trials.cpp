@@ -142,6 +142,29 @@ Finding at_all_places(const LobeMethod& method, const Check& check) {
   return last;
 }
 
+/// A normal beside an axis, by some radians to a side that is none of the axes.
+struct BesideAxis {
+  Direction axis;
+  double off;
+
+  Direction normal() const {
+    const Direction side = {axis.y + axis.z, 0.5 * axis.z + axis.x, axis.x + axis.y};
+    return glm::normalize(axis + off * side);
+  }
+};
+
+std::vector<BesideAxis> beside_axes() {
+  std::vector<BesideAxis> all;
+  for (const Direction axis : {Direction(1, 0, 0), Direction(0, 1, 0), Direction(0, 0, 1)}) {
+    // Of -axis the zeros are -0.
+    for (const double off : {0.0, 1e-7, 1e-3}) {
+      all.push_back({axis, off});
+      all.push_back({-axis, off});
+    }
+  }
+  return all;
+}
+
 bool depends_on_roughness(const LobeMethod& method) {
   return !std::holds_alternative<Lambert>(method.of_roughness(0.5));
 }
@@ -266,24 +289,18 @@ Finding grazing_view(const LobeMethod& method, const TrialOptions& /*options*/) 
 Finding axes(const FrameMethod& method, const TrialOptions& /*options*/) {
   // Of nine products of three terms each, none larger than 1, of vectors rounded before.
   Finding found{.bound = 16.0 * method.rounding, .came_out = "orthonormal around all of them"};
-  for (const Direction axis : {Direction(1, 0, 0), Direction(0, 1, 0), Direction(0, 0, 1)}) {
-    for (const double sign : {1.0, -1.0}) {
-      for (const double off : {0.0, -0.0, 1e-7, 1e-3}) {
-        const Direction aside = {axis.y + axis.z, axis.z * 0.5 + axis.x, axis.x + axis.y};
-        const Direction normal = glm::normalize(sign * axis + off * aside);
-        const double error = method.error(normal);
-        if (error <= found.amount) continue;
-        found.amount = error;
-        found.put_in = fmt::format("a normal {:g} rad from ({:+g}, {:+g}, {:+g})", off,
-                                   sign * axis.x, sign * axis.y, sign * axis.z);
-        found.came_out = fmt::format("orthonormal to {:.3g}", error);
-        if (std::isnan(error)) {
-          found.outcome = StabilityOutcome::not_a_number;
-          return found;
-        }
-        if (error > found.bound) found.outcome = StabilityOutcome::wrong;
-      }
+  for (const BesideAxis& beside : beside_axes()) {
+    const double error = method.error(beside.normal());
+    if (error <= found.amount) continue;
+    found.amount = error;
+    found.put_in = fmt::format("a normal {:g} rad from ({:+g}, {:+g}, {:+g})", beside.off,
+                               beside.axis.x, beside.axis.y, beside.axis.z);
+    found.came_out = fmt::format("orthonormal to {:.3g}", error);
+    if (std::isnan(error)) {
+      found.outcome = StabilityOutcome::not_a_number;
+      return found;
     }
+    if (error > found.bound) found.outcome = StabilityOutcome::wrong;
   }
   return found;
 }

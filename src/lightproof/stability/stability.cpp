@@ -63,34 +63,48 @@ void check_names(const StabilityMethods& methods, const StabilityOptions& option
   }
 }
 
+/// What one method makes of one case.
+template <class Method>
+StabilityRecord record_of(const StabilityCase& row, std::string_view kind, Trial<Method> trial,
+                          const Method& method, const TrialOptions& options) {
+  Finding found = finding_of(trial, method, options);
+  return {row.number,
+          std::string(kind),
+          method_name(method),
+          has_known_defects(method),
+          found.outcome,
+          found.amount,
+          found.bound,
+          found.put_in.empty() ? std::string(row.input) : found.put_in,
+          std::move(found.came_out),
+          row.may_refuse,
+          std::string(limit_of(row, method_name(method)))};
+}
+
+using Cells = std::vector<WorkCell<StabilityRecord>>;
+
+/// Adds the cells of one case and one kind of method.
+template <class Method>
+void add_cells(Cells& cells, const StabilityCase& row, std::string_view kind,
+               const std::vector<Method>& methods, Trial<Method> trial,
+               const StabilityOptions& options) {
+  if (trial == nullptr) return;
+  for (const Method& method : methods) {
+    if (!is_asked_for(method_name(method), options.methods)) continue;
+    cells.push_back({fmt::format("stability/{:02}/{}/{}", row.number, kind, method_name(method)),
+                     [&row, kind, trial, &method, trial_options = options.trial] {
+                       return record_of(row, kind, trial, method, trial_options);
+                     }});
+  }
+}
+
 /// The cells of all cases, in the order in which their records are shown.
-std::vector<WorkCell<StabilityRecord>> cells_of(const StabilityMethods& methods,
-                                                const StabilityOptions& options) {
-  std::vector<WorkCell<StabilityRecord>> cells;
+Cells cells_of(const StabilityMethods& methods, const StabilityOptions& options) {
+  Cells cells;
   for (const StabilityCase& row : stability_cases()) {
     if (!is_case_asked_for(row, options.cases)) continue;
     for_kinds(methods, [&](std::string_view kind, const auto& all, auto member) {
-      const auto trial = row.*member;
-      if (trial == nullptr) return;
-      for (const auto& method : all) {
-        if (!is_asked_for(method_name(method), options.methods)) continue;
-        cells.push_back(
-            {fmt::format("stability/{:02}/{}/{}", row.number, kind, method_name(method)),
-             [&row, &method, trial, kind, trial_options = options.trial] {
-               Finding found = finding_of(trial, method, trial_options);
-               return StabilityRecord{row.number,
-                                      std::string(kind),
-                                      method_name(method),
-                                      has_known_defects(method),
-                                      found.outcome,
-                                      found.amount,
-                                      found.bound,
-                                      found.put_in.empty() ? std::string(row.input) : found.put_in,
-                                      std::move(found.came_out),
-                                      row.may_refuse,
-                                      std::string(limit_of(row, method_name(method)))};
-             }});
-      }
+      add_cells(cells, row, kind, all, row.*member, options);
     });
   }
   return cells;
