@@ -71,6 +71,18 @@ TEST(RecommendCommand, RefusesAnErrorThatNoMethodReaches) {
                                   HasSubstr("the floor of")));
 }
 
+// Before costs are measured, which takes seconds.
+TEST(RecommendCommand, RefusesTexelsOfAnotherMapping) {
+  const TemporaryFolder folder;
+  write_map(folder / "faces.exr", {48, 8});
+  const Finished finished = lightproof({"recommend", (folder / "faces.exr").string(), "--preset",
+                                        "cube", "--material", "lambert", "--error", "2%", "-q"},
+                                       folder / "");
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_THAT(finished.err, AllOf(HasSubstr("a recommendation needs those of latitude"),
+                                  HasSubstr("--resample")));
+}
+
 TEST(RecommendCommand, RefusesWhatItCannotRead) {
   const TemporaryFolder folder;
   const auto message = [&](Words words) {
@@ -85,9 +97,6 @@ TEST(RecommendCommand, RefusesWhatItCannotRead) {
   }
   EXPECT_THAT(message({"constant", "--material", "lambert", "--error", "20"}),
               HasSubstr("\"20\" is 2000 %, and errors are below 1000 %; 20 % is written 20%"));
-  EXPECT_THAT(message({"constant", "--material", "lambert", "--error", "2%", "--size", "48x8",
-                       "--preset", "cube"}),
-              HasSubstr("--resample"));
   EXPECT_THAT(message({"constant", "--material", "glass", "--error", "2%"}), HasSubstr("lambert"));
   EXPECT_THAT(message({"constant", "--material", "ggx:7", "--error", "2%"}),
               HasSubstr("0.02 to 1"));

@@ -66,7 +66,7 @@ DrawnFrom expected_from(double light, double lobe) {
 std::string consequence_of(const RecommendedMethod& choice, double light, double lobe) {
   if (!choice.has_samples) {
     return fmt::format(
-        ", and what is made beforehand is off by no more than {}",
+        ", and what is made beforehand has an error of {}",
         plain_percent(std::isfinite(choice.measured_error) ? choice.measured_error
                                                            : choice.predicted_error));
   }
