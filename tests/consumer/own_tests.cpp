@@ -1,5 +1,5 @@
-// Somebody else's test program: one line of GoogleTest for a sampler. With BROKEN it claims the density
-// that renderers use, which uniform samples have on no map, and must fail.
+// Somebody else's test program: one line of GoogleTest for a sampler. With BROKEN it claims the
+// density that renderers use, which uniform samples have on no map, and must fail.
 #include <gtest/gtest.h>
 
 #include "lightproof/testing/gtest.h"

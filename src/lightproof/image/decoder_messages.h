@@ -72,7 +72,7 @@ struct EncodeRequest {
   PictureFormat format = PictureFormat::openexr;
   std::vector<std::string> channels = {};
   std::vector<LevelSize> levels = {};  ///< one, or the levels of an OpenEXR file of tiles
-  int tile = 0;                   ///< pixels of a side; 0 for lines
+  int tile = 0;                        ///< pixels of a side; 0 for lines
   Attributes attributes = {};
   std::optional<Chromaticities> chromaticities = {};
   static auto fields(auto& r) {
@@ -82,8 +82,8 @@ struct EncodeRequest {
 };
 
 struct DecoderFailure {
-  bool is_memory = false;  ///< the file asks for more than a picture of its size can need
-  std::string reason = {};      ///< complete, but for the file's name
+  bool is_memory = false;   ///< the file asks for more than a picture of its size can need
+  std::string reason = {};  ///< complete, but for the file's name
   static auto fields(auto& f) { return std::tie(f.is_memory, f.reason); }
 };
 
