@@ -11,6 +11,7 @@
 #include <ImfThreading.h>
 #include <ImfTileDescription.h>
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <array>
@@ -37,6 +38,8 @@ constexpr std::uint64_t kFewSamples = std::uint64_t{1} << 18U;
 /// No picture that is accepted takes more.
 constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30U;
 constexpr std::uint64_t kBytesOfSample = 4;
+/// What fresh memory is filled with where it matters.
+constexpr int kUnwritten = 0xfe;
 /// Of a chunk: as it is stored, as it is decompressed, and what lies between.
 constexpr std::uint64_t kCopies = 3;
 
@@ -193,6 +196,10 @@ class ExrDecoder : public PictureDecoder {
   }
 
   void read(const ReadRequest& request, const TakeRows& take) override {
+    // A damaged chunk by DWAA or DWAB may show memory that nobody wrote to, and OpenEXR does not
+    // notice. Filled with these bytes it holds no number as a 16-bit float, and a negative one as a
+    // 32-bit float: what looks at the values refuses either.
+    if (stored_.compression.starts_with("dwa")) ::mallopt(M_PERTURB, ~kUnwritten & 0xff);
     if (cost().samples > kFewSamples) Imf::setGlobalThreadCount(threads_to_use());
     if (request.from_luminance_chroma) {
       read_luminance_chroma(take);
