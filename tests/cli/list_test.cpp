@@ -42,12 +42,12 @@ TEST_P(List, StartsEachLineWithAName) {
 TEST_P(List, SaysTheSameAsJson) {
   const Finished list = lightproof({"list", GetParam().name, "--json"});
   EXPECT_EQ(list.exit_code, 0);
-  const auto json = nlohmann::json::parse(list.out).at("entries");
+  const auto listed = nlohmann::json::parse(list.out).at("entries");
   const Words text = lines(lightproof({"list", GetParam().name}).out);
-  ASSERT_EQ(json.size(), text.size());
+  ASSERT_EQ(listed.size(), text.size());
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const std::string name = json[i].at("name");
-    const std::string description = json[i].at("description");
+    const std::string name = listed[i].at("name");
+    const std::string description = listed[i].at("description");
     EXPECT_THAT(text[i], StartsWith(name + " "));
     EXPECT_THAT(text[i], HasSubstr("  " + description));
     EXPECT_THAT(description, Not(IsEmpty()));
@@ -67,9 +67,9 @@ TEST(ListSamplers, MarksKnownDefects) {
 }
 
 TEST(ListEstimators, SaysWhatTheyAre) {
-  const auto json = nlohmann::json::parse(lightproof({"list", "estimators", "--json"}).out);
+  const auto listed = nlohmann::json::parse(lightproof({"list", "estimators", "--json"}).out);
   const auto entry = [&](const std::string& name) {
-    for (const auto& one : json.at("entries")) {
+    for (const auto& one : listed.at("entries")) {
       if (one.at("name") == name) return one;
     }
     return nlohmann::json();
@@ -85,9 +85,9 @@ TEST(ListEstimators, SaysWhatTheyAre) {
 TEST(ListPoints, SaysWhatTheyAre) {
   const Finished list = lightproof({"list", "points"});
   EXPECT_THAT(list.out, HasSubstr("in float as shaders have it; defect: "));
-  const auto json = nlohmann::json::parse(lightproof({"list", "points", "--json"}).out);
+  const auto listed = nlohmann::json::parse(lightproof({"list", "points", "--json"}).out);
   const auto entry = [&](const std::string& name) {
-    for (const auto& one : json.at("entries")) {
+    for (const auto& one : listed.at("entries")) {
       if (one.at("name") == name) return one;
     }
     return nlohmann::json();
