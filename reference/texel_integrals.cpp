@@ -9,19 +9,19 @@
 #include "lightproof/core/measure.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/warp/lat_long.h"
+#include "reference/gauss_rule.h"
 
 namespace lightproof::reference {
 namespace {
 
-/// Gauss-Legendre nodes in [0,1] (Abramowitz & Stegun 25.4.29).
-struct GaussNode {
-  double place;
-  double weight;
-};
-constexpr std::array<GaussNode, 2> kTwoNodes = {
-    {{0.21132486540518712, 0.5}, {0.78867513459481288, 0.5}}};
-constexpr std::array<GaussNode, 3> kThreeNodes = {
-    {{0.11270166537925831, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.88729833462074169, 5.0 / 18.0}}};
+const std::array<GaussNode, 2>& two_nodes() {
+  static const GaussRule<2> rule;
+  return rule.nodes();
+}
+const std::array<GaussNode, 3>& three_nodes() {
+  static const GaussRule<3> rule;
+  return rule.nodes();
+}
 
 double angle_between(Direction a, Direction b) {
   return 2.0 * std::asin(std::min(1.0, 0.5 * glm::length(a - b)));
@@ -69,7 +69,7 @@ template <std::size_t kNodes>
 NodesAlong<kNodes> nodes_along(const std::array<GaussNode, kNodes>& rule, double t, double height) {
   NodesAlong<kNodes> along;
   for (std::size_t i = 0; i < kNodes; ++i) {
-    const double at = t + (rule[i].place - 0.5) * height;
+    const double at = t + (rule[i].at - 0.5) * height;
     const auto [sine, cosine] = latitude(at);
     along.nodes[i] = {sine, cosine, rule[i].weight * solid_angle_per_square(at)};
   }
@@ -81,7 +81,7 @@ NodesAcross<kNodes> nodes_across(const std::array<GaussNode, kNodes>& rule, doub
                                  double width) {
   NodesAcross<kNodes> across;
   for (std::size_t i = 0; i < kNodes; ++i) {
-    const double longitude = kPi - 2.0 * kPi * (s + (rule[i].place - 0.5) * width);
+    const double longitude = kPi - 2.0 * kPi * (s + (rule[i].at - 0.5) * width);
     across.nodes[i] = {std::cos(longitude), std::sin(longitude), rule[i].weight};
   }
   return across;
@@ -130,13 +130,13 @@ NodesAcross<kNodes> nodes_of(const std::array<GaussNode, kNodes>& rule, const We
 /// A band or a wedge of whole texels, whose nodes are there for all of them.
 template <class Extended>
 struct WithNodes : Extended {
-  decltype(nodes_of(kTwoNodes, std::declval<Extended>())) two;
-  decltype(nodes_of(kThreeNodes, std::declval<Extended>())) three;
+  decltype(nodes_of(two_nodes(), std::declval<Extended>())) two;
+  decltype(nodes_of(three_nodes(), std::declval<Extended>())) three;
 
   WithNodes(double at, double extent)
       : Extended(at, extent),
-        two(nodes_of(kTwoNodes, static_cast<const Extended&>(*this))),
-        three(nodes_of(kThreeNodes, static_cast<const Extended&>(*this))) {}
+        two(nodes_of(two_nodes(), static_cast<const Extended&>(*this))),
+        three(nodes_of(three_nodes(), static_cast<const Extended&>(*this))) {}
 };
 
 template <class Extended>
@@ -178,8 +178,8 @@ double integral(const PeakedDensity& density, const AnyBand& band, const AnyWedg
     return wedge.width * band.height *
            by_nodes(density, nodes_of(rule, band), nodes_of(rule, wedge));
   };
-  if (!on_horizon && size < 0.05 * smooth) return by(kTwoNodes);
-  if (!on_horizon && size < 0.33 * smooth) return by(kThreeNodes);
+  if (!on_horizon && size < 0.05 * smooth) return by(two_nodes());
+  if (!on_horizon && size < 0.33 * smooth) return by(three_nodes());
   const double width = 0.5 * wedge.width;
   const double height = 0.5 * band.height;
   const std::array<Wedge, 2> across = {Wedge(wedge.s - 0.5 * width, width),

@@ -62,6 +62,41 @@ TEST(SlopeFinding, SetsTheAliasTableAgainstTheMonotoneOne) {
             finding + ": the largest difference of 2 sets");
 }
 
+AccuracyLine table_of(const char* name, std::size_t bytes, double scale) {
+  AccuracyLine line = falling(name, "environment", scale);
+  line.bytes = bytes;
+  return line;
+}
+
+TEST(MemoryFinding, NamesTheSmallestTableThatIsAsGood) {
+  const AccuracyLine whole = table_of("whole", 8U << 20U, 1.0);
+  EXPECT_EQ(memory_finding(chart_of({whole, table_of("quarter", 512U << 10U, 1.05),
+                                     table_of("sixteenth", 32U << 10U, 1.5)})),
+            "At 64 samples quarter (512\u00a0KiB, 13\u00a0%) is as good as whole (8\u00a0MiB, "
+            "12\u00a0%)");
+  EXPECT_EQ(
+      memory_finding(chart_of({whole, table_of("sixteenth", 32U << 10U, 1.5)})),
+      "At 64 samples no smaller table of the map is as good as whole (8\u00a0MiB, 12\u00a0%)");
+  EXPECT_EQ(memory_finding(chart_of({falling("a", "environment")})), "Error against memory");
+}
+
+TEST(MemoryChart, HasWhatKeepsMemoryAt64SamplesOrAsItIs) {
+  AccuracyLine kept = look_up("map", 1e-7, 0.3);
+  kept.bytes = 4096;
+  AccuracyLine predicted = table_of("b", 1024, 2.0);
+  for (AccuracyPoint& point : predicted.points) point.predicted = 1.1 * point.rmse;
+  const json rows = json::parse(
+      memory_chart({chart_of({falling("a", "MIS"), predicted, kept})}))["data"]["values"];
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0]["estimator"], "b");
+  EXPECT_EQ(rows[0]["rmse"], 0.25);
+  EXPECT_EQ(rows[0]["predicted"], 0.275);
+  EXPECT_EQ(rows[1]["bytes"], 4096.0);
+  EXPECT_EQ(rows[1]["rmse"], 0.3);
+  EXPECT_TRUE(rows[1]["predicted"].is_null());
+  EXPECT_EQ(memory_chart({chart_of({falling("a", "MIS")})}), "");
+}
+
 TEST(AccuracyChartSpec, MarksWhatLeadsAndDashesWhatIsPredicted) {
   AccuracyLine rare = falling("uniform", "uniform", 30.0);
   for (AccuracyPoint& point : rare.points) point.predicted = 1.1 * point.rmse;

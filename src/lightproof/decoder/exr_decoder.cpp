@@ -40,6 +40,10 @@ constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30U;
 constexpr std::uint64_t kBytesOfSample = 4;
 /// What fresh memory is filled with where it matters.
 constexpr int kUnwritten = 0xfe;
+/// Larger chunks than these get memory that the system has cleared: filling it would take as much
+/// of it as a file claims to need.
+constexpr std::uint64_t kMostFilled = std::uint64_t{16} << 20U;
+constexpr int kAlwaysCleared = 1 << 20;
 /// Of a chunk: as it is stored, as it is decompressed, and what lies between.
 constexpr std::uint64_t kCopies = 3;
 
@@ -180,15 +184,8 @@ class ExrDecoder : public PictureDecoder {
     const auto width = static_cast<std::uint64_t>(stored_.data.width);
     const auto height = static_cast<std::uint64_t>(stored_.data.height);
     const std::uint64_t of_pixel = kBytesOfSample * stored_.channels.size();
-    std::uint64_t chunk =
-        width *
-        static_cast<std::uint64_t>(
-            std::ranges::find(kCompressions, stored_.compression, &CompressionInfo::name)->rows);
-    std::uint64_t tile_row = 0;
-    if (stored_.tile_width > 0) {
-      chunk = static_cast<std::uint64_t>(stored_.tile_width * stored_.tile_height);
-      tile_row = width * static_cast<std::uint64_t>(stored_.tile_height);
-    }
+    const std::uint64_t tile_row = width * static_cast<std::uint64_t>(stored_.tile_height);
+    const std::uint64_t chunk = pixels_of_chunk();
     // The library keeps two chunks a thread.
     const std::uint64_t chunks = kCopies * (2 * static_cast<std::uint64_t>(threads_to_use()) + 2);
     return {.bytes = std::min(kMostBytes, of_pixel * (chunks * chunk + tile_row)),
@@ -196,10 +193,7 @@ class ExrDecoder : public PictureDecoder {
   }
 
   void read(const ReadRequest& request, const TakeRows& take) override {
-    // A damaged chunk by DWAA or DWAB may show memory that nobody wrote to, and OpenEXR does not
-    // notice. Filled with these bytes it holds no number as a 16-bit float, and a negative one as a
-    // 32-bit float: what looks at the values refuses either.
-    if (stored_.compression.starts_with("dwa")) ::mallopt(M_PERTURB, ~kUnwritten & 0xff);
+    if (stored_.compression.starts_with("dwa")) fill_fresh_memory();
     if (cost().samples > kFewSamples) Imf::setGlobalThreadCount(threads_to_use());
     if (request.from_luminance_chroma) {
       read_luminance_chroma(take);
@@ -209,6 +203,28 @@ class ExrDecoder : public PictureDecoder {
   }
 
  private:
+  std::uint64_t pixels_of_chunk() const {
+    if (stored_.tile_width > 0) {
+      return static_cast<std::uint64_t>(stored_.tile_width * stored_.tile_height);
+    }
+    const auto* const compression =
+        std::ranges::find(kCompressions, stored_.compression, &CompressionInfo::name);
+    return static_cast<std::uint64_t>(stored_.data.width) *
+           static_cast<std::uint64_t>(compression->rows);
+  }
+
+  /// A damaged chunk by DWAA or DWAB may show memory that nobody wrote to, and OpenEXR does not
+  /// notice. Filled with these bytes it holds no number as a 16-bit float, and a negative one as a
+  /// 32-bit float: what looks at the values refuses either.
+  void fill_fresh_memory() const {
+    const std::uint64_t bytes = kBytesOfSample * stored_.channels.size() * pixels_of_chunk();
+    if (bytes <= kMostFilled) {
+      ::mallopt(M_PERTURB, ~kUnwritten & 0xff);
+    } else {
+      ::mallopt(M_MMAP_THRESHOLD, kAlwaysCleared);
+    }
+  }
+
   /// Lines [first, last) of the picture, in the order from the top, a few at a time. What no sample
   /// was written to is NaN, which a later look at the values finds.
   template <class ReadLines>

@@ -26,6 +26,10 @@ std::string accuracy_chart(const std::vector<AccuracyChart>& charts);
 /// with lists to choose from; empty if there are none.
 std::string slope_chart(const std::vector<AccuracyChart>& charts);
 
+/// RMSE over the mean at 64 samples, measured and predicted, against the memory that an estimator
+/// keeps beside the map, with lists to choose from; empty if none keeps any.
+std::string memory_chart(const std::vector<AccuracyChart>& charts);
+
 /// The fastest method over roughness and the width of the light, as a map; a list chooses whether
 /// biased ones count. `regimes` has some.
 std::string regime_chart(const MethodRegimes& regimes);

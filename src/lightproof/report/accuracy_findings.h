@@ -28,4 +28,7 @@ std::string regime_finding(const MethodRegimes& regimes);
 /// The alias tables and the monotone ones with the same points, by their fitted slopes.
 std::string slope_finding(const AccuracyChart& chart);
 
+/// The smallest table of the map whose error at 64 samples is within a tenth of the best one's.
+std::string memory_finding(const AccuracyChart& chart);
+
 }  // namespace lightproof
