@@ -130,7 +130,11 @@ TEST(DirectionsFigure, SaysHowFastBatchesAndSinglesAreAndHowDensitiesDiffer) {
   EXPECT_NE(figure.find("On 8192\u00d74096 in batches packed_alias draws a direction 99 times"),
             std::string::npos);
   EXPECT_NE(figure.find("busy, 1.3"), std::string::npos);
-  EXPECT_EQ(chart["layer"][0]["encoding"]["color"]["field"], "density");
+  for (const json& layer : chart["layer"]) {
+    EXPECT_EQ(layer["encoding"]["color"]["field"], "density");
+  }
+  EXPECT_EQ(chart["layer"][1]["transform"][0]["filter"], "datum.busy === 'busy'");
+  EXPECT_FALSE(chart["layer"][1]["mark"]["filled"]) << "hollow";
   EXPECT_EQ(directions_figure({}), "");
 }
 

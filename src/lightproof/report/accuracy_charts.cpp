@@ -36,13 +36,6 @@ constexpr std::array<std::array<const char*, 3>, 10> kFamilyLooks = {{
     {"precomputed", "#1a1a1a", "circle"},
 }};
 
-SeriesStyle family_style(const std::string& family) {
-  for (const auto& [name, colour, shape] : kFamilyLooks) {
-    if (family == name) return {family, colour, shape};
-  }
-  return {family, "#7a7a7a", "circle"};
-}
-
 std::vector<SeriesStyle> family_styles(const std::vector<AccuracyChart>& charts) {
   std::vector<std::string> names;
   for (const AccuracyChart& chart : charts) {
@@ -296,6 +289,13 @@ Json dots(const std::vector<SeriesStyle>& styles) {
 }
 
 }  // namespace
+
+SeriesStyle family_style(const std::string& family) {
+  for (const auto& [name, colour, shape] : kFamilyLooks) {
+    if (family == name) return {family, colour, shape};
+  }
+  return {family, "#7a7a7a", "circle"};
+}
 
 Place place_of(const AccuracyChart& chart) { return {chart.map, chart.receiver, chart.material}; }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "lightproof/page/chart_parts.h"
 #include "lightproof/report/place_choice.h"
 #include "lightproof/results/accuracy_chart.h"
 #include "lightproof/results/method_regime.h"
@@ -16,6 +17,9 @@ Place place_of(const AccuracyChart& chart);
 /// The lists to choose one of the charts by; the first that nothing occludes stands first.
 /// `charts` is not empty.
 PlaceChoice accuracy_choice(const std::vector<AccuracyChart>& charts);
+
+/// How a family of estimators looks, the same in every chart.
+SeriesStyle family_style(const std::string& family);
 
 /// RMSE over the mean against the time of a shading point, log-log, with lists to choose from.
 /// Leading lines are coloured by family, the others grey until their family is clicked in the

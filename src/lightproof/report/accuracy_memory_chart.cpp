@@ -108,7 +108,8 @@ std::string memory_chart(const std::vector<AccuracyChart>& charts) {
     }
   }
   if (rows.empty()) return "";
-  const std::vector<SeriesStyle> styles = series_styles(families);
+  std::vector<SeriesStyle> styles;
+  for (const std::string& family : unique_names(families)) styles.push_back(family_style(family));
   const Json legend = {{"title", nullptr}, {"columns", 4}};
   const Json colour = series(styles, &SeriesStyle::colour, legend);
   const Json shape = series(styles, &SeriesStyle::shape, legend);

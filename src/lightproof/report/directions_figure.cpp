@@ -87,6 +87,25 @@ constexpr std::string_view kNote =
     "finished. "
     "Times are of one thread, in processor time; a hollow mark met a busy machine.";
 
+/// The marks of a quiet machine, filled, or of a busy one.
+Json marks(const char* machine, bool filled, const std::vector<SeriesStyle>& styles) {
+  const Json legend = {{"title", "density"}, {"columns", 3}};
+  Json layer = {{"transform", {{{"filter", fmt::format("datum.busy === '{}'", machine)}}}},
+                {"mark", {{"type", "point"}, {"filled", filled}, {"size", 70}, {"opacity", 1}}},
+                {"encoding",
+                 {{"color", series(styles, &SeriesStyle::colour, legend)},
+                  {"shape", series(styles, &SeriesStyle::shape, legend)},
+                  {"tooltip",
+                   {tooltip("series", "sampler", ""), tooltip("density", "density", ""),
+                    tooltip("order", "drawn", ""), tooltip("ns", "ns per direction", ".3~g"),
+                    tooltip("baseline", "times as fast as the usual way", ""),
+                    tooltip("limit", "share of the limit's speed", ""),
+                    tooltip("wall", "wall over processor time", ".3~g")}}}}};
+  // The styles are of densities: the field that they are chosen by is that one.
+  for (const char* channel : {"color", "shape"}) layer["encoding"][channel]["field"] = "density";
+  return layer;
+}
+
 }  // namespace
 
 std::string directions_finding(const std::vector<DirectionRecord>& records, Extent extent) {
@@ -123,7 +142,6 @@ std::string directions_chart(const std::vector<DirectionRecord>& records, Extent
   Json x = quantity("ns", "time per direction (ns, log)", "log");
   x["axis"] = log_axis(times.low, times.high);
   x["scale"]["padding"] = 16;
-  const Json legend = {{"title", "density"}, {"columns", 3}};
   Json chart = base_chart(320);
   chart["data"] = {{"values", rows}};
   chart["encoding"] = {{"x", x},
@@ -132,23 +150,7 @@ std::string directions_chart(const std::vector<DirectionRecord>& records, Extent
                          {"type", "nominal"},
                          {"title", nullptr},
                          {"sort", {{"field", "ns"}, {"op", "min"}}}}}};
-  chart["layer"] = {
-      {{"mark", {{"type", "point"}, {"filled", true}, {"size", 70}, {"strokeWidth", 2}}},
-       {"encoding",
-        {{"color", series(styles, &SeriesStyle::colour, legend)},
-         {"fillOpacity",
-          {{"condition", {{"test", "datum.busy == 'busy'"}, {"value", 0}}}, {"value", 1}}},
-         {"shape", series(styles, &SeriesStyle::shape, legend)},
-         {"tooltip",
-          {tooltip("series", "sampler", ""), tooltip("density", "density", ""),
-           tooltip("order", "drawn", ""), tooltip("ns", "ns per direction", ".3~g"),
-           tooltip("baseline", "times as fast as the usual way", ""),
-           tooltip("limit", "share of the limit's speed", ""),
-           tooltip("wall", "wall over processor time", ".3~g")}}}}}};
-  // The styles are of densities: the field that they are chosen by is that one.
-  for (const char* channel : {"color", "shape"}) {
-    chart["layer"][0]["encoding"][channel]["field"] = "density";
-  }
+  chart["layer"] = {marks("quiet", true, styles), marks("busy", false, styles)};
   return text_of(chart);
 }
 
