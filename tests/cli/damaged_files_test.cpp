@@ -23,7 +23,7 @@ using nlohmann::json;
 using testing::AnyOf;
 using testing::HasSubstr;
 
-/// Of the program and of each decoder; together less than 300 MB.
+/// Peak memory of the program and of each decoder; together less than 300 MB.
 constexpr long kMostKilobytes = 100'000;
 
 std::uint64_t number_of(const char* variable, std::uint64_t usual) {

@@ -13,10 +13,10 @@ struct DamagedFile {
   std::string bytes;
 };
 
-/// Of every compression of OpenEXR, in lines and in tiles, of every coding of Radiance pictures,
-/// and of a PNG and a JPEG picture: `each` files with one to eight damages (bytes and bits changed,
-/// numbers made huge, pieces cut out, copied or doubled, the end cut off). The same seed gives the
-/// same files.
+/// Files of every compression of OpenEXR, in lines and in tiles, of every coding of Radiance
+/// pictures, and of a PNG and a JPEG picture: `each` of a kind with one to eight damages (bytes and
+/// bits changed, numbers made huge, pieces cut out, copied or doubled, the end cut off). The same
+/// seed gives the same files.
 std::vector<DamagedFile> damaged_files(const std::filesystem::path& folder, std::uint64_t each,
                                        std::uint64_t seed);
 

@@ -26,7 +26,7 @@ template <class Made>
 struct Timed {
   Made made;
   double elapsed_seconds;
-  /// Of all threads of the program: meant for work beside which nothing else runs.
+  /// Processor time of all threads of the program: meant for work beside which nothing else runs.
   double processor_seconds;
 };
 

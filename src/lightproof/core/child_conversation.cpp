@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,9 +16,8 @@
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/core/spawn.h"
 #include "lightproof/core/system_call.h"
-
-extern char** environ;
 
 namespace lightproof {
 namespace fs = std::filesystem;
@@ -34,7 +32,7 @@ constexpr milliseconds kAttention{50};
 constexpr milliseconds kGrace{500};
 /// Descriptors of the child: standard ones, then the file.
 constexpr int kFile = 3;
-/// Of this process, out of the way of those of the child.
+/// The least descriptor of this process that is out of the way of those of the child.
 constexpr int kOutOfTheWay = 10;
 constexpr const char* kNowhere = "/dev/null";
 constexpr int kSocketBuffer = 1 << 20;
@@ -61,57 +59,26 @@ class Descriptor {
   int descriptor_;
 };
 
-/// The same file under a number that no redirection of the child overwrites.
+/// A descriptor of the same file, under a number that no redirection of the child overwrites.
 int moved_away(const fs::path& program, int descriptor) {
   const int moved = ::fcntl(descriptor, F_DUPFD_CLOEXEC, kOutOfTheWay);
   if (moved < 0) fail(program, errno);
   return moved;
 }
 
-class Redirections {
- public:
-  Redirections(int socket, int file) {
-    require(posix_spawn_file_actions_init(&actions_));
-    try {
-      require(posix_spawn_file_actions_adddup2(&actions_, socket, STDIN_FILENO));
-      require(posix_spawn_file_actions_adddup2(&actions_, socket, STDOUT_FILENO));
-      // A bare root has no devices: words that nobody reads may as well fail.
-      require(
-          ::access(kNowhere, W_OK) == 0
-              ? posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, kNowhere, O_WRONLY, 0)
-              : posix_spawn_file_actions_addclose(&actions_, STDERR_FILENO));
-      if (file >= 0) require(posix_spawn_file_actions_adddup2(&actions_, file, kFile));
-    } catch (...) {
-      posix_spawn_file_actions_destroy(&actions_);
-      throw;
-    }
+pid_t start(const fs::path& program, const std::vector<std::string>& arguments, int socket,
+            int file) {
+  Redirections redirections;
+  redirections.duplicate(socket, STDIN_FILENO);
+  redirections.duplicate(socket, STDOUT_FILENO);
+  // A bare root has no devices: words that nobody reads may as well fail.
+  if (::access(kNowhere, W_OK) == 0) {
+    redirections.open(STDERR_FILENO, kNowhere, O_WRONLY);
+  } else {
+    redirections.close(STDERR_FILENO);
   }
-  ~Redirections() { posix_spawn_file_actions_destroy(&actions_); }
-  Redirections(const Redirections&) = delete;
-  Redirections& operator=(const Redirections&) = delete;
-
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-  /// They fail for lack of memory alone.
-  static void require(int error) {
-    if (error != 0) throw std::system_error(error, std::generic_category(), "posix_spawn");
-  }
-
-  posix_spawn_file_actions_t actions_{};
-};
-
-pid_t start(const fs::path& program, std::vector<std::string> arguments, int socket, int file) {
-  arguments.insert(arguments.begin(), program.string());
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
-  const Redirections redirections(socket, file);
-  pid_t child = 0;
-  const int error =
-      posix_spawn(&child, program.c_str(), redirections.get(), nullptr, argv.data(), environ);
-  if (error != 0) fail(program, error);
-  return child;
+  if (file >= 0) redirections.duplicate(file, kFile);
+  return spawn(program, arguments, redirections);
 }
 
 }  // namespace

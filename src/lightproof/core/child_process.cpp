@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,10 +17,9 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/failure.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/core/spawn.h"
 #include "lightproof/core/system_call.h"
 #include "lightproof/core/temporary_folder.h"
-
-extern char** environ;
 
 namespace lightproof {
 namespace fs = std::filesystem;
@@ -38,46 +36,13 @@ constexpr milliseconds kGrace{2000};
       fmt::format("{}: {}: {}", program.string(), what, std::generic_category().message(error)));
 }
 
-/// Standard output to nowhere, standard error to a file.
-class Redirections {
- public:
-  explicit Redirections(const fs::path& errors) {
-    require(posix_spawn_file_actions_init(&actions_));
-    try {
-      require(posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0));
-      require(posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, errors.c_str(),
-                                               O_WRONLY | O_CREAT | O_TRUNC, 0600));
-    } catch (...) {
-      posix_spawn_file_actions_destroy(&actions_);
-      throw;
-    }
-  }
-  ~Redirections() { posix_spawn_file_actions_destroy(&actions_); }
-  Redirections(const Redirections&) = delete;
-  Redirections& operator=(const Redirections&) = delete;
-
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-  /// They fail for lack of memory alone.
-  static void require(int error) {
-    if (error != 0) throw std::system_error(error, std::generic_category(), "posix_spawn");
-  }
-
-  posix_spawn_file_actions_t actions_{};
-};
-
-pid_t start(const fs::path& program, std::vector<std::string> arguments, const fs::path& errors) {
-  arguments.insert(arguments.begin(), program.string());
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
-  const Redirections redirections(errors);
-  pid_t child = 0;
-  const int error =
-      posix_spawn(&child, program.c_str(), redirections.get(), nullptr, argv.data(), environ);
-  if (error != 0) fail(program, "cannot be started", error);
-  return child;
+/// Standard output goes to nowhere, standard error to a file.
+pid_t start(const fs::path& program, const std::vector<std::string>& arguments,
+            const fs::path& errors) {
+  Redirections redirections;
+  redirections.open(STDOUT_FILENO, "/dev/null", O_WRONLY);
+  redirections.open(STDERR_FILENO, errors, O_WRONLY | O_CREAT | O_TRUNC);
+  return spawn(program, arguments, redirections);
 }
 
 /// The exit status of a child that has ended; none while it runs.

@@ -29,7 +29,7 @@ std::uint64_t samples_in(int first, int last, int step) {
   return static_cast<std::uint64_t>(floor(last) - floor(std::int64_t{first} - 1));
 }
 
-/// Of the samples of all channels in a rectangle of pixels.
+/// Bytes of the samples of all channels in a rectangle of pixels.
 std::uint64_t bytes_of(const Imf::Header& header, const Imath::Box2i& box) {
   std::uint64_t bytes = 0;
   const Imf::ChannelList& channels = header.channels();

@@ -44,7 +44,7 @@ constexpr int kUnwritten = 0xfe;
 /// of it as a file claims to need.
 constexpr std::uint64_t kMostFilled = std::uint64_t{16} << 20U;
 constexpr int kAlwaysCleared = 1 << 20;
-/// Of a chunk: as it is stored, as it is decompressed, and what lies between.
+/// Copies of a chunk that are in memory: as it is stored, as it is decompressed, and in between.
 constexpr std::uint64_t kCopies = 3;
 
 class Stream : public Imf::IStream {

@@ -73,7 +73,7 @@ class Rows {
   Rows(const EncodeRequest& request, LevelSize size)
       : channels_(request.channels), width_(static_cast<std::size_t>(size.width)) {}
 
-  /// As many rows as are kept at once, in whole tiles.
+  /// The number of rows that are kept at once, in whole tiles.
   int at_once(int height, int tile) const {
     const std::size_t of_row = sizeof(float) * channels_.size() * width_;
     const int unit = std::max(tile, 1);

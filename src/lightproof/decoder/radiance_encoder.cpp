@@ -97,7 +97,8 @@ std::string header_line(std::string text) {
   return text + '\n';
 }
 
-/// The same readers ask for the empty line right behind FORMAT.
+/// The header. Its empty line stands right behind FORMAT, as readers that descend from rgbe.c
+/// expect.
 std::string header(Extent extent, const Attributes& attributes, const Chromaticities& primaries) {
   std::string text = "#?RADIANCE\n";
   for (const Attribute& attribute : attributes) {

@@ -13,7 +13,7 @@
 namespace lightproof {
 namespace {
 
-/// Of so many texels parts are kept: those of a cube take some 30 MB then.
+/// The most texels of a map whose parts are kept: those of a cube take some 30 MB then.
 constexpr std::size_t kMostKeptTexels = std::size_t{1} << 16U;
 
 /// ∫ sin^2(theta) ds dt over one texel of row y.

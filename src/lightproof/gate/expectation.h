@@ -109,9 +109,9 @@ void set_smooth_rows(Expectation& expectation, std::vector<double> masses);
 /// The effect of rounding on a distribution, 0 where its masses are not summed.
 RoundingEffect rounding_effect(const Expectation& expectation, std::uint64_t samples);
 
-/// Of the exact side of a target density on a map what says how texels are drawn: masses, rows,
-/// columns, density, transform and flags. No bins and no moments, which take long. Throws
-/// InputError if the map is black.
+/// The part of the exact side of a target density on a map that says how texels are drawn: masses,
+/// rows, columns, density, transform and flags. It has no bins and no moments, which take long.
+/// Throws InputError if the map is black.
 Expectation texel_expectation_of(const EnvironmentMap& map, TargetDensity target);
 
 /// The exact side of a target density on a map. Throws InputError if the map is black.

@@ -118,7 +118,7 @@ std::uint64_t bytes_of(SampleType type) {
   return 4;
 }
 
-/// Of all samples of channels that have one at every pixel.
+/// Bytes of all samples of the channels that have one at every pixel.
 std::uint64_t bytes_of_samples(const StoredPicture& stored) {
   std::uint64_t bytes = 0;
   for (const StoredChannel& channel : stored.channels) {

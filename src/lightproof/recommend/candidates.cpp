@@ -51,7 +51,7 @@ std::optional<Obstacle> too_much_memory(const MethodDemand& demand, const Candid
                               1e-6 * candidate.cost.bytes, 1e-6 * memory)};
 }
 
-/// Of a candidate whatever its number of samples.
+/// What stops a candidate, whatever its number of samples; none if nothing does.
 std::optional<Obstacle> obstacle_of_method(const MethodDemand& demand, const Candidate& candidate,
                                            std::string_view left_out) {
   const EstimatorInfo& info = *candidate.info;

@@ -56,7 +56,7 @@ struct Obstacle {
 class FamilyObstacles {
  public:
   void add(EstimatorFamily family, Obstacle obstacle);
-  /// Of all families but those that are reached, in their order.
+  /// What stops every family but those that are reached, in their order.
   std::vector<UnreachedFamily> list(const std::vector<EstimatorFamily>& reached) const;
 
  private:

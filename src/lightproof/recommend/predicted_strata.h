@@ -14,9 +14,9 @@ class PredictedStrata {
  public:
   PredictedStrata(const MapSummary& summary, const Material& material);
 
-  /// Of "environment B", drawn by a monotone table.
+  /// The variances of "environment B", drawn by a monotone table.
   StrataVariances of_map(const ShadingPoint& at) const;
-  /// Of "brdf".
+  /// The variances of "brdf".
   StrataVariances of_lobes(const ShadingPoint& at) const;
 
  private:

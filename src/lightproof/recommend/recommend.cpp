@@ -114,7 +114,7 @@ EstimatorFilter filter_of(std::span<const Candidate> tried) {
   return [names](const EstimatorInfo& info) { return names.contains(info.name); };
 }
 
-/// As predicted.
+/// The answer by predictions alone.
 Answer predicted_answer(Candidates all, const MethodDemand& demand, Extent map) {
   Answer answer;
   std::vector<EstimatorFamily> reached;
@@ -129,7 +129,7 @@ Answer predicted_answer(Candidates all, const MethodDemand& demand, Extent map) 
   return answer;
 }
 
-/// As verified.
+/// The search for an answer that measured runs bear out.
 class Trial {
  public:
   Trial(const EnvironmentMap& map, const RecommendOptions& options, const MethodDemand& demand,

@@ -62,7 +62,7 @@ struct Verified {
   AccuracyLine line;  ///< of one point
 
   const AccuracyPoint& point() const { return line.points.front(); }
-  /// As measured, of a shading point with its part of the set-up.
+  /// Measured processor time of a shading point, with its part of the set-up.
   double seconds(const MethodDemand& demand) const {
     return point().seconds +
            line.set_up_processor_seconds / static_cast<double>(demand.shading_points);

@@ -70,7 +70,7 @@ Json point_row(const AccuracyLine& line, std::size_t i) {
               {"seconds", rounded(p.seconds)},
               {"setup", rounded(line.set_up_processor_seconds)},
               {"time", seconds_text(p.seconds)},
-              {"prepared", seconds_text(line.set_up_seconds)},
+              {"prepared", seconds_text(line.set_up_processor_seconds)},
               {"memory", bytes_text(static_cast<double>(line.bytes))},
               {"rmse", measured ? drawn(p.rmse) : Json(nullptr)}};
   row["low"] = measured && half > 0.0 ? drawn(std::max(p.rmse - half, 0.05 * p.rmse)) : row["rmse"];
@@ -91,7 +91,7 @@ Json floor_row(const AccuracyLine& line, double right) {
           {"right", rounded(right)}};
 }
 
-/// Of one choice of how the set-up is shared.
+/// A point of the front by one choice of how the set-up is shared.
 Json front_row(const ChartPoint& p, std::size_t choice) {
   return {{"seconds", rounded(total_seconds(p, kSetUpShares[choice]))},
           {"setup", 0},
@@ -197,7 +197,7 @@ Json accuracy_tooltip() {
           tooltip("family", "family", ""),
           tooltip("n", "samples N", ",d"),
           tooltip("time", "time of a shading point", ""),
-          tooltip("prepared", "set-up", ""),
+          tooltip("prepared", "set-up, all threads", ""),
           tooltip("memory", "memory beside the map", ""),
           tooltip("error", "RMSE / mean \u00b1 SE", ""),
           tooltip("exact", "predicted", "")};

@@ -29,6 +29,7 @@ Json json_of(const AccuracyLine& r) {
           {"family", r.family},
           {"biased", r.is_biased},
           {"set_up_seconds", number(r.set_up_seconds)},
+          {"set_up_processor_seconds", number(r.set_up_processor_seconds)},
           {"bytes", r.bytes},
           {"slope", number(r.slope)},
           {"slope_error", number(r.slope_error)},
@@ -62,16 +63,17 @@ Json accuracy_json(const std::vector<AccuracyChart>& charts) { return list_of(ch
 
 std::string accuracy_csv(const std::vector<AccuracyChart>& charts) {
   std::string csv =
-      "map,receiver,material,quality,shading_points,estimator,family,biased,set_up_seconds,bytes,"
-      "slope,slope_error,floor,samples,seconds,rmse,rmse_error,predicted\n";
+      "map,receiver,material,quality,shading_points,estimator,family,biased,set_up_seconds,"
+      "set_up_processor_seconds,bytes,slope,slope_error,floor,samples,seconds,rmse,rmse_error,"
+      "predicted\n";
   for (const AccuracyChart& chart : charts) {
     for (const AccuracyLine& line : chart.lines) {
       for (const AccuracyPoint& p : line.points) {
-        csv += csv_parts::row(chart.map, chart.receiver, chart.material, chart.quality,
-                              chart.shading_points, line.estimator, line.family,
-                              line.is_biased ? "yes" : "no", line.set_up_seconds, line.bytes,
-                              line.slope, line.slope_error, line.floor, p.samples, p.seconds,
-                              p.rmse, p.rmse_error, p.predicted);
+        csv += csv_parts::row(
+            chart.map, chart.receiver, chart.material, chart.quality, chart.shading_points,
+            line.estimator, line.family, line.is_biased ? "yes" : "no", line.set_up_seconds,
+            line.set_up_processor_seconds, line.bytes, line.slope, line.slope_error, line.floor,
+            p.samples, p.seconds, p.rmse, p.rmse_error, p.predicted);
       }
     }
   }

@@ -10,7 +10,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using json_parts::number;
 
-/// Of this document. Grows when a key changes its meaning or goes away.
+/// The version of this document. It grows when a key changes its meaning or goes away.
 constexpr int kFormatVersion = 1;
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }

@@ -15,10 +15,10 @@ namespace lightproof {
 /// Processor time in milliseconds.
 struct MethodTime {
   double point = std::numeric_limits<double>::quiet_NaN();  ///< of one shading point, no set-up
-  /// Of all threads, once for the map and the material.
+  /// Set-up of all threads, once for the map and the material.
   double set_up = std::numeric_limits<double>::quiet_NaN();
 
-  /// Of one shading point, with its part of a set-up that so many share.
+  /// Time of one shading point, with its part of a set-up that so many share.
   double with_set_up(std::uint64_t shading_points) const {
     return point + set_up / static_cast<double>(shading_points);
   }
@@ -36,7 +36,7 @@ struct RecommendedMethod {
   /// nothing is in the way of light; not a number if there is no prediction.
   double predicted_error = std::numeric_limits<double>::quiet_NaN();
   bool is_upper_bound = false;  ///< whether the prediction is no more than one
-  /// The same as measured, whatever is in the way; not a number if it was not.
+  /// The measured error, whatever is in the way; not a number if it was not measured.
   double measured_error = std::numeric_limits<double>::quiet_NaN();
   double measured_error_error = std::numeric_limits<double>::quiet_NaN();  ///< its standard error
   MethodTime predicted_time = {};  ///< from costs on other maps

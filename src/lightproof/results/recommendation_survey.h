@@ -86,7 +86,7 @@ struct RecommendationSurvey {
   }
 };
 
-/// Of some cases.
+/// The shares of some cases in which error and time were kept.
 SurveyShares shares_of(const std::vector<SurveyCase>& cases);
 
 /// The cases on maps that were looked at while building, or those on the others.

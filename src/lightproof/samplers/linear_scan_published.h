@@ -16,8 +16,8 @@ class LinearScanPublished {
  public:
   /// Refers to the map, which must outlive the sampler. Throws InputError if the map is black.
   LinearScanPublished(const EnvironmentMap& map, TargetDensity target);
-  /// As listed: without that refusal. On a black map, or one of whose texels is not a number, no
-  /// sum ever reaches a random number.
+  /// The sampler as listed: without that refusal. On a black map, or one of whose texels is not a
+  /// number, no sum ever reaches a random number.
   static LinearScanPublished as_listed(const EnvironmentMap& map, TargetDensity target) {
     return {map, target, AsListed{}};
   }

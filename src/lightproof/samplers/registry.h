@@ -44,7 +44,7 @@ struct SamplerInfo {
   bool inverts_shared_cdf;    ///< must return the texel of LinearScan for every point
   /// Builds the sampler of a map, which must outlive it. Throws InputError if the map is black.
   AnySampler (*make)(const EnvironmentMap& map, DensitySpace density_space);
-  /// Of a published one: builds it as it is listed, without any check of the map, which may hold
+  /// Builds a published sampler as it is listed, without any check of the map, which may hold
   /// what is no radiance. Null for all others.
   AnySampler (*make_as_listed)(const EnvironmentMap& map, DensitySpace density_space) = nullptr;
 

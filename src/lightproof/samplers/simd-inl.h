@@ -87,7 +87,7 @@ struct NumberPairs {
   hn::Vec<D> first;
   hn::Vec<D> second;
 };
-/// The pairs at these indices, which count numbers from `base` on, as many as a vector has lanes. A
+/// A de-interleaving load of the pairs at these offsets from `base`, in doubles, one for a lane. A
 /// load a pair: on AMD's processors two gathers take longer.
 template <std::size_t kLanes>
 HWY_INLINE auto load_number_pairs(const double* base, const std::int64_t* indices) {

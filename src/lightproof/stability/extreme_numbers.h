@@ -20,7 +20,7 @@ struct FloatNumbers {
 Finding check_every_float(const SamplerOnMap& on_map, Coordinate coordinate, double other,
                           FloatNumbers numbers);
 
-/// Of a sampler that inverts rows by t, then columns by s: whether each column of a row, or each
+/// Whether, in a sampler that inverts rows by t, then columns by s, each column of a row, or each
 /// row, gets as many of the numbers as its declared probability says, to within one number at
 /// either end, what the sampler declares of its rounding, and floats. The amount is the largest
 /// difference in numbers.

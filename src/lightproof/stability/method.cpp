@@ -100,7 +100,7 @@ std::vector<FrameMethod> frame_methods() {
   return methods;
 }
 
-/// As MeanMethod::mean_of_spikes says.
+/// MeanMethod::mean_of_spikes of this mean.
 template <class Mean, class Value>
 double mean_of_spikes(std::uint64_t count) {
   Mean mean;

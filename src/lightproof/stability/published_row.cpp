@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kNumbers = 1U << 24U;
 
-/// As the listing averages a row.
+/// The average of a row as the listing computes it.
 float average_of(std::span<const float> weights) {
   float sum = 0.0F;
   for (const float weight : weights) sum += weight;

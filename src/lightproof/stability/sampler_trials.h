@@ -37,7 +37,8 @@ class SamplerOnMap {
 Finding check_samples(std::span<const SquarePoint> points, std::span<const TexelSample> samples,
                       Extent extent);
 
-/// The same, and whether every sample lies in a texel with light and has a positive density.
+/// What is wrong with samples, and whether every one lies in a texel with light and has a positive
+/// density.
 Finding check_drawn(const SamplerOnMap& on_map, std::span<const SquarePoint> points);
 
 /// Whether the density is the declared one at every texel, within the rounding that the sampler
