@@ -18,12 +18,12 @@
 #include <string>
 #include <vector>
 
+#include "bench/level_error.h"
 #include "bench/registration.h"
 #include "bench/timing.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/prefilter/brdf_map.h"
 #include "lightproof/prefilter/specular_chain.h"
-#include "lightproof/warp/lat_long.h"
 #include "reference/texel_integrals.h"
 
 namespace lightproof::bench {
@@ -52,27 +52,11 @@ const TimedMap& timed_map(std::string_view name) {
   return timed;
 }
 
-double square(glm::dvec3 value) { return glm::dot(value, value); }
-
-/// Mean square of the difference relative to that of the exact values, over solid angle.
-double relative_square(const Grid<Rgb>& level, const Grid<glm::dvec3>& exact) {
-  double difference = 0.0;
-  double whole = 0.0;
-  for (int y = 0; y < exact.extent().height; ++y) {
-    const double area = texel_solid_angle(exact.extent(), y);
-    for (int x = 0; x < exact.extent().width; ++x) {
-      difference += area * square(glm::dvec3(level(x, y)) - exact(x, y));
-      whole += area * square(exact(x, y));
-    }
-  }
-  return difference / whole;
-}
-
 void set_errors(benchmark::State& state, const SpecularChain& chain, const ExactChain& exact) {
   double sum = 0.0;
   double worst = 0.0;
   for (std::size_t i = 0; i < exact.size(); ++i) {
-    const double error = relative_square(chain[i + 1], exact[i]);
+    const double error = relative_mean_square(chain[i + 1], exact[i]);
     sum += error;
     worst = std::max(worst, error);
   }

@@ -1,6 +1,7 @@
 // clang-tidy over every source file. A file that passed before is skipped while nothing that it is
 // made of has changed: its own text, our headers, the compile command, .clang-tidy. Exit 1 if there
-// are findings. Arguments name files: only what these belong to is checked.
+// are findings. Arguments name files: only what these belong to is checked. With --deep, paths are
+// followed into the functions that are called, which doubles the time: ci/thorough does it.
 //
 // Files go in groups, as one text each, most of which is the headers: a third of the time. They
 // stand in the opposite order of that in which the build takes them, so that an include which is
@@ -13,6 +14,8 @@ import { dirname, join, relative, resolve, sep } from "node:path";
 import { fileURLToPath } from "node:url";
 import { groupsOf } from "./unity.mjs";
 
+const isDeep = process.argv.includes("--deep");
+const analysis = isDeep ? "mode=shallow" : "mode=shallow,ipa=none";
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "..");
 const stamps = join(root, "build", "lint");
 const build = join(stamps, "commands");
@@ -138,13 +141,13 @@ function content(path) {
 }
 
 /**
- * The path analysis takes most of the time: only the product's own code gets it, and it follows
- * calls no deeper than its shallow mode does.
+ * The path analysis takes most of the time: only the product's own code gets it, and it stays inside
+ * of each function, or in its shallow mode.
  */
 function checks({ parts }) {
   // One file's alias may be another one's header's: only the build tells what is hidden.
   const words = parts.length > 1 ? ["-Wno-shadow"] : [];
-  if (isProduct(parts[0].file)) words.push("-Xclang", "-analyzer-config", "-Xclang", "mode=shallow");
+  if (isProduct(parts[0].file)) words.push("-Xclang", "-analyzer-config", "-Xclang", analysis);
   const options = words.map((word) => `--extra-arg=${word}`);
   return isProduct(parts[0].file) ? options : ["--checks=-clang-analyzer-*", ...options];
 }
@@ -183,7 +186,8 @@ writeFileSync(join(stamps, "compile_commands.json"), JSON.stringify(database));
 const all = commands.map((unit) => ({ ...unit, stamp: stampOf(unit) }));
 // The longest first: no core waits at the end.
 const size = (unit) => unit.parts.reduce((sum, { file }) => sum + sourcesOf(file).size, 0);
-const wanted = process.argv.slice(2).map((file) => resolve(file));
+const isOption = (word) => word.startsWith("--");
+const wanted = process.argv.slice(2).filter((word) => !isOption(word)).map((file) => resolve(file));
 const isWanted = ({ parts }) =>
   wanted.length === 0 || parts.some(({ file }) => wanted.includes(file));
 const isNew = (unit) => !known.has(relative(stamps, unit.stamp));

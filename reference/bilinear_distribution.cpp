@@ -7,8 +7,8 @@
 #include <span>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/gauss_rule.h"
 #include "lightproof/core/parallel.h"
-#include "reference/gauss_rule.h"
 
 namespace lightproof::reference {
 namespace {
@@ -34,8 +34,8 @@ double integrate(double low, double high, const Function& f) {
 /// The lower edge of patch k of a line: the centre of texel k - 1, but not beyond [0,1].
 double patch_edge(int k, int texels) { return std::clamp((k - 0.5) / texels, 0.0, 1.0); }
 
-int patch_at(double place, int texels) {
-  return std::clamp(static_cast<int>(std::floor(place * texels + 0.5)), 0, texels);
+int patch_at(double position, int texels) {
+  return std::clamp(static_cast<int>(std::floor(position * texels + 0.5)), 0, texels);
 }
 
 /// The texels at both ends of a patch.
@@ -44,12 +44,12 @@ std::array<int, 2> ends_of(int patch, int texels, bool wraps) {
   return {std::max(patch - 1, 0), std::min(patch, texels - 1)};
 }
 
-double along_weight(MapMeasure measure, double t) {
+double weight_at(MapMeasure measure, double t) {
   return measure == MapMeasure::square ? 1.0 : sin_theta(t);
 }
 
-std::function<double(double)> weight_along(MapMeasure measure) {
-  return [measure](double t) { return along_weight(measure, t); };
+std::function<double(double)> weight_function(MapMeasure measure) {
+  return [measure](double t) { return weight_at(measure, t); };
 }
 
 /// The parts of all tents of a line for each of `cells` equal cells.
@@ -66,7 +66,7 @@ std::vector<std::vector<TentPart>> parts_of_cells(int cells, int texels, bool wr
 double one(double /*s*/) { return 1.0; }
 
 /// ∫ of the interpolation around a line of texels, from the lower edge of a patch to a place in it.
-double since_edge(std::span<const double> line, int patch, double place) {
+double since_edge(std::span<const double> line, int patch, double position) {
   const auto texels = static_cast<int>(line.size());
   const auto [first, second] = ends_of(patch, texels, true);
   const double low = line[static_cast<std::size_t>(first)];
@@ -76,7 +76,8 @@ double since_edge(std::span<const double> line, int patch, double place) {
     return (1.0 - rising) * low + rising * high;
   };
   const double edge = patch_edge(patch, texels);
-  return std::max(0.0, place - edge) * 0.5 * (value(edge) + value(place));  // exact: it is linear
+  return std::max(0.0, position - edge) * 0.5 *
+         (value(edge) + value(position));  // exact: it is linear
 }
 
 /// 0, then the same from 0 to the upper edge of every patch.
@@ -109,8 +110,8 @@ std::vector<TentPart> tent_parts(double low, double high, int texels, bool wraps
     const double to = std::min(high, patch_edge(patch + 1, texels));
     if (!(from < to)) continue;
     const auto [first, second] = ends_of(patch, texels, wraps);
-    const auto rising = [&](double place) {
-      return std::clamp(place * texels + 0.5 - patch, 0.0, 1.0);
+    const auto rising = [&](double position) {
+      return std::clamp(position * texels + 0.5 - patch, 0.0, 1.0);
     };
     add(first, integrate(from, to, [&](double x) { return (1.0 - rising(x)) * weight(x); }));
     add(second, integrate(from, to, [&](double x) { return rising(x) * weight(x); }));
@@ -135,7 +136,7 @@ Grid<double> bilinear_masses(const EnvironmentMap& map, TargetDensity target, Ex
       interpolated_by(target.density_space, luminance_of(map, target.weights));
   const auto across = parts_of_cells(cells.width, extent.width, true, one);
   const auto along = parts_of_cells(cells.height, extent.height, false,
-                                    weight_along(position_measure(target.density_space)));
+                                    weight_function(position_measure(target.density_space)));
   Grid<double> folded({cells.width, extent.height});
   parallel_for(static_cast<std::size_t>(extent.height), [&](std::size_t row) {
     const int y = static_cast<int>(row);
@@ -170,13 +171,14 @@ BilinearTransform::BilinearTransform(const EnvironmentMap& map, TargetDensity ta
     sums_.push_back(sums_over(luminance_.row(y)));
     row_means_.push_back(sums_.back().back());
   }
-  along_.push_back(0.0);
+  marginal_.push_back(0.0);
   for (int row = 0; row <= extent_.height; ++row) {
     const double low = patch_edge(row, extent_.height);
-    along_.push_back(along_.back() + mass_along(low, patch_edge(row + 1, extent_.height)));
+    marginal_.push_back(marginal_.back() + marginal_mass(low, patch_edge(row + 1, extent_.height)));
   }
-  total_ = along_.back();
-  for (const TentPart& part : tent_parts(0.0, 1.0, extent_.height, false, weight_along(measure_))) {
+  total_ = marginal_.back();
+  for (const TentPart& part :
+       tent_parts(0.0, 1.0, extent_.height, false, weight_function(measure_))) {
     for (int x = 0; x < extent_.width; ++x) {
       columns_[static_cast<std::size_t>(x)] += part.integral * luminance_(x, part.texel);
     }
@@ -189,21 +191,21 @@ double BilinearTransform::below(const Sums& sums, std::span<const double> line, 
   return sums[static_cast<std::size_t>(patch)] + since_edge(line, patch, s);
 }
 
-double BilinearTransform::mass_along(double low, double high) const {
+double BilinearTransform::marginal_mass(double low, double high) const {
   const int row = patch_at(0.5 * (low + high), extent_.height);
   const auto [first, second] = ends_of(row, extent_.height, false);
   const double from = row_means_[static_cast<std::size_t>(first)];
   const double to = row_means_[static_cast<std::size_t>(second)];
   return integrate(low, high, [&](double t) {
     const double rising = std::clamp(t * extent_.height + 0.5 - row, 0.0, 1.0);
-    return (from + rising * (to - from)) * along_weight(measure_, t);
+    return (from + rising * (to - from)) * weight_at(measure_, t);
   });
 }
 
 std::vector<double> BilinearTransform::rows() const {
   std::vector<double> masses;
-  for (std::size_t row = 0; row + 1 < along_.size(); ++row) {
-    masses.push_back((along_[row + 1] - along_[row]) / total_);
+  for (std::size_t row = 0; row + 1 < marginal_.size(); ++row) {
+    masses.push_back((marginal_[row + 1] - marginal_[row]) / total_);
   }
   return masses;
 }
@@ -215,8 +217,8 @@ RosenblattPoint BilinearTransform::operator()(SquarePoint at) const {
   const auto low = static_cast<std::size_t>(first);
   const auto high = static_cast<std::size_t>(second);
   const auto index = static_cast<std::size_t>(row);
-  const double before = mass_along(patch_edge(row, extent_.height), at.t);
-  const double along = (along_[index] + before) / total_;
+  const double before = marginal_mass(patch_edge(row, extent_.height), at.t);
+  const double marginal = (marginal_[index] + before) / total_;
   const auto mix = [&](double a, double b) { return (1.0 - rising) * a + rising * b; };
   const double whole = mix(row_means_[low], row_means_[high]);
   const double left = mix(below(sums_[low], luminance_.row(first), at.s),
@@ -227,11 +229,11 @@ RosenblattPoint BilinearTransform::operator()(SquarePoint at) const {
   const auto share = [](double part, double of) {
     return of > 0.0 ? std::clamp(part / of, 0.0, 1.0) : 0.0;
   };
-  return {std::min(along, 1.0),
+  return {std::min(marginal, 1.0),
           share(left, whole),
           share(below(column_sums_, columns_, at.s), column_sums_.back()),
           row,
-          share(before, along_[index + 1] - along_[index]),
+          share(before, marginal_[index + 1] - marginal_[index]),
           share(left - patch_left, patch_right - patch_left)};
 }
 

@@ -57,14 +57,14 @@ class BilinearTransform {
   /// ∫ from 0 to s of the interpolation around a line of texels.
   double below(const Sums& sums, std::span<const double> line, double s) const;
   /// ∫ of the marginal over t between two positions of one row of patches.
-  double mass_along(double low, double high) const;
+  double marginal_mass(double low, double high) const;
 
   Extent extent_;
   MapMeasure measure_;      ///< in which the density is that of the interpolation
   Grid<double> luminance_;  ///< as interpolated_by() says
   std::vector<double> row_means_;
-  std::vector<double> along_;    ///< mass below the lower edge of every row of patches, and 1
-  std::vector<double> columns_;  ///< luminance of the columns, weighted as their rows are
+  std::vector<double> marginal_;  ///< mass below the lower edge of every row of patches, and 1
+  std::vector<double> columns_;   ///< luminance of the columns, weighted as their rows are
   Sums column_sums_;
   std::vector<Sums> sums_;  ///< those of every row of texels
   double total_ = 0.0;

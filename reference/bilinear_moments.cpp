@@ -6,11 +6,11 @@
 #include <numeric>
 #include <vector>
 
+#include "lightproof/core/gauss_rule.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/image/look_up.h"
 #include "lightproof/warp/lat_long.h"
 #include "reference/bilinear_distribution.h"
-#include "reference/gauss_rule.h"
 #include "reference/kernel_nodes.h"
 #include "reference/quadrature.h"
 

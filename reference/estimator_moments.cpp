@@ -87,17 +87,18 @@ Totals totals_of(const Grid<double>& radiance, const Mapping& mapping) {
   return totals;
 }
 
-/// Where a texel lies: what of its place the moments depend on.
-struct PlaceOfTexel {
+/// How large a texel is, in the square and on the sphere.
+struct TexelArea {
   double solid_angle;  ///< of a texel, in steradian
   double area;         ///< of a texel, over the square
 };
 
 /// Adds one texel: E[X^m] = ∫ (L k)^m / p^(m-1) d(omega).
-void accumulate(LightMoments& moments, double radiance, const Totals& totals, PlaceOfTexel place,
+void accumulate(LightMoments& moments, double radiance, const Totals& totals, TexelArea texel_area,
                 const TexelIntegrals& texel) {
   const double a = 2.0 * kPi * kPi * totals.mean;
-  const double c = 2.0 * kPi * kPi * totals.solid_angle_sum * place.area / place.solid_angle;
+  const double c =
+      2.0 * kPi * kPi * totals.solid_angle_sum * texel_area.area / texel_area.solid_angle;
   const auto raise = [](EstimatorMoments& m, double x) { m.largest = std::max(m.largest, x); };
   raise(moments[SampledDensity::uniform], kSphere * radiance * texel.largest);
   raise(moments[SampledDensity::material], radiance * texel.largest_ratio);
@@ -173,10 +174,10 @@ std::vector<LightMoments> light_moments(const Kernel& kernel,
                                     [&](const auto& grid) { return grid(x, y) == 0.0; });
       if (dark) continue;
       const SquareCell cell = texel_cell(extent, x, y);
-      const PlaceOfTexel of_texel = {mapping.kind == MappingKind::lat_long
-                                         ? texel_solid_angle(extent, y)
-                                         : cell_solid_angle(mapping, cell),
-                                     1.0 / static_cast<double>(extent.count())};
+      const TexelArea of_texel = {mapping.kind == MappingKind::lat_long
+                                      ? texel_solid_angle(extent, y)
+                                      : cell_solid_angle(mapping, cell),
+                                  1.0 / static_cast<double>(extent.count())};
       const TexelIntegrals texel = is_plain(mapping) ? integrate(kernel, quadrature, parts, x, y)
                                                      : integrate(kernel, mapping, extent, cell);
       if (texel.plain[0] == 0.0) continue;

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "lightproof/core/gauss_rule.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/warp/lat_long.h"
-#include "reference/gauss_rule.h"
 
 namespace lightproof::reference {
 namespace {

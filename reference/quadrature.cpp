@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "lightproof/core/gauss_rule.h"
 #include "lightproof/warp/lat_long.h"
-#include "reference/gauss_rule.h"
 
 namespace lightproof::reference {
 namespace {

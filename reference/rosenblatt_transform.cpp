@@ -46,17 +46,18 @@ RosenblattPoint RosenblattTransform::operator()(SquarePoint at, int x, int y) co
 RosenblattPoint RosenblattTransform::operator()(SquarePoint at, double cosine, int x, int y) const {
   const auto column = static_cast<std::size_t>(x);
   const auto row = static_cast<std::size_t>(y);
-  const double across = std::clamp(at.s * extent_.width - x, 0.0, 1.0);
+  const double share_of_cell = std::clamp(at.s * extent_.width - x, 0.0, 1.0);
   const double low = heights_[row];
-  const double along = measure_ == MapMeasure::square
-                           ? std::clamp(at.t * extent_.height - y, 0.0, 1.0)
-                           : std::clamp((cosine - low) / (heights_[row + 1] - low), 0.0, 1.0);
-  return {between(rows_[row], rows_[row + 1], along),
-          between(within_(x, y), within_(x + 1, y), across),
-          between(columns_[column], columns_[column + 1], across),
+  const double share_of_row =
+      measure_ == MapMeasure::square
+          ? std::clamp(at.t * extent_.height - y, 0.0, 1.0)
+          : std::clamp((cosine - low) / (heights_[row + 1] - low), 0.0, 1.0);
+  return {between(rows_[row], rows_[row + 1], share_of_row),
+          between(within_(x, y), within_(x + 1, y), share_of_cell),
+          between(columns_[column], columns_[column + 1], share_of_cell),
           y,
-          along,
-          across};
+          share_of_row,
+          share_of_cell};
 }
 
 }  // namespace lightproof::reference

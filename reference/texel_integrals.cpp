@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "lightproof/core/gauss_rule.h"
 #include "lightproof/core/measure.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/warp/lat_long.h"
-#include "reference/gauss_rule.h"
 
 namespace lightproof::reference {
 namespace {

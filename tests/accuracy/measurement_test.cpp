@@ -141,6 +141,19 @@ TEST(Accuracy, OfABiasedEstimatorStopsAtItsFloor) {
   EXPECT_EQ(line_of(chart, "environment B").floor, 0.0);
 }
 
+TEST(Accuracy, HasNoFloorWhereTheBiasVanishesWithMoreSamples) {
+  const EnvironmentMap map = make_synthetic_map("gradient", {64, 32});
+  const auto is_one = [](const EstimatorInfo& info) { return info.bias_vanishes; };
+  const AccuracyChart chart =
+      chart_of(map, scene("sphere", "ggx:0.3"), {.quality = kSmall, .select = is_one});
+  ASSERT_EQ(chart.lines.size(), 2U);
+  for (const AccuracyLine& line : chart.lines) {
+    EXPECT_TRUE(line.is_biased) << line.estimator;
+    EXPECT_EQ(line.floor, 0.0) << line.estimator;
+    EXPECT_LT(line.points.back().rmse, 0.2 * line.points.front().rmse) << line.estimator;
+  }
+}
+
 TEST(Accuracy, OfWhatIgnoresOcclusionIsBiasedWhereLightIsBlocked) {
   const EnvironmentMap map = make_synthetic_map("constant", {64, 32});
   const auto is_table = [](const EstimatorInfo& info) { return info.name == "sh-9"; };

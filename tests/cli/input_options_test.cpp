@@ -36,6 +36,16 @@ TEST_F(InputOptions, RepairTakesNoFileForItsValue) {
   EXPECT_THAT(unknown.err, HasSubstr("--repair"));
 }
 
+TEST_F(InputOptions, APresetSaysHowAFileIsReadAndIsRefusedWithoutOne) {
+  const Finished refused = quick_gate({"constant", "--preset", "cube"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--preset: it says how the pixels of a file map"));
+  write_map(path("a.exr"));
+  EXPECT_EQ(
+      quick_gate({"constant", path("a.exr"), "--preset", "exr-area", "--sampler", "alias"}).exit_code,
+      0);
+}
+
 TEST_F(InputOptions, ChannelsAreOneOrThree) {
   write_map(path("a.exr"));
   for (const char* names : {"R,G", "R,G,B,A", "R,,B", ","}) {

@@ -94,20 +94,18 @@ TEST(ProgressBar, IsWipedBeforeTheTable) {
 }
 
 TEST(ProgressLines, ArePrintedWhereNobodySeesABar) {
-  Words words = {"gate", "sun-sky", "--size", "64x32", "-n", "2^21", "--progress", "1"};
+  Words words = {"gate", "sun-sky", "--size", "64x32", "-n", "2^20", "-t", "1", "--progress", "1"};
   const Finished gate = Process(lightproof_command(words)).wait(std::chrono::seconds(600));
   EXPECT_EQ(gate.exit_code, 0);
   EXPECT_THAT(gate.err, testing::ContainsRegex("(^|\n)gate: [0-9]+ %(, [0-9hmins ]+ left)?\n"));
   EXPECT_THAT(gate.err, Not(HasSubstr("\r")));
   words.back() = "0";
-  words.emplace_back("-t");
-  words.emplace_back("0");
   EXPECT_THAT(Process(lightproof_command(words)).wait(std::chrono::seconds(600)).err, IsEmpty());
 }
 
 TEST(ProgressLines, AreNotPrintedIfQuiet) {
   const Finished gate = Process(lightproof_command({"gate", "sun-sky", "--size", "64x32", "-n",
-                                                    "2^21", "--progress", "1", "-q"}))
+                                                    "2^20", "-t", "1", "--progress", "1", "-q"}))
                             .wait(std::chrono::seconds(600));
   EXPECT_THAT(gate.err, IsEmpty());
 }

@@ -123,7 +123,7 @@ void expect_predicted(const Stage& stage, std::string_view material_name,
       const EstimatorPrediction* row = prediction.find(name);
       ASSERT_NE(row, nullptr) << name;
       ASSERT_TRUE(row->error) << name;
-      EXPECT_EQ(row->error->law, ErrorLaw::independent) << name;
+      EXPECT_EQ(row->error->model, ErrorModel::independent) << name;
       const double error = std::sqrt(variance) / exact[map].mean;
       EXPECT_NEAR(row->error->at(1), error, kRelative * error + kOfMean)
           << material_name << " " << maps[map].name << " " << name;
@@ -237,7 +237,7 @@ TEST(Prediction, OfBiasedEstimatorsIsTheirError) {
       for (const double each : exact) mean += each / stage.count();
       const Prediction prediction = predict(summary, material, stage.points);
       for (const EstimatorPrediction& row : prediction.estimators) {
-        if (!row.error || row.error->law != ErrorLaw::constant) continue;
+        if (!row.error || row.error->model != ErrorModel::constant) continue;
         const BoundEstimator bound =
             estimator_by_name(row.estimator).prepare(map).bind(stage.scene, material);
         double square = 0.0;
@@ -328,19 +328,20 @@ TEST(Prediction, HasARowForEveryEstimatorWithAReasonIfThereIsNone) {
       EXPECT_EQ(predicted.reason, info.unpredicted) << info.name;
       if (!predicted.error) continue;
       EXPECT_TRUE(std::isfinite(predicted.error->at(1))) << info.name;
-      EXPECT_EQ(predicted.error->law == ErrorLaw::at_most, info.kind == EstimatorKind::point_set)
+      EXPECT_EQ(predicted.error->model == ErrorModel::at_most,
+                info.kind == EstimatorKind::point_set)
           << info.name;
-      EXPECT_EQ(predicted.error->law == ErrorLaw::constant, info.ignores_budget) << info.name;
+      EXPECT_EQ(predicted.error->model == ErrorModel::constant, info.ignores_budget) << info.name;
     }
     EXPECT_EQ(row, prediction.estimators.size());
   }
 }
 
 TEST(Prediction, OfSamplesFallsAsTheRootOfTheirNumberDownToTheBias) {
-  const PredictedError unbiased = {ErrorLaw::independent, 4.0, 0.0};
+  const PredictedError unbiased = {ErrorModel::independent, 4.0, 0.0};
   EXPECT_DOUBLE_EQ(unbiased.at(1), 2.0);
   EXPECT_DOUBLE_EQ(unbiased.at(16), 0.5);
-  const PredictedError look_up = {ErrorLaw::constant, 0.0009, 0.04};
+  const PredictedError look_up = {ErrorModel::constant, 0.0009, 0.04};
   EXPECT_DOUBLE_EQ(look_up.at(1), 0.05);
   EXPECT_DOUBLE_EQ(look_up.at(1000), 0.05);
 }

@@ -34,8 +34,9 @@ MethodCost cost_of(const char* estimator, double set_up, double bytes, double se
 
 MethodCosts costs_of(std::vector<MethodCost> costs) { return {costs, costs}; }
 
-EstimatorPrediction predicted(const char* estimator, ErrorLaw law, double variance, double bias) {
-  return {estimator_by_name(estimator).name, PredictedError{law, variance, bias}, ""};
+EstimatorPrediction predicted(const char* estimator, ErrorModel model, double variance,
+                              double bias) {
+  return {estimator_by_name(estimator).name, PredictedError{model, variance, bias}, ""};
 }
 
 std::vector<std::string> names_of(const Candidates& candidates) {
@@ -50,9 +51,9 @@ struct Choice {
       costs_of({cost_of("environment B", 0.1, 4e6, 1e-6), cost_of("brdf", 0.0, 0.0, 1e-6),
                 cost_of("sh-9", 1.0, 200.0, 3e-8)});
   Prediction prediction = {1.0,
-                           {predicted("environment B", ErrorLaw::independent, 1.0, 0.0),
-                            predicted("brdf", ErrorLaw::independent, 4.0, 0.0),
-                            predicted("sh-9", ErrorLaw::constant, 0.0, 0.03)}};
+                           {predicted("environment B", ErrorModel::independent, 1.0, 0.0),
+                            predicted("brdf", ErrorModel::independent, 4.0, 0.0),
+                            predicted("sh-9", ErrorModel::constant, 0.0, 0.03)}};
 
   Candidates of(const MethodDemand& demand) const {
     return candidates_for(demand, prediction, costs, kMap);
@@ -61,15 +62,16 @@ struct Choice {
 
 TEST(SamplesFor, AreTheVarianceOverWhatTheBiasLeaves) {
   const EstimatorInfo& one = estimator_by_name("environment B");
-  EXPECT_EQ(samples_for(one, {ErrorLaw::independent, 1.0, 0.0}, 0.1), 100U);
-  EXPECT_EQ(samples_for(one, {ErrorLaw::independent, 1.001, 0.0}, 0.1), 101U);
-  EXPECT_EQ(samples_for(one, {ErrorLaw::independent, 1.0, 0.06}, 0.1), 157U);  // 1 / .0064
-  EXPECT_EQ(samples_for(one, {ErrorLaw::independent, 1.0, 0.1}, 0.1), std::nullopt);
-  EXPECT_EQ(samples_for(one, {ErrorLaw::independent, 0.0, 0.0}, 0.1), 1U);
-  EXPECT_EQ(samples_for(estimator_by_name("mis balance"), {ErrorLaw::independent, 1.001, 0.0}, 0.1),
-            102U);
-  EXPECT_EQ(samples_for(one, {ErrorLaw::constant, 0.0, 0.09}, 0.1), 1U);
-  EXPECT_EQ(samples_for(one, {ErrorLaw::constant, 0.0, 0.11}, 0.1), std::nullopt);
+  EXPECT_EQ(samples_for(one, {ErrorModel::independent, 1.0, 0.0}, 0.1), 100U);
+  EXPECT_EQ(samples_for(one, {ErrorModel::independent, 1.001, 0.0}, 0.1), 101U);
+  EXPECT_EQ(samples_for(one, {ErrorModel::independent, 1.0, 0.06}, 0.1), 157U);  // 1 / .0064
+  EXPECT_EQ(samples_for(one, {ErrorModel::independent, 1.0, 0.1}, 0.1), std::nullopt);
+  EXPECT_EQ(samples_for(one, {ErrorModel::independent, 0.0, 0.0}, 0.1), 1U);
+  EXPECT_EQ(
+      samples_for(estimator_by_name("mis balance"), {ErrorModel::independent, 1.001, 0.0}, 0.1),
+      102U);
+  EXPECT_EQ(samples_for(one, {ErrorModel::constant, 0.0, 0.09}, 0.1), 1U);
+  EXPECT_EQ(samples_for(one, {ErrorModel::constant, 0.0, 0.11}, 0.1), std::nullopt);
 }
 
 TEST(MethodCost, LiesOnStraightLinesOfLogarithms) {
@@ -146,7 +148,8 @@ TEST(Candidates, SayWhatStopsEachFamilyAndTheLimit) {
 
 TEST(Candidates, OfWhichABoundIsPredictedHaveTheBenefitOfTheDoubtIfTheyAreTried) {
   Choice choice;
-  choice.prediction.estimators = {predicted("environment B sobol", ErrorLaw::at_most, 100.0, 0.0)};
+  choice.prediction.estimators = {
+      predicted("environment B sobol", ErrorModel::at_most, 100.0, 0.0)};
   choice.costs = costs_of({cost_of("environment B sobol", 0.0, 0.0, 1e-7)});
   const MethodDemand demand = {.error = 0.01};  // 1e6 samples at the most
   EXPECT_TRUE(choice.of(demand).possible.empty());
@@ -161,7 +164,7 @@ TEST(Candidates, OfWhichABoundIsPredictedHaveTheBenefitOfTheDoubtIfTheyAreTried)
 TEST(Candidates, OfWhichTheBiasIsSmallButTheRestIsABoundAreTried) {
   Choice choice;
   choice.costs = costs_of({cost_of("outgoing table", 0.0, 0.0, 1e-7)});
-  choice.prediction.estimators = {predicted("outgoing table", ErrorLaw::constant, 0.01, 0.04)};
+  choice.prediction.estimators = {predicted("outgoing table", ErrorModel::constant, 0.01, 0.04)};
   MethodDemand demand = {.error = 0.05};
   EXPECT_TRUE(choice.of(demand).possible.empty());
   demand.will_be_tried = true;
@@ -190,8 +193,8 @@ TEST(Candidates, WhoseLightIsBlockedAreTriedWhateverIsPredicted) {
   Choice choice;
   choice.costs = costs_of(
       {cost_of("median cut 64", 0.0, 0.0, 1e-7), cost_of("environment B", 0.0, 0.0, 1e-9)});
-  choice.prediction.estimators = {predicted("median cut 64", ErrorLaw::constant, 0.0, 0.3),
-                                  predicted("environment B", ErrorLaw::independent, 1e6, 0.0)};
+  choice.prediction.estimators = {predicted("median cut 64", ErrorModel::constant, 0.0, 0.3),
+                                  predicted("environment B", ErrorModel::independent, 1e6, 0.0)};
   const MethodDemand demand = {.error = 0.05, .is_occluded = true, .will_be_tried = true};
   EXPECT_EQ(names_of(choice.of(demand)),
             (std::vector<std::string>{"median cut 64", "environment B"}));
@@ -204,7 +207,7 @@ TEST(Candidates, WhoseLightIsBlockedAreTriedWhateverIsPredicted) {
 TEST(Candidates, AreNoneThatTakeTooLongToBeRun) {
   Choice choice;
   choice.costs = costs_of({cost_of("product table", 0.0, 0.0, 1e-9)});
-  choice.prediction.estimators = {predicted("product table", ErrorLaw::independent, 0.0, 0.0)};
+  choice.prediction.estimators = {predicted("product table", ErrorModel::independent, 0.0, 0.0)};
   const MethodDemand demand = {.error = 0.05, .budget_seconds = 1e6};
   const auto on = [&](Extent extent) {
     return candidates_for(demand, choice.prediction, choice.costs, extent);

@@ -31,6 +31,11 @@ Behaviour falling(double of_one_sample, double seconds = 1e-6) {
           seconds};
 }
 
+/// Falls with the number of samples.
+Behaviour falling_steeply(double of_one_sample) {
+  return {[=](std::uint64_t n) { return of_one_sample / static_cast<double>(n); }};
+}
+
 Behaviour constant(double error, double seconds = 1e-6) {
   return {[=](std::uint64_t) { return error; }, seconds};
 }
@@ -69,8 +74,8 @@ Candidate candidate_of(const char* name, const PredictedError& error, std::uint6
   return {&info, error, cost, samples};
 }
 
-constexpr PredictedError kIndependent = {ErrorLaw::independent, 1.0, 0.0};
-constexpr PredictedError kAtMost = {ErrorLaw::at_most, 1.0, 0.0};
+constexpr PredictedError kIndependent = {ErrorModel::independent, 1.0, 0.0};
+constexpr PredictedError kAtMost = {ErrorModel::at_most, 1.0, 0.0};
 
 std::vector<std::string> names_of(const std::vector<Candidate>& candidates) {
   std::vector<std::string> names;
@@ -172,6 +177,33 @@ TEST(Verification, GivesMoreSamplesToWhatMissesTheError) {
   EXPECT_EQ(std::set<std::string>(known.purposes.begin(), known.purposes.end()).size(), 2U);
 }
 
+// A net of points whose error falls faster than the one that was looked for: 150 samples at 1/n.
+TEST(Verification, TriesFewerSamplesOfWhatIsOnlyBounded) {
+  KnownRuns known = {{{"brdf sobol", falling_steeply(15.0)}}, {}, {}};
+  const Verification made =
+      verify(known.run(), kDemand, {candidate_of("brdf sobol", kAtMost, 600)});
+  ASSERT_EQ(names_of(made.reaching), std::vector<std::string>{"brdf sobol"});
+  const std::uint64_t samples = made.reaching[0].candidate.samples;
+  EXPECT_GE(samples, 150U);
+  EXPECT_LE(samples, 190U);
+  EXPECT_LE(known.asked["brdf sobol"].size(), 4U);
+}
+
+TEST(Verification, TakesAPowerOfTwoThatLiesNear) {
+  KnownRuns known = {{{"brdf sobol", falling_steeply(12.0)}}, {}, {}};
+  const Verification made =
+      verify(known.run(), kDemand, {candidate_of("brdf sobol", kAtMost, 240)});
+  ASSERT_EQ(names_of(made.reaching), std::vector<std::string>{"brdf sobol"});
+  EXPECT_EQ(made.reaching[0].candidate.samples, 128U);
+}
+
+TEST(Verification, LeavesTheSamplesOfWhatIsPredicted) {
+  KnownRuns known = {{{"environment B", falling(0.5)}}, {}, {}};
+  const Verification made =
+      verify(known.run(), kDemand, {candidate_of("environment B", kIndependent, 100)});
+  EXPECT_THAT(known.asked["environment B"], ElementsAre(100U));
+}
+
 TEST(Verification, KeepsToTheBudgetWhenItGivesMoreSamples) {
   MethodDemand demand = kDemand;
   demand.budget_seconds = 200e-6;
@@ -198,8 +230,8 @@ TEST(Verification, DropsALookUpThatMissesTheErrorAndGoesOn) {
       {}};
   const Verification made =
       verify(known.run(), kDemand,
-             {candidate_of("median cut 64", {ErrorLaw::constant, 0.0, 0.05}, 1, 1e-8),
-              candidate_of("sh-9", {ErrorLaw::constant, 0.0, 0.05}, 1, 1e-8),
+             {candidate_of("median cut 64", {ErrorModel::constant, 0.0, 0.05}, 1, 1e-8),
+              candidate_of("sh-9", {ErrorModel::constant, 0.0, 0.05}, 1, 1e-8),
               candidate_of("environment B", kIndependent, 100)});
   EXPECT_EQ(names_of(made.reaching), std::vector<std::string>{"environment B"});
   ASSERT_EQ(made.failed.size(), 2U);

@@ -6,10 +6,10 @@
 
 #include <cmath>
 
+#include "lightproof/core/gauss_rule.h"
 #include "lightproof/core/measure.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/warp/lat_long.h"
-#include "reference/gauss_rule.h"
 
 namespace lightproof::reference {
 namespace {

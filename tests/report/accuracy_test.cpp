@@ -148,14 +148,14 @@ TEST(AccuracyChartSpec, OffersEveryMapReceiverAndMaterial) {
   EXPECT_EQ(spec["params"][1]["value"], "sphere") << "the receiver that nothing occludes";
 }
 
-TEST(PlaceChoice, OffersWholePlacesWhereCombinationsAreMissing) {
-  const std::vector<Place> places = {{"a", "x"}, {"a", "y"}, {"b", "x"}};
-  const PlaceChoice choice({{"map", "Map"}, {"scene", "Scene"}}, places, places[2]);
+TEST(SceneChoice, OffersWholePlacesWhereCombinationsAreMissing) {
+  const std::vector<SceneKey> scenes = {{"a", "x"}, {"a", "y"}, {"b", "x"}};
+  const SceneChoice choice({{"map", "Map"}, {"scene", "Scene"}}, scenes, scenes[2]);
   const json params = choice.params();
   ASSERT_EQ(params.size(), 1U);
   EXPECT_EQ(params[0]["value"], "b, x");
-  EXPECT_EQ(choice.key(places[1]), "a, y");
-  const PlaceChoice full({{"map", "Map"}, {"scene", "Scene"}},
+  EXPECT_EQ(choice.key(scenes[1]), "a, y");
+  const SceneChoice full({{"map", "Map"}, {"scene", "Scene"}},
                          {{"a", "x"}, {"a", "y"}, {"b", "x"}, {"b", "y"}}, {"b", "y"});
   EXPECT_EQ(full.params().size(), 2U);
   EXPECT_EQ(full.key({"a", "y"}), "a | y");

@@ -294,15 +294,15 @@ TEST(DensityFinding, CountsWhereEachHasTheLeastVariance) {
       by_density("environment B", "city", 1.0),   by_density("environment C", "city", 1.5),
       by_density("environment A", "night", 0.25), by_density("environment C", "night", 0.5),
       by_density("environment B", "studio", 1.0)};
-  const std::vector<DensityVariances> places = density_variances(records);
-  ASSERT_EQ(places.size(), 2U) << "nothing is compared on the studio";
-  EXPECT_EQ(places[0].place->map, "city");
-  EXPECT_EQ(places[0].variances, (std::array{3.0, 1.0, 1.5}));
-  EXPECT_EQ(places[0].least, 1U);
-  EXPECT_TRUE(std::isnan(places[1].variances[1]));
-  EXPECT_EQ(places[1].least, 0U);
-  EXPECT_EQ(density_finding(places),
-            "Least exact variance of the densities of the map, over 2 places: A (texture-space) in "
+  const std::vector<DensityVariances> scenes = density_variances(records);
+  ASSERT_EQ(scenes.size(), 2U) << "nothing is compared on the studio";
+  EXPECT_EQ(scenes[0].scene->map, "city");
+  EXPECT_EQ(scenes[0].variances, (std::array{3.0, 1.0, 1.5}));
+  EXPECT_EQ(scenes[0].least, 1U);
+  EXPECT_TRUE(std::isnan(scenes[1].variances[1]));
+  EXPECT_EQ(scenes[1].least, 0U);
+  EXPECT_EQ(density_finding(scenes),
+            "Least exact variance of the densities of the map, over 2 scenes: A (texture-space) in "
             "1, B (solid-angle) in 1");
   EXPECT_EQ(density_finding({}), "");
 }

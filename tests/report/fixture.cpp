@@ -217,6 +217,7 @@ RenderRecord render(std::size_t estimator) {
                  "sphere",
                  "GGX, roughness 0.3",
                  kEstimators[estimator],
+                 true,
                  64,
                  Grid<Rgb>(size),
                  Grid<Rgb>(size),

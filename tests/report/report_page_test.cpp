@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -10,6 +11,7 @@
 #include "fixture.h"
 #include "lightproof/core/error.h"
 #include "lightproof/report/report.h"
+#include "lightproof/report/sections.h"
 
 namespace lightproof {
 namespace {
@@ -86,6 +88,26 @@ TEST(Page, SaysHowOftenADefectIsCalledByItsName) {
                 "called by their right name, 2.3\u00a0% by a wrong one, and of 2.3\u00a0% the"),
       std::string::npos);
   EXPECT_NE(page.find("2 (uneven-in-texel)"), std::string::npos);
+}
+
+TEST(Report, FoldsEstimatorsThatStandForNoKindTheLeastErrorFirst) {
+  StudyResult study = testing::synthetic_study();
+  ASSERT_EQ(study.renders.size(), 4U);
+  const std::string unfolded = render_section(study.renders);
+  EXPECT_EQ(unfolded.find("Others in the same time"), std::string::npos);
+  study.renders[1].is_of_each_kind = study.renders[3].is_of_each_kind = false;
+  study.renders[1].rmse = 0.3;
+  study.renders[3].rmse = 0.1;
+  const std::string html = render_section(study.renders);
+  const auto caption = [&](std::size_t i) {
+    return html.find("<strong>" + study.renders[i].estimator + "</strong>");
+  };
+  const std::size_t fold =
+      html.find("Others in the same time, the least error first: 2 estimators");
+  EXPECT_LT(std::max(caption(0), caption(2)), fold);
+  EXPECT_LT(fold, caption(3));
+  EXPECT_LT(caption(3), caption(1));
+  EXPECT_NE(caption(1), std::string::npos);
 }
 
 TEST(Report, WritesAllItsFiles) {

@@ -51,7 +51,7 @@ TEST(SolidAngleRows, EveryIntervalGetsItsShareOfTheSolidAngle) {
         const double fraction = static_cast<double>(i) / kIntervals;
         // The last one ends a margin before the row does.
         const double error = share_error(height) + (i == kIntervals ? 4.0 * kCellMargin : 0.0);
-        const double share = share_below(rows.place(y, fraction).t, y, height);
+        const double share = share_below(rows.position(y, fraction).t, y, height);
         ASSERT_NEAR(share, fraction, error) << "row " << y << " of " << height;
         ASSERT_NEAR(share - last, 1.0 / kIntervals, 2.0 * error) << "row " << y << " of " << height;
         last = share;
@@ -65,7 +65,7 @@ TEST(SolidAngleRows, TheSineIsThatOfThePosition) {
     const SolidAngleRows rows({2 * height, height});
     for (const int y : rows_of(height)) {
       for (const double fraction : {0.0, 1e-9, 1e-6, 0.001, 0.25, 0.5, 0.999, 1.0 - 1e-9, 1.0}) {
-        const auto [t, sine] = rows.place(y, fraction);
+        const auto [t, sine] = rows.position(y, fraction);
         ASSERT_GT(t, static_cast<double>(y) / height);
         ASSERT_LT(t, (y + 1.0) / height);
         // t is rounded to 2^-53, near the zenith more than near the nadir.

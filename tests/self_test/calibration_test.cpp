@@ -13,9 +13,9 @@ namespace {
 constexpr double kAlpha = 1e-6;
 
 /// P-values for each test. Of 10,000 those show whose distribution is off by 0.027 anywhere, of the
-/// quick form's 4,000 those off by 0.042 (Kolmogorov's bound at kAlpha).
+/// quick form's 2,500 those off by 0.054 (Kolmogorov's bound at kAlpha).
 std::uint64_t replicates() {
-  return test::is_thorough() ? CalibrationOptions{}.replicates : std::uint64_t{4000};
+  return test::is_thorough() ? CalibrationOptions{}.replicates : std::uint64_t{2500};
 }
 
 /// One calibration for all tests of this file.

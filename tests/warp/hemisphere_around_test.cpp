@@ -71,7 +71,7 @@ double log10_p_of_two(Draw a, Draw b, Direction n, const std::string& what) {
   return fit.log10_p;
 }
 
-void expect_one_law(const std::array<Named, 3>& ways) {
+void expect_one_distribution(const std::array<Named, 3>& ways) {
   int index = 0;
   for (const Direction n : normals()) {
     for (std::size_t i = 0; i < ways.size(); ++i) {
@@ -84,8 +84,8 @@ void expect_one_law(const std::array<Named, 3>& ways) {
   }
 }
 
-TEST(CosineHemisphere, HasOneLawWhateverTheFrame) { expect_one_law(kCosines); }
-TEST(UniformHemisphere, HasOneLawWhateverTheFrame) { expect_one_law(kUniforms); }
+TEST(CosineHemisphere, HasOneDistributionWhateverTheFrame) { expect_one_distribution(kCosines); }
+TEST(UniformHemisphere, HasOneDistributionWhateverTheFrame) { expect_one_distribution(kUniforms); }
 
 TEST(CosineHemisphere, HasOtherSamplesWithAnotherFrame) {
   const Direction n = normals().back();
@@ -133,7 +133,7 @@ double square(double cosine) { return cosine * cosine; }
 double itself(double cosine) { return cosine; }
 
 template <class Height>
-void expect_law(const std::array<Named, 3>& ways, const Height& height) {
+void expect_distribution(const std::array<Named, 3>& ways, const Height& height) {
   int index = 0;
   for (const Direction n : normals()) {
     for (const Named& way : ways) {
@@ -145,9 +145,11 @@ void expect_law(const std::array<Named, 3>& ways, const Height& height) {
 }
 
 TEST(CosineHemisphere, HasUniformSquaresOfTheCosineAndUniformAzimuths) {
-  expect_law(kCosines, square);
+  expect_distribution(kCosines, square);
 }
-TEST(UniformHemisphere, HasUniformCosinesAndUniformAzimuths) { expect_law(kUniforms, itself); }
+TEST(UniformHemisphere, HasUniformCosinesAndUniformAzimuths) {
+  expect_distribution(kUniforms, itself);
+}
 
 TEST(HemispheresAround, DoNotPassForEachOther) {
   const Direction n = normals()[0];

@@ -3,7 +3,7 @@
 #include <variant>
 
 #include "lightproof/core/parallel.h"
-#include "lightproof/materials/lobe_place.h"
+#include "lightproof/materials/lobe_extent.h"
 
 namespace lightproof {
 

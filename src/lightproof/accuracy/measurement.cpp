@@ -201,7 +201,7 @@ void fit_slope(AccuracyLine& line) {
   if (measured.size() < 3) return;
   const PowerLaw fit = fit_power_law(measured);
   line.slope = fit.exponent;
-  line.slope_error = fit.exponent_error;
+  line.slope_error = exponent_error_with_scatter(fit, measured);
 }
 
 AccuracyLine line_of(const Course& course, const Round& levels) {
@@ -223,7 +223,7 @@ AccuracyLine line_of(const Course& course, const Round& levels) {
     if (own) point.predicted = std::sqrt(own->variance / static_cast<double>(samples[i]));
     line.points.push_back(point);
   }
-  if (line.is_biased) line.floor = bias_of(levels.back());
+  if (line.is_biased && !info.bias_vanishes) line.floor = bias_of(levels.back());
   if (!info.ignores_budget) fit_slope(line);
   return line;
 }

@@ -38,9 +38,9 @@ bool is_near_edge(double coordinate, double reach, int count) {
   return !(std::abs(at - std::round(at)) > reach * count);
 }
 
-class Placement {
+class TexelLocator {
  public:
-  Placement(const Expectation& expectation, double rounding)
+  TexelLocator(const Expectation& expectation, double rounding)
       : expectation_(&expectation),
         mapping_(expectation.mapping),
         extent_(expectation.masses.extent()),
@@ -123,12 +123,12 @@ BoundSampler bound_dump(std::shared_ptr<const SampleDump> dump,
   sampler.has_weights = dump->has_pdf();
   sampler.sample_in_order = [dump, expectation](std::uint64_t first,
                                                 std::span<TexelSample> samples) {
-    const Placement place(*expectation, dump->rounding());
+    const TexelLocator located(*expectation, dump->rounding());
     std::vector<DumpedSample> block(std::min(samples.size(), kBlock));
     for (std::size_t done = 0; done < samples.size(); done += kBlock) {
       const std::size_t count = std::min(kBlock, samples.size() - done);
       dump->read(first + done, std::span(block).first(count));
-      for (std::size_t i = 0; i < count; ++i) samples[done + i] = place(block[i]);
+      for (std::size_t i = 0; i < count; ++i) samples[done + i] = located(block[i]);
     }
   };
   return sampler;
@@ -136,7 +136,7 @@ BoundSampler bound_dump(std::shared_ptr<const SampleDump> dump,
 
 DensityComparison compare_dumped_density(const SampleDump& dump, const Expectation& expectation,
                                          double tolerance) {
-  const Placement place(expectation, dump.rounding());
+  const TexelLocator located(expectation, dump.rounding());
   DensityComparison found;
   found.compared = "samples";
   double worst = 0.0;
@@ -149,7 +149,7 @@ DensityComparison compare_dumped_density(const SampleDump& dump, const Expectati
         static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, dump.count() - first));
     dump.read(first, std::span(block).first(count));
     for (std::size_t i = 0; i < count; ++i) {
-      const TexelSample sample = place(block[i]);
+      const TexelSample sample = located(block[i]);
       if (!std::isfinite(sample.at.s)) continue;
       const double declared = declared_density(expectation, sample.at, sample.x, sample.y);
       // Where the Jacobian changes, the one by which densities over the square are divided is that

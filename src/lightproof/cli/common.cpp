@@ -208,6 +208,12 @@ std::vector<EnvironmentMap> load_maps(const CommonOptions& options, TexelsOfMaps
   }
   const Extent size = parse_size(options.size);
   ReadOptions read = read_options(options);
+  if (!options.preset.empty() && std::ranges::all_of(inputs, is_built_in)) {
+    throw InputError(
+        "--preset: it says how the pixels of a file map to directions, and no file is read: "
+        "built-in "
+        "maps have Lightproof's own axes");
+  }
   if (texels == TexelsOfMaps::lat_long) read.resample = true;
   std::vector<EnvironmentMap> maps;
   for (const std::string& input : inputs) {

@@ -175,6 +175,8 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
       ->excludes(material)
       ->excludes(receiver)
       ->excludes(quality);
+  command->add_flag("--all-pictures", options->study.renders.every_estimator,
+                    "picture every estimator in equal time, not one of each kind");
   command->add_flag("--no-regimes", options->no_regimes,
                     "leave out which method wins where, over the width of light and lobe: a minute "
                     "at the first study");

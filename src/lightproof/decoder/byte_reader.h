@@ -36,7 +36,7 @@ class ByteReader {
   std::uint64_t size_ = 0;
   std::vector<std::uint8_t> block_;
   std::size_t at_ = 0;
-  std::uint64_t start_ = 0;  ///< place of the block in the file
+  std::uint64_t start_ = 0;  ///< offset of the block in the file
 };
 
 }  // namespace lightproof

@@ -15,16 +15,16 @@ constexpr std::string_view kNone = "without a name";
 
 using Bytes = std::span<const std::uint8_t>;
 
-std::uint32_t number_at(Bytes bytes, std::size_t place) {
-  if (bytes.size() < 4 || place > bytes.size() - 4) return 0;
+std::uint32_t number_at(Bytes bytes, std::size_t offset) {
+  if (bytes.size() < 4 || offset > bytes.size() - 4) return 0;
   std::uint32_t number = 0;
-  for (std::size_t i = 0; i < 4; ++i) number = number << 8U | bytes[place + i];
+  for (std::size_t i = 0; i < 4; ++i) number = number << 8U | bytes[offset + i];
   return number;
 }
 
-bool says(Bytes bytes, std::size_t place, std::string_view word) {
-  return place <= bytes.size() && word.size() <= bytes.size() - place &&
-         std::equal(word.begin(), word.end(), bytes.begin() + static_cast<std::ptrdiff_t>(place));
+bool says(Bytes bytes, std::size_t offset, std::string_view word) {
+  return offset <= bytes.size() && word.size() <= bytes.size() - offset &&
+         std::equal(word.begin(), word.end(), bytes.begin() + static_cast<std::ptrdiff_t>(offset));
 }
 
 /// The tag's data; empty if there is no such tag.
@@ -33,10 +33,10 @@ Bytes tag(Bytes profile, std::string_view name) {
   for (std::size_t i = 0; i < tags; ++i) {
     const std::size_t entry = kTagTable + 4 + i * kTagBytes;
     if (!says(profile, entry, name)) continue;
-    const std::size_t place = number_at(profile, entry + 4);
+    const std::size_t offset = number_at(profile, entry + 4);
     const std::size_t size = number_at(profile, entry + 8);
-    if (place > profile.size() || size > profile.size() - place) return {};
-    return profile.subspan(place, size);
+    if (offset > profile.size() || size > profile.size() - offset) return {};
+    return profile.subspan(offset, size);
   }
   return {};
 }
@@ -63,9 +63,9 @@ std::string profile_name(Bytes profile) {
   } else if (says(description, 0, "mluc")) {
     // The first of the languages, in UTF-16.
     const std::size_t length = number_at(description, 20);
-    const std::size_t place = number_at(description, 24);
-    if (place <= description.size() && length <= description.size() - place) {
-      name = printable(description.subspan(place, length), 2);
+    const std::size_t offset = number_at(description, 24);
+    if (offset <= description.size() && length <= description.size() - offset) {
+      name = printable(description.subspan(offset, length), 2);
     }
   }
   return name.empty() ? std::string(kNone) : name;

@@ -14,11 +14,11 @@ class Numbers {
   Numbers(std::span<const std::uint8_t> bytes, bool is_big_endian)
       : bytes_(bytes), is_big_endian_(is_big_endian) {}
 
-  unsigned at(std::size_t place, std::size_t count) const {
-    if (place > bytes_.size() || count > bytes_.size() - place) return 0;
+  unsigned at(std::size_t offset, std::size_t count) const {
+    if (offset > bytes_.size() || count > bytes_.size() - offset) return 0;
     unsigned number = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      number = number << 8U | bytes_[place + (is_big_endian_ ? i : count - 1 - i)];
+      number = number << 8U | bytes_[offset + (is_big_endian_ ? i : count - 1 - i)];
     }
     return number;
   }

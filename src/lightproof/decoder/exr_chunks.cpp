@@ -113,8 +113,8 @@ void expect_chunks_of(const Imf::Header& header) {
   }
   for_each_chunk(window, columns, rows, [&](const Imath::Box2i& box) {
     const std::uint64_t bytes = bytes_of(header, box);
-    const auto place = std::ranges::lower_bound(expected_sizes, bytes);
-    if (place == expected_sizes.end() || *place != bytes) expected_sizes.insert(place, bytes);
+    const auto at = std::ranges::lower_bound(expected_sizes, bytes);
+    if (at == expected_sizes.end() || *at != bytes) expected_sizes.insert(at, bytes);
   });
 }
 

@@ -31,7 +31,7 @@ std::string all_names() {
   return names;
 }
 
-std::optional<std::size_t>& place_of(SampleColumns& columns, ColumnRole role) {
+std::optional<std::size_t>& index_of(SampleColumns& columns, ColumnRole role) {
   switch (role) {
     case ColumnRole::x:
       return columns.x;
@@ -76,9 +76,9 @@ SampleColumns sample_columns(std::span<const std::string> names) {
                                    terminal_text(names[i]), all_names()));
     }
     if (known->role == ColumnRole::ignored) continue;
-    auto& place = place_of(columns, known->role);
-    if (place) throw InputError(fmt::format("two columns are {}", known->name));
-    place = i;
+    auto& index = index_of(columns, known->role);
+    if (index) throw InputError(fmt::format("two columns are {}", known->name));
+    index = i;
     if (known->role == ColumnRole::v) columns.t_is_from_top = true;
   }
   check_parts(columns);

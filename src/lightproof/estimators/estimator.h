@@ -95,6 +95,8 @@ struct EstimatorInfo {
   EstimatorFamily family = EstimatorFamily::uniform;
   EstimatorKind kind = EstimatorKind::one_sample;
   bool is_biased = false;
+  /// Whether a bias goes to zero with more samples, so that there is no floor.
+  bool bias_vanishes = false;
   /// The density whose exact moments are those of its single estimates; none if they are not known.
   std::optional<reference::SampledDensity> density = {};
   /// How it combines the densities of material and map, if its exact mean and variance follow from

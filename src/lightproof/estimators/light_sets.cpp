@@ -43,9 +43,9 @@ double sine_of_reach(std::size_t orientation) {
   const auto y = static_cast<double>(row);
   double least = 1.0;
   for (int i = 0; i <= kSteps; ++i) {
-    const double place = static_cast<double>(i) / kSteps;
-    for (const SquarePoint in : {SquarePoint{place, 0.0}, SquarePoint{place, 1.0},
-                                 SquarePoint{0.0, place}, SquarePoint{1.0, place}}) {
+    const double fraction = static_cast<double>(i) / kSteps;
+    for (const SquarePoint in : {SquarePoint{fraction, 0.0}, SquarePoint{fraction, 1.0},
+                                 SquarePoint{0.0, fraction}, SquarePoint{1.0, fraction}}) {
       const Direction edge = octahedral_from_square({(x + in.s) / kSide, (y + in.t) / kSide});
       least = std::min(least, glm::dot(edge, centre));
     }

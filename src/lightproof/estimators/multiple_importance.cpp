@@ -168,23 +168,23 @@ Rgb MultiSample::integrate(const ShadingPoint& at, const RandomStream& stream, B
 /// Points that were dealt to one of two techniques, and where their samples belong.
 struct Dealt {
   std::array<SquarePoint, kCapacity> points;
-  std::array<std::size_t, kCapacity> places;
+  std::array<std::size_t, kCapacity> indices;
   std::size_t count = 0;
 
-  void add(SquarePoint point, std::size_t place) {
+  void add(SquarePoint point, std::size_t index) {
     points[count] = point;
-    places[count++] = place;
+    indices[count++] = index;
   }
   std::span<const SquarePoint> all() const { return std::span(points).first(count); }
   /// Puts the samples where they belong, with their densities times a factor.
   void put(const LightSamples& from, double factor, LightSamples& to) const {
     for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t place = places[i];
-      to.set(place, from.direction(i));
-      to.pdf[place] = factor * from.pdf[i];
-      to.reflected_cosine[place] = from.reflected_cosine[i];
-      to.column[place] = from.column[i];
-      to.row[place] = from.row[i];
+      const std::size_t index = indices[i];
+      to.set(index, from.direction(i));
+      to.pdf[index] = factor * from.pdf[i];
+      to.reflected_cosine[index] = from.reflected_cosine[i];
+      to.column[index] = from.column[i];
+      to.row[index] = from.row[i];
     }
   }
 };

@@ -16,7 +16,7 @@ class Chooser {
       : map_(&map), candidates_(&candidates) {}
 
   void choose(std::size_t first, std::size_t count, double u, LightSamples& chosen,
-              std::size_t place) {
+              std::size_t index) {
     double sum = 0.0;
     for (std::size_t j = 0; j < count; ++j) sums_[j] = sum += weight(first + j);
     const auto end = sums_.begin() + static_cast<std::ptrdiff_t>(count);
@@ -24,11 +24,11 @@ class Chooser {
     auto found = std::upper_bound(sums_.begin(), end, u * sum);
     if (found == end) found = std::lower_bound(sums_.begin(), end, sum);
     const std::size_t from = first + static_cast<std::size_t>(found - sums_.begin());
-    chosen.set(place, candidates_->direction(from));
-    chosen.reflected_cosine[place] = candidates_->reflected_cosine[from];
-    chosen.column[place] = candidates_->column[from];
-    chosen.row[place] = candidates_->row[from];
-    chosen.pdf[place] = sum > 0.0 ? light(from) * static_cast<double>(count) / sum : 0.0;
+    chosen.set(index, candidates_->direction(from));
+    chosen.reflected_cosine[index] = candidates_->reflected_cosine[from];
+    chosen.column[index] = candidates_->column[from];
+    chosen.row[index] = candidates_->row[from];
+    chosen.pdf[index] = sum > 0.0 ? light(from) * static_cast<double>(count) / sum : 0.0;
   }
 
  private:

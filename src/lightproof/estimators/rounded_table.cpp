@@ -121,9 +121,9 @@ LightSample RoundedTable::sample(SquarePoint u) const {
     }
     left -= here;
   }
-  const double across = std::clamp(x < end ? left / found : 1.0, 0.0, 1.0 - 0x1p-53);
+  const double column_fraction = std::clamp(x < end ? left / found : 1.0, 0.0, 1.0 - 0x1p-53);
   const double mass = row.width / rows_.back() * (found / runs.back());
-  return positions_.direction({static_cast<int>(last), y, across, row.rest, mass});
+  return positions_.direction({static_cast<int>(last), y, column_fraction, row.rest, mass});
 }
 
 double RoundedTable::mass(int x, int y) const {

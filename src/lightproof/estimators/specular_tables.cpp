@@ -29,9 +29,9 @@ class CosineTable {
 
   double operator()(double cosine) const {
     const double last = static_cast<double>(values_.size() - 1);
-    const double place = std::clamp(cosine, 0.0, 1.0) * last;
-    const auto below = static_cast<std::size_t>(std::min(place, last - 1.0));
-    return std::lerp(values_[below], values_[below + 1], place - static_cast<double>(below));
+    const double scaled = std::clamp(cosine, 0.0, 1.0) * last;
+    const auto below = static_cast<std::size_t>(std::min(scaled, last - 1.0));
+    return std::lerp(values_[below], values_[below + 1], scaled - static_cast<double>(below));
   }
   std::size_t bytes() const { return values_.size() * sizeof(double); }
 

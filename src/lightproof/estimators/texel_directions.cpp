@@ -7,14 +7,14 @@
 
 namespace lightproof {
 
-TexelDirections::TexelDirections(CellSize size, double place, Extent count) {
+TexelDirections::TexelDirections(CellSize size, double fraction, Extent count) {
   for (int x = 0; x < count.width; ++x) {
-    const double phi = kPi - 2.0 * kPi * (x + place) * size.s;
+    const double phi = kPi - 2.0 * kPi * (x + fraction) * size.s;
     cosine_.push_back(std::cos(phi));
     sine_.push_back(std::sin(phi));
   }
   for (int y = 0; y < count.height; ++y) {
-    const double t = std::min(1.0, (y + place) * size.t);
+    const double t = std::min(1.0, (y + fraction) * size.t);
     height_.push_back(cos_theta(t));
     radius_.push_back(sin_theta(t));
   }

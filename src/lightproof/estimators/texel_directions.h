@@ -24,7 +24,7 @@ inline CellSize cell_size(Extent extent) { return {1.0 / extent.width, 1.0 / ext
 class TexelDirections {
  public:
   /// The place in each cell is in [0,1]: 1/2 are the centres, 0 the corners.
-  TexelDirections(CellSize size, double place, Extent count);
+  TexelDirections(CellSize size, double fraction, Extent count);
 
   int columns() const { return static_cast<int>(cosine_.size()); }
   int rows() const { return static_cast<int>(height_.size()); }

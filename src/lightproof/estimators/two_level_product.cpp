@@ -66,12 +66,12 @@ class Blocks {
     const auto end_row =
         static_cast<std::size_t>(begin(block.y + 1, blocks_.height, extent_.height));
     const auto rows = rows_.row(block.x).subspan(first_row, end_row - first_row);
-    const FoundCell row = find_cell(rows, 0.0, block.along);
+    const FoundCell row = find_cell(rows, 0.0, block.row_fraction);
     const int y = static_cast<int>(first_row + row.index);
     const auto first = static_cast<std::size_t>(begin(block.x, blocks_.width, extent_.width));
     const auto end = static_cast<std::size_t>(begin(block.x + 1, blocks_.width, extent_.width));
     const auto texels = texels_.row(y).subspan(first, end - first);
-    const FoundCell texel = find_cell(texels, 0.0, block.across);
+    const FoundCell texel = find_cell(texels, 0.0, block.column_fraction);
     const double mass = block.mass * (row.width / rows.back()) * (texel.width / texels.back());
     return positions_.direction(
         {static_cast<int>(first + texel.index), y, texel.rest, row.rest, mass});

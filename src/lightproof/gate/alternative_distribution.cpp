@@ -274,7 +274,7 @@ Grid<double> uniform_mixed_in(const DeclaredDistribution& declared) {
 
 /// A hundredth of the mean for texels without light: what abs() makes of the values slightly below
 /// zero that filters leave beside bright lamps.
-Grid<double> dark_texels_drawn(const DeclaredDistribution& declared) {
+Grid<double> zero_density_texels_drawn(const DeclaredDistribution& declared) {
   return moved(declared, [](const Grid<double>& m, int x, int y) {
     return m(x, y) > 0.0 ? m(x, y) : 0.01 / static_cast<double>(m.extent().count());
   });
@@ -338,7 +338,8 @@ Grid<double> half_column(const DeclaredDistribution& declared) {
 
 constexpr auto kAlternatives = std::to_array<AlternativeDistribution>({
     {"other-density", "a missing sin(theta) (or one too many): the other target density",
-     other_density, true, false, MappingNeed::unequal_areas},
+     other_density, true, false, MappingNeed::unequal_areas,
+     "the solid angle of texels forgotten (or counted twice): the other target density"},
     {"other-lookup", "the other look-up: whole texels for interpolated ones, or the reverse",
      other_lookup, true, false, MappingNeed::rows},
     {"sine-at-edge", "sin(theta) taken at the row's edge, y/H instead of (y+1/2)/H", sine_at_edge,
@@ -354,13 +355,16 @@ constexpr auto kAlternatives = std::to_array<AlternativeDistribution>({
     {"row-late", "rows off by one: each is drawn for the one below it", row_late, false},
     {"upside-down", "t flipped", upside_down, false},
     {"mirrored", "s mirrored", mirrored, false},
-    {"half-turn", "the seam of phi on the other side: s shifted by one half", half_turn, false},
-    {"half-circle", "only half of the azimuths: pi where 2 pi belongs", half_circle, false},
+    {"half-turn", "the seam of phi on the other side: s shifted by one half", half_turn, false,
+     false, MappingNeed::none, "columns shifted by half of the width"},
+    {"half-circle", "only half of the azimuths: pi where 2 pi belongs", half_circle, false, false,
+     MappingNeed::none, "only the left half of the columns is drawn"},
     {"no-last-column", "the last column is never drawn", without_last_column, false},
     {"no-last-row", "the last row is never drawn", without_last_row, false},
     {"no-first-row", "the first row with light is never drawn", without_first_row, false},
     {"rows-alike", "rows drawn equally often, not weighted by their sum: theta is uniform",
-     rows_alike, false},
+     rows_alike, false, false, MappingNeed::none,
+     "rows drawn equally often, not weighted by their sum"},
     {"columns-of-next-row", "columns drawn from the next row's distribution", columns_of_next_row,
      false},
     {"other-luminance",
@@ -373,9 +377,10 @@ constexpr auto kAlternatives = std::to_array<AlternativeDistribution>({
     {"squared", "luminance squared", squared},
     {"clamped", "bright values clamped", clamped},
     {"uniform-mixed-in", "some samples drawn uniformly", uniform_mixed_in, false},
-    {"dark-texels-drawn", "texels without light are drawn: abs() of values below zero",
-     dark_texels_drawn, false},
-    {"quarter-turn", "the map turned by 90 degrees", quarter_turn, false},
+    {"zero-density-texels-drawn", "texels without light are drawn: abs() of values below zero",
+     zero_density_texels_drawn, false},
+    {"quarter-turn", "the map turned by 90 degrees", quarter_turn, false, false, MappingNeed::none,
+     "columns shifted by a quarter of the width"},
     {"dim-rows-skipped", "rows darker than an absolute threshold are never drawn",
      without_dim_rows},
     {"uniform", "the map is not looked at: uniform samples", uniform},
@@ -398,6 +403,12 @@ std::string_view why_meaningless(MappingNeed need, const Mapping& mapping) {
       break;
   }
   return "";
+}
+
+std::string_view AlternativeDistribution::diagnosis_on(const Mapping& mapping) const {
+  const bool has_azimuths =
+      mapping.kind == MappingKind::lat_long || mapping.kind == MappingKind::node_rows;
+  return has_azimuths || diagnosis_of_picture.empty() ? diagnosis : diagnosis_of_picture;
 }
 
 const AlternativeDistribution& alternative_distribution(std::string_view name) {

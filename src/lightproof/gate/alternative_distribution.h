@@ -39,6 +39,12 @@ struct AlternativeDistribution {
   /// defect is known by other evidence.
   bool is_example = false;
   MappingNeed need = MappingNeed::none;  ///< on other maps it says nothing
+  /// What it is on maps in whose pictures columns are no azimuths and rows no heights; empty if
+  /// `diagnosis` is true of these too.
+  std::string_view diagnosis_of_picture = {};
+
+  /// What it is on a map of this mapping.
+  std::string_view diagnosis_on(const Mapping& mapping) const;
 };
 
 /// All alternative distributions, in the order in which they are shown.

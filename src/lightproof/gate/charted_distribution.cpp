@@ -1,11 +1,12 @@
 // Densities in coordinates in which they are uniform.
-#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <numeric>
 #include <utility>
+#include <vector>
 
+#include "lightproof/core/gauss_rule.h"
 #include "lightproof/gate/direction_distribution.h"
 
 namespace lightproof {
@@ -62,29 +63,33 @@ struct ChartNode {
   double weight;  ///< area of the square
 };
 
+/// The nodes of a Gauss-Legendre rule over either half of a side of a cell.
+std::vector<GaussNode> nodes_of_side() {
+  const GaussRule<3> rule;
+  std::vector<GaussNode> nodes;
+  for (const double half : {0.0, 0.5}) {
+    for (const GaussNode& node : rule.nodes()) {
+      nodes.push_back({half + 0.5 * node.at, 0.5 * node.weight});
+    }
+  }
+  return nodes;
+}
+
 /// 3 x 3 Gauss-Legendre nodes in each quarter of a cell, cell by cell.
 std::vector<ChartNode> nodes_of(const reference::UniformChart& chart) {
-  constexpr std::array<double, 3> kPlaces = {0.11270166537925831, 0.5, 0.88729833462074169};
-  constexpr std::array<double, 3> kWeights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-  constexpr int kNodes = 6;  // a side of a cell
-  const double area = 0.25 / static_cast<double>(kCells.count());
+  const std::vector<GaussNode> side = nodes_of_side();
+  const double area = 1.0 / static_cast<double>(kCells.count());
   std::vector<ChartNode> nodes;
-  const auto add_cell = [&](int x, int y) {
-    for (int i = 0; i < kNodes * kNodes; ++i) {
-      const auto along = static_cast<std::size_t>(i / kNodes);
-      const auto across = static_cast<std::size_t>(i % kNodes);
-      const auto place = [&](std::size_t node) {
-        const std::size_t half = node / 3;
-        return 0.5 * (static_cast<double>(half) + kPlaces[node % 3]);
-      };
-      const SquarePoint at = {(x + place(across)) / kCells.width,
-                              (y + place(along)) / kCells.height};
-      const Direction d = chart.direction_from_square(at);
-      nodes.push_back({d, chart.pdf(d).value, area * kWeights[along % 3] * kWeights[across % 3]});
-    }
-  };
   for (int y = 0; y < kCells.height; ++y) {
-    for (int x = 0; x < kCells.width; ++x) add_cell(x, y);
+    for (int x = 0; x < kCells.width; ++x) {
+      for (const GaussNode& in_t : side) {
+        for (const GaussNode& in_s : side) {
+          const SquarePoint at = {(x + in_s.at) / kCells.width, (y + in_t.at) / kCells.height};
+          const Direction d = chart.direction_from_square(at);
+          nodes.push_back({d, chart.pdf(d).value, area * in_t.weight * in_s.weight});
+        }
+      }
+    }
   }
   return nodes;
 }

@@ -7,18 +7,18 @@
 #include <cmath>
 #include <numeric>
 
+#include "lightproof/core/gauss_rule.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/gate/draws.h"
-#include "reference/gauss_rule.h"
 #include "reference/mapped_texels.h"
 
 namespace lightproof {
 namespace {
 
 /// The rule over s inside a cell, where a density is constant or linear.
-const reference::GaussRule<2> kRuleOverS;
+const GaussRule<2> kRuleOverS;
 /// The rule over t inside a cell, where a density may be a linear function times sin(pi t).
-const reference::GaussRule<3> kRuleOverT;
+const GaussRule<3> kRuleOverT;
 /// Pieces are at most 1/64 high in t. Three nodes leave h^7/2016000 |f^(6)| of a piece of height h
 /// in theta (Abramowitz and Stegun 25.4.29 and 30). Of f = (a + b theta) sin(theta) the worst case
 /// is a = 0 at a pole, f^(6) = 6 b: of its integral b h^3/3 that is 9 h^4/10^6 = 5e-11 at

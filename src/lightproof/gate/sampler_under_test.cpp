@@ -28,7 +28,7 @@ std::vector<Alternative> alternatives_on(const EnvironmentMap& map, TargetDensit
   for (const AlternativeDistribution& distribution : alternative_distributions()) {
     if (distribution.is_example) continue;
     if (!why_meaningless(distribution.need, map.mapping).empty()) continue;
-    alternatives.push_back({distribution.name, distribution.diagnosis,
+    alternatives.push_back({distribution.name, distribution.diagnosis_on(map.mapping),
                             [declared, &map, target, masses = distribution.masses] {
                               return masses({declared.get(), &map, target});
                             }});

@@ -41,19 +41,19 @@ std::string text_of(const std::filesystem::path& file) {
 
 /// `value` as a T. Throws InputError, which names the place.
 template <class T>
-T as(const Json& value, const std::string& place) {
+T as(const Json& value, const std::string& location) {
   try {
     return value.get<T>();
   } catch (const Json::exception&) {
-    throw InputError(fmt::format("{}: {} is not of the right type", place, value.dump()));
+    throw InputError(fmt::format("{}: {} is not of the right type", location, value.dump()));
   }
 }
 
 template <class T>
-T member(const Json& object, const char* key, const std::string& place) {
+T member(const Json& object, const char* key, const std::string& location) {
   const auto found = object.find(key);
-  if (found == object.end()) throw InputError(fmt::format("{}: \"{}\" is missing", place, key));
-  return as<T>(*found, fmt::format("{}.{}", place, key));
+  if (found == object.end()) throw InputError(fmt::format("{}: \"{}\" is missing", location, key));
+  return as<T>(*found, fmt::format("{}.{}", location, key));
 }
 
 /// Seconds since 1970 of "2026-01-31T12:00:00+01:00".
@@ -85,24 +85,24 @@ std::string commit_of(const Json& context, const std::string& given) {
   throw InputError("context.commit is missing: say which commit was measured, with --commit");
 }
 
-double nanoseconds_per(const std::string& unit, const std::string& place) {
+double nanoseconds_per(const std::string& unit, const std::string& location) {
   if (unit == "ns") return 1.0;
   if (unit == "us") return 1e3;
   if (unit == "ms") return 1e6;
   if (unit == "s") return 1e9;
-  throw InputError(fmt::format("{}.time_unit: \"{}\" is none of ns, us, ms, s", place, unit));
+  throw InputError(fmt::format("{}.time_unit: \"{}\" is none of ns, us, ms, s", location, unit));
 }
 
-double positive(double value, const std::string& place) {
+double positive(double value, const std::string& location) {
   if (value > 0.0 && std::isfinite(value)) return value;
-  throw InputError(fmt::format("{}: {} is not a positive number", place, value));
+  throw InputError(fmt::format("{}: {} is not a positive number", location, value));
 }
 
-Measurement measurement_of(const Json& entry, const std::string& place) {
-  const std::string name = member<std::string>(entry, "run_name", place);
-  if (name.empty()) throw InputError(fmt::format("{}.run_name: is empty", place));
+Measurement measurement_of(const Json& entry, const std::string& location) {
+  const std::string name = member<std::string>(entry, "run_name", location);
+  if (name.empty()) throw InputError(fmt::format("{}.run_name: is empty", location));
   if (entry.value("error_occurred", false)) {
-    throw InputError(fmt::format("{}: {} failed: {}", place, name,
+    throw InputError(fmt::format("{}: {} failed: {}", location, name,
                                  entry.value("error_message", "no reason is given")));
   }
   Measurement measurement{name, Metric::nanoseconds, entry.value("repetition_index", 0), 0.0};
@@ -111,14 +111,14 @@ Measurement measurement_of(const Json& entry, const std::string& place) {
     if (!entry.contains(counter)) continue;
     measurement.metric = metric;
     measurement.value =
-        positive(member<double>(entry, counter, place), fmt::format("{}.{}", place, counter));
+        positive(member<double>(entry, counter, location), fmt::format("{}.{}", location, counter));
     return measurement;
   }
   const bool wall = name.ends_with("/real_time") || name.ends_with("/manual_time");
   const char* key = wall ? "real_time" : "cpu_time";
-  const double unit = nanoseconds_per(member<std::string>(entry, "time_unit", place), place);
+  const double unit = nanoseconds_per(member<std::string>(entry, "time_unit", location), location);
   measurement.value =
-      unit * positive(member<double>(entry, key, place), fmt::format("{}.{}", place, key));
+      unit * positive(member<double>(entry, key, location), fmt::format("{}.{}", location, key));
   return measurement;
 }
 
@@ -126,11 +126,11 @@ Measurement measurement_of(const Json& entry, const std::string& place) {
 /// "build/table", "build/table:worst_error". What is exact, 0, cannot become worse by a ratio, and
 /// is left out.
 std::vector<Measurement> errors_beside(const Json& entry, const Measurement& time,
-                                       const std::string& place) {
+                                       const std::string& location) {
   std::vector<Measurement> errors;
   for (const auto& [key, value] : entry.items()) {
     if (!key.ends_with("_error")) continue;
-    const std::string at = fmt::format("{}.{}", place, key);
+    const std::string at = fmt::format("{}.{}", location, key);
     const double error = as<double>(value, at);
     if (error == 0.0) continue;
     errors.push_back({fmt::format("{}:{}", time.benchmark, key), Metric::error, time.repetition,
@@ -143,15 +143,15 @@ std::vector<Measurement> measurements_of(const Json& benchmarks) {
   std::vector<Measurement> all;
   std::set<std::tuple<std::string, Metric, int>> seen;
   for (std::size_t i = 0; i < benchmarks.size(); ++i) {
-    const std::string place = fmt::format("benchmarks[{}]", i);
-    if (!benchmarks[i].is_object()) throw InputError(place + ": is no object");
+    const std::string location = fmt::format("benchmarks[{}]", i);
+    if (!benchmarks[i].is_object()) throw InputError(location + ": is no object");
     if (benchmarks[i].value("run_type", "iteration") != "iteration") continue;
-    Measurement one = measurement_of(benchmarks[i], place);
+    Measurement one = measurement_of(benchmarks[i], location);
     if (!seen.emplace(one.benchmark, one.metric, one.repetition).second) {
-      throw InputError(fmt::format("{}: repetition {} of {} is there twice", place, one.repetition,
-                                   one.benchmark));
+      throw InputError(fmt::format("{}: repetition {} of {} is there twice", location,
+                                   one.repetition, one.benchmark));
     }
-    for (Measurement& error : errors_beside(benchmarks[i], one, place))
+    for (Measurement& error : errors_beside(benchmarks[i], one, location))
       all.push_back(std::move(error));
     all.push_back(std::move(one));
   }

@@ -41,7 +41,7 @@ Decoder::Decoder(std::string subject, std::string failing, int file,
                  std::chrono::milliseconds patience)
     : subject_(std::move(subject)),
       failing_(std::move(failing)),
-      place_("at the start"),
+      position_("at the start"),
       program_(decoder_program()),
       patience_(patience),
       child_(program_, {}, file, patience) {}
@@ -54,25 +54,25 @@ void Decoder::fail_nonsense() {
   fail(
       fmt::format("the decoder gave an answer that makes no sense {}: {}; is {} the one of this "
                   "installation?",
-                  place_, kDamaged, program_.string()));
+                  position_, kDamaged, program_.string()));
 }
 
 void Decoder::fail_ended() {
   const std::optional<ChildEnd> end = child_.end();
   throw_if_interrupted();  // a Ctrl-C reaches both
-  if (!end) fail(fmt::format("nobody knows how the decoder ended {}: try again", place_));
+  if (!end) fail(fmt::format("nobody knows how the decoder ended {}: try again", position_));
   if (!end->by_signal) {
-    fail(fmt::format("{} {}: is {} the one of this installation?", words_of(*end), place_,
+    fail(fmt::format("{} {}: is {} the one of this installation?", words_of(*end), position_,
                      program_.string()));
   }
-  fail(fmt::format("{} {}: {}", words_of(*end), place_, kDamaged));
+  fail(fmt::format("{} {}: {}", words_of(*end), position_, kDamaged));
 }
 
 void Decoder::require(Exchange exchange) {
   if (exchange == Exchange::closed) fail_ended();
   if (exchange == Exchange::silent) {
     fail(fmt::format("the decoder stood still for {} s {}: {}",
-                     1e-3 * static_cast<double>(patience_.count()), place_, kDamaged));
+                     1e-3 * static_cast<double>(patience_.count()), position_, kDamaged));
   }
 }
 
@@ -94,7 +94,7 @@ MessageHead Decoder::next() {
   if (head.kind != MessageKind::failed) return head;
   const auto failure = value_of<DecoderFailure>(head, MessageKind::failed);
   if (failure.is_memory) {
-    fail(fmt::format("decoding needs more memory {} than such a picture can need: {}", place_,
+    fail(fmt::format("decoding needs more memory {} than such a picture can need: {}", position_,
                      kDamaged));
   }
   throw InputError(fmt::format("{}: {}", subject_, first_line(failure.reason)));

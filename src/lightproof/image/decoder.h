@@ -32,7 +32,7 @@ class Decoder {
           std::chrono::milliseconds patience = kDecoderPatience);
 
   /// What is being done, as the end of a message: "in the header", "at row 7 of 512".
-  void now_at(std::string place) { place_ = std::move(place); }
+  void now_at(std::string position) { position_ = std::move(position); }
 
   template <class Value>
   void send(MessageKind kind, const Value& value) {
@@ -73,7 +73,7 @@ class Decoder {
 
   std::string subject_;
   std::string failing_;
-  std::string place_;
+  std::string position_;
   std::filesystem::path program_;
   std::chrono::milliseconds patience_;
   ChildConversation child_;

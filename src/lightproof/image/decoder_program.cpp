@@ -27,7 +27,7 @@ fs::path running_program() {
   return name.has_parent_path() ? fs::absolute(name, error) : fs::path();
 }
 
-std::vector<fs::path> places() {
+std::vector<fs::path> candidates() {
   std::vector<fs::path> found;
   if (const fs::path program = running_program(); !program.empty()) {
     const fs::path folder = program.parent_path();
@@ -53,9 +53,9 @@ fs::path decoder_program() {
         kDecoderVariable, named, kName));
   }
   std::string list;
-  for (const fs::path& place : places()) {
-    if (is_program(place)) return place;
-    list += (list.empty() ? "" : ", ") + place.string();
+  for (const fs::path& candidate : candidates()) {
+    if (is_program(candidate)) return candidate;
+    list += (list.empty() ? "" : ", ") + candidate.string();
   }
   throw InputError(
       fmt::format("the program that reads and writes pictures is missing ({}): install Lightproof "

@@ -138,8 +138,8 @@ MapDescription describe(const EnvironmentMap& map) {
                                 .notes = map.notes};
   Extent& picture = description.origin.picture.extent;
   if (picture == Extent{}) picture = texels;  // a built-in map
-  const auto place = map.origin.is_resampled ? place_in_picture : own_place_in_picture;
-  description.peak = place(map.origin.preset, picture, figures.peak_column, figures.peak_row);
+  const auto pixel_of = map.origin.is_resampled ? pixel_in_picture : own_pixel_in_picture;
+  description.peak = pixel_of(map.origin.preset, picture, figures.peak_column, figures.peak_row);
   return description;
 }
 

@@ -20,7 +20,7 @@ struct MapDescription {
   Mapping mapping = {};
   LuminanceWeights weights = kRec709;
   MapFigures figures;
-  PicturePlace peak;         ///< the brightest texel's column and row in the file
+  PicturePixel peak;         ///< the brightest texel's column and row in the file
   Direction peak_direction;  ///< where its centre lies in the world, z up
   std::vector<std::string> notes;
 };

@@ -185,10 +185,10 @@ Grid<Rgb> own_texels_of(Preset preset, const Grid<Rgb>& picture) {
   return map;
 }
 
-PicturePlace own_place_in_picture(Preset preset, Extent picture, int column, int row) {
+PicturePixel own_pixel_in_picture(Preset preset, Extent picture, int column, int row) {
   const OwnTexels own = own_texels(preset, picture);
   if (own.mapping.kind == MappingKind::lat_long) {
-    return place_in_picture(preset, picture, column, row);
+    return pixel_in_picture(preset, picture, column, row);
   }
   const int from_top = own.extent.height - 1 - row;
   if (preset != Preset::cube || !is_column(picture)) return {column, from_top};
@@ -196,7 +196,7 @@ PicturePlace own_place_in_picture(Preset preset, Extent picture, int column, int
   return {column % size, column / size * size + from_top};
 }
 
-PicturePlace place_in_picture(Preset preset, Extent picture, int column, int row) {
+PicturePixel pixel_in_picture(Preset preset, Extent picture, int column, int row) {
   const Extent map = map_extent(preset, picture);
   const Direction d = direction_from_square({centre(column, map.width), centre(row, map.height)});
   const SquarePoint at = image_from_direction(preset, d);

@@ -33,16 +33,16 @@ OwnTexels own_texels(Preset preset, Extent picture);
 Grid<Rgb> own_texels_of(Preset preset, const Grid<Rgb>& picture);
 
 /// Column and row of a picture, from its top left.
-struct PicturePlace {
+struct PicturePixel {
   int column = 0;
   int row = 0;
 };
 
 /// The pixel of a picture that holds, or for nodes is nearest to, the centre of texel
 /// (column, row) of the map that it becomes.
-PicturePlace place_in_picture(Preset preset, Extent picture, int column, int row);
+PicturePixel pixel_in_picture(Preset preset, Extent picture, int column, int row);
 
 /// The pixel of a picture that is texel (column, row) of own_texels().
-PicturePlace own_place_in_picture(Preset preset, Extent picture, int column, int row);
+PicturePixel own_pixel_in_picture(Preset preset, Extent picture, int column, int row);
 
 }  // namespace lightproof

@@ -118,8 +118,8 @@ Grid<Rgb> receive_lines(Decoder& decoder, const StoredPicture& stored, int chann
       decoder.fail_nonsense();
     }
     const auto count = static_cast<std::int64_t>(head.bytes / bytes_of_line);
-    if (const std::span<Rgb> place = lines.in_place(done, count); !place.empty()) {
-      decoder.receive(std::as_writable_bytes(place));
+    if (const std::span<Rgb> target = lines.in_place(done, count); !target.empty()) {
+      decoder.receive(std::as_writable_bytes(target));
     } else {
       receive_rearranged(decoder, lines, done, count);
     }

@@ -49,10 +49,10 @@ std::vector<SeriesStyle> series_styles(const std::vector<std::string>& names) {
   std::vector<SeriesStyle> styles;
   for (const std::string& name : unique_names(names)) {
     // Every round of colours goes with other shapes.
-    const std::size_t place = styles.size();
-    const std::size_t round = place / kColours.size();
+    const std::size_t index = styles.size();
+    const std::size_t round = index / kColours.size();
     styles.push_back(
-        {name, kColours[place % kColours.size()], kShapes[(place + round) % kShapes.size()]});
+        {name, kColours[index % kColours.size()], kShapes[(index + round) % kShapes.size()]});
   }
   return styles;
 }

@@ -33,7 +33,7 @@ struct BrdfViews {
 /// One node of one meridian.
 struct BrdfNode {
   double azimuth_cosine;
-  double place;
+  double position;
   double weight;
 };
 
@@ -55,7 +55,7 @@ HWY_INLINE void add_node(const BrdfNode& node, double alpha, const Geometry& geo
   const double square = alpha * alpha;
   for (std::size_t i = 0; i < kViews; ++i) {
     const double mu = views.cosine[i];
-    const double w = views.least[i] + (1.0 - views.least[i]) * node.place;
+    const double w = views.least[i] + (1.0 - views.least[i]) * node.position;
     const double rest = (1.0 - w) * (1.0 + w);
     const double q = std::sqrt(w * w + square * rest);
     const double up = w / q;
@@ -114,20 +114,20 @@ HWY_EXPORT(add_brdf_node);
 /// A cosine of 0 makes 0/0 of what has a limit.
 constexpr double kLeastCosine = 1e-12;
 
-struct GaussRule {
-  std::vector<double> places;  ///< in (0,1)
+struct LegendreRule {
+  std::vector<double> positions;  ///< in (0,1)
   std::vector<double> weights;
 };
 
-GaussRule gauss_rule(int nodes) {
-  GaussRule rule;
+LegendreRule legendre_rule(int nodes) {
+  LegendreRule rule;
   for (const double zero : boost::math::legendre_p_zeros<double>(nodes)) {
     const double slope = boost::math::legendre_p_prime(nodes, zero);
     const double weight = 1.0 / ((1.0 - zero * zero) * slope * slope);
     for (const double x : {-zero, zero}) {
-      if (x == 0.0 && !rule.places.empty())
+      if (x == 0.0 && !rule.positions.empty())
         continue;  // of an odd number, the middle one comes first
-      rule.places.push_back(0.5 * (1.0 + x));
+      rule.positions.push_back(0.5 * (1.0 + x));
       rule.weights.push_back(weight);
     }
   }
@@ -161,17 +161,17 @@ BrdfViews views_at(std::span<const double> cosines, double alpha) {
 }  // namespace
 
 BrdfQuadrature::BrdfQuadrature(int around, int along) {
-  const GaussRule azimuth = gauss_rule(around);
+  const LegendreRule azimuth = legendre_rule(around);
   for (const double quarter : {0.0, 0.5 * kPi}) {
-    for (std::size_t i = 0; i < azimuth.places.size(); ++i) {
+    for (std::size_t i = 0; i < azimuth.positions.size(); ++i) {
       // Half of the circle, of which the other half is the mirror image: 2 (pi/2)/2pi.
       around_.push_back(
-          {std::cos(quarter + 0.5 * kPi * azimuth.places[i]), 0.5 * azimuth.weights[i]});
+          {std::cos(quarter + 0.5 * kPi * azimuth.positions[i]), 0.5 * azimuth.weights[i]});
     }
   }
-  const GaussRule meridian = gauss_rule(along);
-  for (std::size_t i = 0; i < meridian.places.size(); ++i) {
-    const double x = meridian.places[i];
+  const LegendreRule meridian = legendre_rule(along);
+  for (std::size_t i = 0; i < meridian.positions.size(); ++i) {
+    const double x = meridian.positions[i];
     along_.push_back({x * x * x * (4.0 - 3.0 * x), 12.0 * x * x * (1.0 - x) * meridian.weights[i]});
   }
 }
@@ -182,10 +182,11 @@ void BrdfQuadrature::integrate(std::span<const double> cosines, double roughness
   for (std::size_t begin = 0; begin < cosines.size(); begin += kViews) {
     BrdfViews views = views_at(cosines.subspan(begin), alpha);
     for (const Node& azimuth : around_) {
-      set_least(views, azimuth.place, alpha);
+      set_least(views, azimuth.position, alpha);
       for (const Node& meridian : along_) {
         HWY_DYNAMIC_DISPATCH(add_brdf_node)
-        ({azimuth.place, meridian.place, azimuth.weight * meridian.weight}, alpha, masking, views);
+        ({azimuth.position, meridian.position, azimuth.weight * meridian.weight}, alpha, masking,
+         views);
       }
     }
     for (std::size_t i = 0; i < std::min(kViews, cosines.size() - begin); ++i) {

@@ -27,7 +27,7 @@ class BrdfQuadrature {
 
  private:
   struct Node {
-    double place;
+    double position;
     double weight;
   };
 

@@ -28,9 +28,9 @@ InterpolationError interpolation_error(double finer, double coarser, int degree,
   InterpolationError error = {0.0, 0.0};
   double curvature = 0.0;
   for (std::size_t i = 1; i < kSteps; ++i) {
-    const double place = static_cast<double>(i) / kSteps;
+    const double fraction = static_cast<double>(i) / kSteps;
     for (std::size_t l = 0; l < factors[i].size(); ++l) {
-      const double mixed = (1.0 - place) * factors.front()[l] + place * factors.back()[l];
+      const double mixed = (1.0 - fraction) * factors.front()[l] + fraction * factors.back()[l];
       error.largest = std::max(error.largest, std::abs(mixed - factors[i][l]));
       const double second = factors[i - 1][l] - 2.0 * factors[i][l] + factors[i + 1][l];
       curvature = std::max(curvature, std::abs(second) / (step * step));

@@ -17,9 +17,9 @@ MipPyramid::MipPyramid(const Grid<Rgb>& map) : base_(&map) {
 
 glm::dvec3 MipPyramid::trilinear(SquarePoint at, double level_of_detail) const {
   const double last = static_cast<double>(smaller_.size());
-  const double level_place = std::clamp(level_of_detail, 0.0, last);
-  const auto finer = static_cast<std::size_t>(level_place);
-  const double between = level_place - static_cast<double>(finer);
+  const double clamped = std::clamp(level_of_detail, 0.0, last);
+  const auto finer = static_cast<std::size_t>(clamped);
+  const double between = clamped - static_cast<double>(finer);
   const glm::dvec3 value = look_up_bilinear(level(finer), at);
   if (between == 0.0) return value;
   return (1.0 - between) * value + between * look_up_bilinear(level(finer + 1), at);

@@ -42,13 +42,13 @@ Radiance riemann_reflection_published(const Function& radiance, Direction normal
                                       RiemannRule rule) {
   check(rule);
   const Frame frame = frame_around(normal);
-  const double place = rule.nodes == RiemannNodes::midpoint ? 0.5 : 1.0;
+  const double offset = rule.nodes == RiemannNodes::midpoint ? 0.5 : 1.0;
   glm::dvec3 sum(0.0);
   for (int j = 0; j < rule.polar; ++j) {
-    const double theta = 0.5 * kPi * (j + place) / rule.polar;
+    const double theta = 0.5 * kPi * (j + offset) / rule.polar;
     const double weight = std::cos(theta) * std::sin(theta);
     for (int k = 0; k < rule.azimuths; ++k) {
-      const double phi = 2.0 * kPi * (k + place) / rule.azimuths;
+      const double phi = 2.0 * kPi * (k + offset) / rule.azimuths;
       const Direction local = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                                std::cos(theta)};
       sum += weight * glm::dvec3(radiance(frame.to_world(local)));

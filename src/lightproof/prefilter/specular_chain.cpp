@@ -70,9 +70,9 @@ SpecularChain phong_chain(const Grid<Rgb>& map, Extent extent, std::span<const d
 
 Rgb look_up(const SpecularChain& chain, Direction direction, double level) {
   assert(!chain.empty());
-  const double place = std::clamp(level, 0.0, static_cast<double>(chain.size() - 1));
-  const auto finer = static_cast<std::size_t>(place);
-  const double between = place - static_cast<double>(finer);
+  const double clamped = std::clamp(level, 0.0, static_cast<double>(chain.size() - 1));
+  const auto finer = static_cast<std::size_t>(clamped);
+  const double between = clamped - static_cast<double>(finer);
   const SquarePoint at = square_from_direction(direction);
   const glm::dvec3 value = look_up_bilinear(chain[finer], at);
   if (between == 0.0) return Rgb(value);

@@ -11,13 +11,13 @@ namespace {
 
 constexpr int kPoints = 8;
 
-/// Weights of the points -3, -2, … 4 for a place in [0,1).
-std::array<double, kPoints> lagrange_weights(double place) {
+/// Weights of the points -3, -2, … 4 for a position at a fraction in [0,1) after point 0.
+std::array<double, kPoints> lagrange_weights(double fraction) {
   std::array<double, kPoints> weights{};
   for (int i = 0; i < kPoints; ++i) {
     double weight = 1.0;
     for (int j = 0; j < kPoints; ++j) {
-      if (j != i) weight *= (place + 3.0 - j) / (i - j);
+      if (j != i) weight *= (fraction + 3.0 - j) / (i - j);
     }
     weights[static_cast<std::size_t>(i)] = weight;
   }
@@ -38,9 +38,9 @@ glm::dvec3 interpolate_smooth(const Grid<Rgb>& samples, Direction direction) {
   for (int j = 0; j < kPoints; ++j) {
     // The rows go round the meridian, which has twice as many: the second half of them lies
     // opposite.
-    const int place = (static_cast<int>(row) - 3 + j + 4 * height) % (2 * height);
-    const bool beyond = place >= height;
-    const int y = beyond ? 2 * height - 1 - place : place;
+    const int wrapped = (static_cast<int>(row) - 3 + j + 4 * height) % (2 * height);
+    const bool beyond = wrapped >= height;
+    const int y = beyond ? 2 * height - 1 - wrapped : wrapped;
     const int shift = static_cast<int>(column) - 3 + (beyond ? width / 2 : 0);
     glm::dvec3 line(0.0);
     for (int i = 0; i < kPoints; ++i) {

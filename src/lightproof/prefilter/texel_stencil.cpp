@@ -6,19 +6,14 @@
 #include <cstdint>
 #include <numeric>
 
+#include "lightproof/core/gauss_rule.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/warp/lat_long.h"
 
 namespace lightproof {
 namespace {
 
-/// Gauss-Legendre nodes in [0,1] (Abramowitz & Stegun 25.4.29, n = 3).
-struct GaussNode {
-  double place;
-  double weight;
-};
-constexpr std::array<GaussNode, 3> kNodes = {
-    {{0.11270166537925831, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.88729833462074169, 5.0 / 18.0}}};
+const GaussRule<3> kRule;
 
 /// A texel or a part of one.
 struct Cell {
@@ -118,12 +113,12 @@ class CellIntegral {
     const double width = cell.s_high - cell.s_low;
     const double height = cell.t_high - cell.t_low;
     double sum = 0.0;
-    for (const GaussNode& along : kNodes) {
-      const double t = cell.t_low + along.place * height;
+    for (const GaussNode& in_t : kRule.nodes()) {
+      const double t = cell.t_low + in_t.at * height;
       const double sine = sin_theta(t);
-      for (const GaussNode& across : kNodes) {
-        const double s = cell.s_low + across.place * width;
-        sum += along.weight * across.weight * solid_angle_per_square(t) *
+      for (const GaussNode& in_s : kRule.nodes()) {
+        const double s = cell.s_low + in_s.at * width;
+        sum += in_t.weight * in_s.weight * solid_angle_per_square(t) *
                kernel_.value(haversine(s, t, sine));
       }
     }
@@ -148,13 +143,13 @@ double reach_in_turns(double support, SquarePoint axis, double t_low, double t_h
 /// The part of a texel that column and row of the centre of output texel x fall into.
 struct Phase {
   int column;
-  std::int64_t numerator;  ///< of the place inside the column, over 2 width_out
+  std::int64_t numerator;  ///< of the position inside the column, over 2 width_out
 };
 
 Phase phase_of(int x, int width_in, int width_out) {
-  const std::int64_t place = (2 * std::int64_t{x} + 1) * width_in;
+  const std::int64_t position = (2 * std::int64_t{x} + 1) * width_in;
   const std::int64_t per_column = 2 * std::int64_t{width_out};
-  return {static_cast<int>(place / per_column), place % per_column};
+  return {static_cast<int>(position / per_column), position % per_column};
 }
 
 }  // namespace
@@ -204,21 +199,22 @@ glm::dvec3 TexelStencil::sum(const Grid<Rgb>& map, int column) const {
 Grid<glm::dvec3> local_sums(const Grid<Rgb>& map, const ZonalKernel& kernel, double whole,
                             Extent extent) {
   const int width = map.extent().width;
-  // Columns whose centres lie at the same place of a texel share a stencil.
+  // Columns whose centres lie at the same position of a texel share a stencil.
   const int phases = extent.width / std::gcd(width, extent.width);
   Grid<glm::dvec3> sums(extent);
-  parallel_for(
-      static_cast<std::size_t>(extent.height) * static_cast<std::size_t>(phases),
-      [&](std::size_t task) {
-        const int y = static_cast<int>(task / static_cast<std::size_t>(phases));
-        const int first = static_cast<int>(task % static_cast<std::size_t>(phases));
-        const Phase phase = phase_of(first, width, extent.width);
-        const double place = static_cast<double>(phase.numerator) / (2.0 * extent.width * width);
-        const TexelStencil stencil(kernel, map.extent(), {place, (y + 0.5) / extent.height}, whole);
-        for (int x = first; x < extent.width; x += phases) {
-          sums(x, y) = stencil.sum(map, phase_of(x, width, extent.width).column);
-        }
-      });
+  parallel_for(static_cast<std::size_t>(extent.height) * static_cast<std::size_t>(phases),
+               [&](std::size_t task) {
+                 const int y = static_cast<int>(task / static_cast<std::size_t>(phases));
+                 const int first = static_cast<int>(task % static_cast<std::size_t>(phases));
+                 const Phase phase = phase_of(first, width, extent.width);
+                 const double position =
+                     static_cast<double>(phase.numerator) / (2.0 * extent.width * width);
+                 const TexelStencil stencil(kernel, map.extent(),
+                                            {position, (y + 0.5) / extent.height}, whole);
+                 for (int x = first; x < extent.width; x += phases) {
+                   sums(x, y) = stencil.sum(map, phase_of(x, width, extent.width).column);
+                 }
+               });
   return sums;
 }
 

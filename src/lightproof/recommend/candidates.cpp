@@ -23,7 +23,7 @@ constexpr double kOcclusionGain = 4.0;
 
 /// What the error of any number of samples stays above, by the prediction.
 double floor_of(const PredictedError& error) {
-  return error.law == ErrorLaw::constant ? error.at(1) : error.bias;
+  return error.model == ErrorModel::constant ? error.at(1) : error.bias;
 }
 
 std::optional<Obstacle> too_many_samples(const EstimatorInfo& info, std::uint64_t samples) {
@@ -66,7 +66,7 @@ std::optional<Obstacle> obstacle_of_method(const MethodDemand& demand, const Can
 std::uint64_t fewest_possible(const Candidate& candidate, const MethodDemand& demand) {
   if (!demand.will_be_tried || !is_uncertain(candidate, demand)) return candidate.samples;
   if (!candidate.error || demand.is_occluded) return candidate.info->samples_per_estimate;
-  if (candidate.error->law == ErrorLaw::constant) {
+  if (candidate.error->model == ErrorModel::constant) {
     return candidate.error->bias <= demand.error ? 1 : 0;
   }
   return hoped_samples(candidate, demand);
@@ -105,8 +105,8 @@ std::vector<UnreachedFamily> FamilyObstacles::list(
 bool is_uncertain(const Candidate& candidate, const MethodDemand& demand) {
   if (!candidate.error || demand.is_occluded) return true;
   const PredictedError& error = *candidate.error;
-  return error.law == ErrorLaw::at_most ||
-         (error.law == ErrorLaw::constant && error.variance > 0.0);
+  return error.model == ErrorModel::at_most ||
+         (error.model == ErrorModel::constant && error.variance > 0.0);
 }
 
 std::uint64_t in_steps(const EstimatorInfo& info, double samples) {
@@ -119,7 +119,7 @@ std::uint64_t hoped_samples(const Candidate& candidate, const MethodDemand& dema
   if (!demand.will_be_tried || !is_uncertain(candidate, demand)) return candidate.samples;
   if (candidate.samples == 0) return info.samples_per_estimate;
   auto samples = static_cast<double>(candidate.samples);
-  if (candidate.error->law == ErrorLaw::at_most) samples = std::pow(samples, 0.5 / kBestSlope);
+  if (candidate.error->model == ErrorModel::at_most) samples = std::pow(samples, 0.5 / kBestSlope);
   if (demand.is_occluded) samples /= kOcclusionGain;
   return in_steps(info, samples);
 }
@@ -159,7 +159,7 @@ std::optional<Obstacle> obstacle_to(const MethodDemand& demand, const Candidate&
 
 std::optional<std::uint64_t> samples_for(const EstimatorInfo& info, const PredictedError& predicted,
                                          double error) {
-  if (predicted.law == ErrorLaw::constant) {
+  if (predicted.model == ErrorModel::constant) {
     if (predicted.at(1) > error) return std::nullopt;
     return 1;
   }

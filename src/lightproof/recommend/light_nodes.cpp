@@ -57,9 +57,9 @@ class Collector {
 
   /// The size that nodes may have within a radius of a direction.
   double size_at(Direction d, double radius) const {
-    if (std::isinf(lobe_->place.width)) return lobe_->place.width;
-    const double angle = std::acos(std::clamp(glm::dot(d, lobe_->place.axis), -1.0, 1.0));
-    return kRelativeSize * std::max(lobe_->place.width, angle - radius - lobe_->margin);
+    if (std::isinf(lobe_->extent.width)) return lobe_->extent.width;
+    const double angle = std::acos(std::clamp(glm::dot(d, lobe_->extent.axis), -1.0, 1.0));
+    return kRelativeSize * std::max(lobe_->extent.width, angle - radius - lobe_->margin);
   }
 
   void add_cells(const LightBlock& block) {

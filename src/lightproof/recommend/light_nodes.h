@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "lightproof/materials/lobe_place.h"
+#include "lightproof/materials/lobe_extent.h"
 #include "lightproof/materials/material_batch.h"
 #include "lightproof/recommend/map_summary.h"
 
@@ -13,7 +13,7 @@ namespace lightproof {
 
 /// Where a material's k varies fast.
 struct LobeReach {
-  LobePlace place;
+  LobeExtent extent;
   double margin;  ///< an angle around its axis, in radians, at which other lobes may stand
 };
 

@@ -24,7 +24,7 @@ using reference::SampledDensity;
 
 /// Of an estimator at one point: the variance of a sample, and the bias.
 struct ErrorAt {
-  ErrorLaw law;
+  ErrorModel model;
   double variance;
   double bias;
   StrataVariances inside = {};
@@ -111,13 +111,13 @@ class Predictor {
     const bool has_table_of_lobes =
         std::holds_alternative<Ggx>(material_) || std::holds_alternative<ModifiedPhong>(material_);
     const ScatteredLight light = scattered(*summary_, material_, at, lobe,
-                                           has_table_of_lobes ? lobe.place.axis : Direction(0.0));
+                                           has_table_of_lobes ? lobe.extent.axis : Direction(0.0));
     add_lobes(light, at, errors);
     add_tables(light, errors);
     add_combined(light, errors);
     add_products(light, at, errors);
     add_lights(light, at, errors);
-    for (const auto& [estimator, luminance] : look_ups_.at(light, at, lobe.place.axis)) {
+    for (const auto& [estimator, luminance] : look_ups_.at(light, at, lobe.extent.axis)) {
       biased(estimator, luminance, light, errors);
     }
     add_outgoing(light, at, errors);
@@ -129,7 +129,7 @@ class Predictor {
  private:
   /// From E[X^2]; `whole` is the integral of the density over the nodes.
   static ErrorAt of_one_sample(double square, double mean, double whole = 1.0) {
-    return {ErrorLaw::independent, std::max(0.0, square - mean * mean * (2.0 - whole)), 0.0};
+    return {ErrorModel::independent, std::max(0.0, square - mean * mean * (2.0 - whole)), 0.0};
   }
   static void one_sample(std::string_view name, double square, double mean, ErrorsAt& errors,
                          double whole = 1.0) {
@@ -233,14 +233,14 @@ class Predictor {
     };
     for (const EstimatorInfo& info : estimators()) {
       if (!info.combined) continue;
-      errors.emplace(info.name, ErrorAt{ErrorLaw::independent, variance(*info.combined), 0.0});
+      errors.emplace(info.name, ErrorAt{ErrorModel::independent, variance(*info.combined), 0.0});
     }
     // What is chosen is weighed by the mean of its candidates, in luminance that of their own
     // estimates.
     const double candidate = variance({.is_one_sample = true});
     for (const EstimatorInfo& info : estimators()) {
       if (info.family != EstimatorFamily::ris) continue;
-      errors.emplace(info.name, ErrorAt{ErrorLaw::independent,
+      errors.emplace(info.name, ErrorAt{ErrorModel::independent,
                                         candidate / static_cast<double>(info.candidates), 0.0});
     }
   }
@@ -272,7 +272,7 @@ class Predictor {
   /// Point sets that are no worse than strata.
   static void add_sets(std::string_view base, const StrataVariances& inside, ErrorsAt& errors) {
     ErrorAt error = errors.find(base)->second;
-    error.law = ErrorLaw::at_most;
+    error.model = ErrorModel::at_most;
     error.inside = inside;
     for (const EstimatorInfo& info : estimators()) {
       if (info.at_independent_points == base) errors.emplace(info.name, error);
@@ -281,7 +281,7 @@ class Predictor {
 
   static void biased(std::string_view name, double estimate, const ScatteredLight& light,
                      ErrorsAt& errors) {
-    errors.emplace(name, ErrorAt{ErrorLaw::constant, 0.0, estimate - light.mean});
+    errors.emplace(name, ErrorAt{ErrorModel::constant, 0.0, estimate - light.mean});
   }
 
   void add_lights(const ScatteredLight& light, const ShadingPoint& at, ErrorsAt& errors) const {
@@ -311,7 +311,7 @@ class Predictor {
     const Combined sums = combine(there, densities_.at(0.0), Heuristic::balance);
     const double variance = variance_of(sums, there, true) / kOutgoingTableSamples;
     errors.emplace("outgoing table",
-                   ErrorAt{ErrorLaw::constant, variance, there.mean - light.mean});
+                   ErrorAt{ErrorModel::constant, variance, there.mean - light.mean});
   }
 
   const MapSummary* summary_;
@@ -340,7 +340,7 @@ double PredictedError::variance_of(std::uint64_t samples) const {
 }
 
 double PredictedError::at(std::uint64_t samples) const {
-  const double count = law == ErrorLaw::constant ? 1.0 : static_cast<double>(samples);
+  const double count = model == ErrorModel::constant ? 1.0 : static_cast<double>(samples);
   return std::sqrt(bias * bias + variance_of(samples) / count);
 }
 
@@ -376,7 +376,7 @@ Prediction predict(const MapSummary& summary, const Material& material,
       PredictedError sum;
       for (const ErrorsAt& at : errors) {
         const ErrorAt& error = at.find(known)->second;
-        sum.law = base.empty() ? error.law : ErrorLaw::at_most;
+        sum.model = base.empty() ? error.model : ErrorModel::at_most;
         sum.variance += error.variance;
         sum.bias += error.bias * error.bias;
         for (std::size_t i = 0; i < kStrataGrids; ++i) sum.inside[i] += error.inside[i];

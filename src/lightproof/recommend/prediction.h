@@ -17,7 +17,7 @@
 namespace lightproof {
 
 /// How an error follows from the number of samples.
-enum class ErrorLaw {
+enum class ErrorModel {
   independent,  ///< the variance over the number of samples
   at_most,      ///< no more than that, as a rule: samples that are more even than random ones
   constant,     ///< the same of any number: one look-up, or lights that were made beforehand
@@ -26,10 +26,10 @@ enum class ErrorLaw {
 /// The error of an estimator, as the root of a mean square over shading points, bias included,
 /// divided by the mean of the exact radiance over these.
 struct PredictedError {
-  ErrorLaw law = ErrorLaw::independent;
-  /// Of one sample, or of one estimate if the law is constant, relative to the square of the mean.
-  /// That of the outgoing table is what its filling by random points would leave, a bound: its
-  /// points are more even.
+  ErrorModel model = ErrorModel::independent;
+  /// Of one sample, or of one estimate if the model is constant, relative to the square of the
+  /// mean. That of the outgoing table is what its filling by random points would leave, a bound:
+  /// its points are more even.
   double variance = 0.0;
   double bias = 0.0;  ///< root mean square over the points
   /// Of point sets that keep strata of the square apart, the variance inside these, as it is known

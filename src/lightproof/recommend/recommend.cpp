@@ -36,15 +36,15 @@ struct Answer {
 /// The places of those that certainly reach the error in the least time: a choice and a rival.
 std::vector<std::size_t> surest(const std::vector<Candidate>& candidates,
                                 const MethodDemand& demand) {
-  std::vector<std::size_t> places;
+  std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (!is_uncertain(candidates[i], demand)) places.push_back(i);
+    if (!is_uncertain(candidates[i], demand)) indices.push_back(i);
   }
-  std::ranges::stable_sort(places, {}, [&](std::size_t i) {
+  std::ranges::stable_sort(indices, {}, [&](std::size_t i) {
     return candidates[i].seconds(demand, candidates[i].samples);
   });
-  const auto count = static_cast<std::ptrdiff_t>(std::min<std::size_t>(places.size(), 2));
-  return {places.begin(), places.begin() + count};
+  const auto count = static_cast<std::ptrdiff_t>(std::min<std::size_t>(indices.size(), 2));
+  return {indices.begin(), indices.begin() + count};
 }
 
 /// Takes the candidates that are to be run next: of those that come first the ones that may take
@@ -85,8 +85,8 @@ RecommendedMethod method_of(const Candidate& candidate, Extent map) {
   method.table = table_of(*candidate.info, map);
   if (const auto& error = candidate.error) {
     method.predicted_error = error->at(candidate.samples);
-    method.is_upper_bound = error->law == ErrorLaw::at_most ||
-                            (error->law == ErrorLaw::constant && error->variance > 0.0);
+    method.is_upper_bound = error->model == ErrorModel::at_most ||
+                            (error->model == ErrorModel::constant && error->variance > 0.0);
   }
   method.predicted_time = {1e3 * candidate.cost.seconds_of(candidate.samples),
                            1e3 * candidate.cost.set_up_seconds};

@@ -53,9 +53,9 @@ double measured_error(const RecommendedMethod& choice, const LitReceiver& lit, s
 void find_best(SurveyCase& one, const AccuracyChart& chart, double shading_points) {
   one.best_seconds = std::numeric_limits<double>::infinity();
   for (const AccuracyLine& line : chart.lines) {
-    const auto place = at_error(line, one.error);
-    if (!place) continue;
-    const double seconds = place->seconds + line.set_up_processor_seconds / shading_points;
+    const auto point = at_error(line, one.error);
+    if (!point) continue;
+    const double seconds = point->seconds + line.set_up_processor_seconds / shading_points;
     if (seconds >= one.best_seconds) continue;
     one.best = line.estimator;
     one.best_seconds = seconds;

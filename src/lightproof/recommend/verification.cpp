@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -28,6 +29,14 @@ constexpr double kTooSlow = 1.6;
 /// Candidates that are verified at a time, and how often the number of samples of one is corrected.
 constexpr std::size_t kVerifiedAtATime = 4;
 constexpr int kMostAttempts = 4;
+
+/// An error below so much of what is asked for has more samples than it needs; by which slope of
+/// error against samples fewer are tried, at what share of them that is worth while, and how far a
+/// power of two may lie from what that slope says.
+constexpr double kGenerous = 0.85;
+constexpr double kSteepestSlope = 0.85;
+constexpr double kWorthTrying = 0.85;
+constexpr double kPowerReach = 0.7;
 
 /// Samples at one point in a round, and estimates at most.
 constexpr std::uint64_t kSamplesOfARound = 4096;
@@ -202,28 +211,89 @@ std::optional<Obstacle> correct(Candidate& candidate, const MethodDemand& demand
   return obstacle_to(demand, candidate, candidate.samples);
 }
 
+/// Fewer samples for what reached the error with more than it needs, where nothing says how the
+/// error falls; 0 if there are none to try. `missed` are the most that are known not to do, or 0.
+std::uint64_t fewer_samples(const Verified& reached, const MethodDemand& demand,
+                            std::uint64_t missed) {
+  const EstimatorInfo& info = *reached.candidate.info;
+  const double ratio = credible_error(reached.point()) / demand.error;
+  if (info.ignores_budget || !is_uncertain(reached.candidate, demand) || !(ratio < kGenerous)) {
+    return 0;
+  }
+  const auto samples = static_cast<double>(reached.candidate.samples);
+  const double fewer = missed > 0 ? std::sqrt(static_cast<double>(missed) * samples)
+                                  : samples * std::pow(ratio, 1.0 / kSteepestSlope);
+  // Nets are evenest at powers of two.
+  const auto power =
+      static_cast<double>(std::bit_floor(static_cast<std::uint64_t>(fewer / kPowerReach)));
+  const bool is_near =
+      power >= kPowerReach * fewer && power > static_cast<double>(missed) && power < samples;
+  const std::uint64_t wanted = in_steps(info, is_near ? power : fewer);
+  const bool is_worth_it = static_cast<double>(wanted) <= kWorthTrying * samples;
+  return wanted > missed && is_worth_it ? wanted : 0;
+}
+
+/// A candidate on its way to the fewest samples that do.
+class VerifiedCandidate {
+ public:
+  VerifiedCandidate(Candidate candidate, const MethodDemand& demand)
+      : candidate_(std::move(candidate)), demand_(&demand) {}
+
+  const Candidate& candidate() const { return candidate_; }
+
+  /// What a run at candidate().samples says: whether another one is to follow.
+  bool goes_on_after(AccuracyLine line, int attempt) {
+    const AccuracyPoint& point = line.points.front();
+    const double error = credible_error(point);
+    // A smaller number of samples is chosen for its error: chance may have made that small.
+    if (error <= (reached_ ? 1.0 : kMissed) * demand_->error) {
+      reached_ = Verified{candidate_, std::move(line)};
+    } else if (reached_) {
+      missed_ = candidate_.samples;
+    } else {
+      missed_ = candidate_.samples;
+      obstacle_ = correct(candidate_, *demand_, point, attempt);
+      return !obstacle_;
+    }
+    if (attempt == kMostAttempts) return false;
+    candidate_ = reached_->candidate;
+    candidate_.samples = fewer_samples(*reached_, *demand_, missed_);
+    return candidate_.samples > 0;
+  }
+
+  void put_into(Verification& all) && {
+    if (reached_) {
+      all.reaching.push_back(*std::move(reached_));
+    } else {
+      all.failed.emplace_back(std::move(candidate_), *std::move(obstacle_));
+    }
+  }
+
+ private:
+  Candidate candidate_;
+  const MethodDemand* demand_;
+  std::optional<Verified> reached_;
+  std::optional<Obstacle> obstacle_;
+  std::uint64_t missed_ = 0;  ///< the most samples that are known not to do
+};
+
 /// Runs a few candidates until each reaches the error or is out.
 void verify_some(const RunEstimators& run, const MethodDemand& demand,
-                 std::vector<Candidate> candidates, Verification& all) {
-  for (int attempt = 1; !candidates.empty(); ++attempt) {
+                 std::span<const Candidate> candidates, Verification& all) {
+  std::vector<VerifiedCandidate> open;
+  for (const Candidate& candidate : candidates) open.emplace_back(candidate, demand);
+  for (int attempt = 1; !open.empty(); ++attempt) {
     SamplesOf samples;
-    for (const Candidate& candidate : candidates) {
-      samples[candidate.info->name] = {candidate.samples};
+    for (const VerifiedCandidate& one : open) {
+      samples[one.candidate().info->name] = {one.candidate().samples};
     }
     MeasuredLines lines = run(samples, {kFinalRounds, fmt::format("verification {}", attempt)});
-    std::vector<Candidate> again;
-    for (Candidate& candidate : candidates) {
-      AccuracyLine& line = lines.find(candidate.info->name)->second;
-      const AccuracyPoint& point = line.points.front();
-      if (credible_error(point) <= kMissed * demand.error) {
-        all.reaching.push_back({std::move(candidate), std::move(line)});
-      } else if (auto obstacle = correct(candidate, demand, point, attempt)) {
-        all.failed.emplace_back(std::move(candidate), *std::move(obstacle));
-      } else {
-        again.push_back(std::move(candidate));
-      }
-    }
-    candidates = std::move(again);
+    std::erase_if(open, [&](VerifiedCandidate& one) {
+      AccuracyLine& line = lines.find(one.candidate().info->name)->second;
+      if (one.goes_on_after(std::move(line), attempt)) return false;
+      std::move(one).put_into(all);
+      return true;
+    });
   }
 }
 
@@ -274,7 +344,7 @@ Verification verify(const RunEstimators& run, const MethodDemand& demand,
   while (!is_done()) {
     const auto some = left.first(std::min(kVerifiedAtATime, left.size()));
     left = left.subspan(some.size());
-    verify_some(run, demand, {some.begin(), some.end()}, all);
+    verify_some(run, demand, some, all);
     std::ranges::stable_sort(all.reaching, {},
                              [&](const Verified& one) { return one.seconds(demand); });
   }

@@ -78,7 +78,8 @@ struct Verification {
 
 /// Measures candidates, which come cheapest first, until there are two that reach the error and no
 /// other one is expected to take less time. One that misses it gets more samples, as a slope of
-/// -1/2 asks for, some times, within its budget; one whose samples have no number is out.
+/// -1/2 asks for, some times, within its budget; one whose samples have no number is out. One that
+/// reaches much less than the error, and whose error falls nobody knows how, is tried with fewer.
 Verification verify(const RunEstimators& run, const MethodDemand& demand,
                     const std::vector<Candidate>& candidates);
 

@@ -27,15 +27,15 @@ Cell time_cell(double seconds) { return {seconds_text(seconds), "number", ""}; }
 Cell percent_cell(double fraction) { return {percent(fraction), "number", ""}; }
 
 /// Samples have no meaning to an estimator of one point.
-Cell samples_cell(const AccuracyLine& line, const std::optional<LinePlace>& place) {
-  if (!place) return none_cell("not reached within what was measured");
+Cell samples_cell(const AccuracyLine& line, const std::optional<LinePoint>& point) {
+  if (!point) return none_cell("not reached within what was measured");
   if (line.points.size() == 1) return {"fixed cost", "number", "its budget is without meaning"};
-  return {with_thousands(whole_samples(*place)), "number", ""};
+  return {with_thousands(whole_samples(*point)), "number", ""};
 }
 
 double time_to(const AccuracyLine& line, double error) {
-  const std::optional<LinePlace> place = at_error(line, error);
-  return place ? place->seconds : HUGE_VAL;
+  const std::optional<LinePoint> point = at_error(line, error);
+  return point ? point->seconds : HUGE_VAL;
 }
 
 /// The fastest to 5 % first; those that do not get there last, as they were.
@@ -59,15 +59,22 @@ Table equal_error_table(const AccuracyChart& chart) {
   for (const AccuracyLine* line : by_time(chart)) {
     std::vector<Cell> row = {text_cell(line->estimator), text_cell(line->family)};
     for (const double error : kErrors) {
-      const std::optional<LinePlace> place = at_error(*line, error);
-      row.push_back(place ? time_cell(place->seconds) : none_cell("not reached"));
-      row.push_back(samples_cell(*line, place));
+      const std::optional<LinePoint> point = at_error(*line, error);
+      row.push_back(point ? time_cell(point->seconds) : none_cell("not reached"));
+      row.push_back(samples_cell(*line, point));
     }
     row.push_back(line->is_biased ? none_cell("biased: its error is not variance alone")
                                   : number_cell(efficiency(*line)));
     table.add(row);
   }
   return table;
+}
+
+/// What no number of samples takes away.
+Cell floor_cell(const AccuracyLine& line) {
+  if (!line.is_biased) return none_cell("unbiased");
+  return line.floor > 0.0 ? percent_cell(line.floor)
+                          : none_cell("none: the bias vanishes with more samples");
 }
 
 Table equal_time_table(const AccuracyChart& chart) {
@@ -77,8 +84,8 @@ Table equal_time_table(const AccuracyChart& chart) {
   for (const AccuracyLine* line : by_time(chart)) {
     std::vector<Cell> row = {text_cell(line->estimator), text_cell(line->family)};
     for (const double seconds : kTimes) {
-      const std::optional<LinePlace> place = at_time(*line, seconds);
-      row.push_back(place ? percent_cell(place->error)
+      const std::optional<LinePoint> point = at_time(*line, seconds);
+      row.push_back(point ? percent_cell(point->error)
                           : none_cell("takes longer, or was not measured for so long"));
     }
     table.add(row);
@@ -87,9 +94,9 @@ Table equal_time_table(const AccuracyChart& chart) {
 }
 
 Table set_up_table(const AccuracyChart& chart) {
-  Table table("Set-up, memory, rate and bias",
-              {"Estimator", "Family", "Set-up", "Memory beside the map", "Slope of error over N",
-               "Bias at most samples"});
+  Table table(
+      "Set-up, memory, rate and bias",
+      {"Estimator", "Family", "Set-up", "Memory beside the map", "Slope of error over N", "Floor"});
   for (const AccuracyLine& line : chart.lines) {
     table.add({text_cell(line.estimator),
                text_cell(line.family),
@@ -98,7 +105,7 @@ Table set_up_table(const AccuracyChart& chart) {
                std::isfinite(line.slope)
                    ? Cell{with_error(line.slope, line.slope_error), "number", ""}
                    : none_cell("not fitted"),
-               line.is_biased ? percent_cell(line.floor) : none_cell("unbiased")});
+               floor_cell(line)});
   }
   return table;
 }
@@ -136,7 +143,7 @@ Cell winner_cell(const AccuracyChart* chart) {
   if (chart == nullptr) return {"\u2013 not run", "absent", ""};
   const std::optional<FastestLine> fastest = fastest_to(*chart, kUsualError);
   if (!fastest) return {"none", "", "no estimator reaches the error"};
-  return {fmt::format("{}, {}", fastest->line->estimator, seconds_text(fastest->place.seconds)),
+  return {fmt::format("{}, {}", fastest->line->estimator, seconds_text(fastest->point.seconds)),
           "detail", ""};
 }
 

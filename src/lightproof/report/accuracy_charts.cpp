@@ -81,7 +81,7 @@ Json point_row(const AccuracyLine& line, std::size_t i) {
   return row;
 }
 
-/// From the mark to the right edge of the place.
+/// From the mark to the right edge of the chart.
 Json floor_row(const AccuracyLine& line, double right) {
   return {{"series", line.estimator},
           {"family", line.family},
@@ -117,8 +117,8 @@ double longest(const AccuracyChart& chart) {
   return seconds;
 }
 
-/// The rows of all layers of one place.
-Json rows_of(const AccuracyChart& chart, const PlaceChoice& choice) {
+/// The rows of all layers of one scene.
+Json rows_of(const AccuracyChart& chart, const SceneChoice& choice) {
   Json rows = Json::array();
   const double right = longest(chart);
   for (const AccuracyLine& line : chart.lines) {
@@ -136,7 +136,7 @@ Json rows_of(const AccuracyChart& chart, const PlaceChoice& choice) {
       rows.push_back(front_row(p, i));
     }
   }
-  for (Json& row : rows) choice.put(row, place_of(chart));
+  for (Json& row : rows) choice.put(row, scene_of(chart));
   return rows;
 }
 
@@ -171,15 +171,14 @@ Json error_axis(const std::string& field) {
   return y;
 }
 
-/// The list that says how the set-up is shared; its value is the place in kSetUpShares.
+/// The list that says how the set-up is shared; its value is the index in kSetUpShares.
 Json set_up_list() {
-  Json places = Json::array();
-  for (std::size_t i = 0; i < kSetUpShares.size(); ++i) places.push_back(i);
-  return {
-      {"name", "set_up"},
-      {"value", 0},
-      {"bind",
-       {{"input", "select"}, {"options", places}, {"labels", kSetUpWords}, {"name", "Set-up"}}}};
+  Json steps = Json::array();
+  for (std::size_t i = 0; i < kSetUpShares.size(); ++i) steps.push_back(i);
+  return {{"name", "set_up"},
+          {"value", 0},
+          {"bind",
+           {{"input", "select"}, {"options", steps}, {"labels", kSetUpWords}, {"name", "Set-up"}}}};
 }
 
 Json with_share_of_set_up() {
@@ -297,21 +296,23 @@ SeriesStyle family_style(const std::string& family) {
   return {family, "#7a7a7a", "circle"};
 }
 
-Place place_of(const AccuracyChart& chart) { return {chart.map, chart.receiver, chart.material}; }
+SceneKey scene_of(const AccuracyChart& chart) {
+  return {chart.map, chart.receiver, chart.material};
+}
 
-PlaceChoice accuracy_choice(const std::vector<AccuracyChart>& charts) {
-  std::vector<Place> places;
-  for (const AccuracyChart& chart : charts) places.push_back(place_of(chart));
+SceneChoice accuracy_choice(const std::vector<AccuracyChart>& charts) {
+  std::vector<SceneKey> scenes;
+  for (const AccuracyChart& chart : charts) scenes.push_back(scene_of(chart));
   const auto open = std::find_if(charts.begin(), charts.end(),
                                  [](const AccuracyChart& chart) { return !chart.is_occluded; });
   const AccuracyChart& first = open == charts.end() ? charts.front() : *open;
   return {{{"map", "Map"}, {"receiver", "Receiver"}, {"material", "Material"}},
-          places,
-          place_of(first)};
+          scenes,
+          scene_of(first)};
 }
 
 std::string accuracy_chart(const std::vector<AccuracyChart>& charts) {
-  const PlaceChoice choice = accuracy_choice(charts);
+  const SceneChoice choice = accuracy_choice(charts);
   Json rows = Json::array();
   LogRange times;
   for (const AccuracyChart& one : charts) {

@@ -5,18 +5,18 @@
 #include <vector>
 
 #include "lightproof/page/chart_parts.h"
-#include "lightproof/report/place_choice.h"
+#include "lightproof/report/scene_choice.h"
 #include "lightproof/results/accuracy_chart.h"
 #include "lightproof/results/method_regime.h"
 
 namespace lightproof {
 
 /// Map, receiver and material of a chart.
-Place place_of(const AccuracyChart& chart);
+SceneKey scene_of(const AccuracyChart& chart);
 
 /// The lists to choose one of the charts by; the first that nothing occludes stands first.
 /// `charts` is not empty.
-PlaceChoice accuracy_choice(const std::vector<AccuracyChart>& charts);
+SceneChoice accuracy_choice(const std::vector<AccuracyChart>& charts);
 
 /// How a family of estimators looks, the same in every chart.
 SeriesStyle family_style(const std::string& family);

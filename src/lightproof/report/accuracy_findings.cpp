@@ -16,7 +16,7 @@ constexpr double kLowError = 0.01;
 constexpr std::string_view kSimplest = "uniform";
 
 std::string samples_text(const FastestLine& fastest) {
-  const auto samples = whole_samples(fastest.place);
+  const auto samples = whole_samples(fastest.point);
   if (fastest.line->points.size() == 1) return fastest.line->estimator;
   return fmt::format("{}, {}", fastest.line->estimator, counted(samples, "sample"));
 }
@@ -25,7 +25,7 @@ std::string samples_text(const FastestLine& fastest) {
 std::string time_to(const AccuracyChart& chart, double error) {
   const std::optional<FastestLine> fastest = fastest_to(chart, error);
   if (!fastest) return fmt::format("{} error is reached by none", percent(error));
-  return fmt::format("{} error takes {} ({})", percent(error), seconds_text(fastest->place.seconds),
+  return fmt::format("{} error takes {} ({})", percent(error), seconds_text(fastest->point.seconds),
                      samples_text(*fastest));
 }
 
@@ -35,12 +35,12 @@ std::string handicap_of_uniform(const AccuracyChart& chart) {
                                     [](const auto& line) { return line.estimator == kSimplest; });
   const std::optional<FastestLine> fastest = fastest_to(chart, kUsualError);
   if (uniform == chart.lines.end() || !fastest || fastest->line == &*uniform) return "";
-  const std::optional<LinePlace> place = at_error(*uniform, kUsualError);
-  if (!place) {
+  const std::optional<LinePoint> point = at_error(*uniform, kUsualError);
+  if (!point) {
     return fmt::format("; uniform sampling does not reach {} with {}", percent(kUsualError),
                        counted(uniform->points.back().samples, "sample"));
   }
-  const double times = place->seconds / fastest->place.seconds;
+  const double times = point->seconds / fastest->point.seconds;
   return fmt::format(
       "; to {} uniform sampling takes {} times as long", percent(kUsualError),
       times < 1000.0 ? format_number(times, 2) : with_thousands(static_cast<std::uint64_t>(times)));

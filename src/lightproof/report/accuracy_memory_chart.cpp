@@ -93,7 +93,7 @@ std::string memory_finding(const AccuracyChart& chart) {
 }
 
 std::string memory_chart(const std::vector<AccuracyChart>& charts) {
-  const PlaceChoice choice = accuracy_choice(charts);
+  const SceneChoice choice = accuracy_choice(charts);
   Json rows = Json::array();
   std::vector<std::string> families;
   LogRange sizes;
@@ -102,7 +102,7 @@ std::string memory_chart(const std::vector<AccuracyChart>& charts) {
       const AccuracyPoint* const point = point_of(line);
       if (point == nullptr) continue;
       rows.push_back(row_of(line, *point));
-      choice.put(rows.back(), place_of(one));
+      choice.put(rows.back(), scene_of(one));
       families.push_back(line.family);
       sizes.add(static_cast<double>(line.bytes));
     }

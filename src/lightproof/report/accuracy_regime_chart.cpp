@@ -69,7 +69,7 @@ std::string regime_chart(const MethodRegimes& regimes) {
       names.push_back(name_or_none(is_unbiased ? r.unbiased_estimator : r.estimator));
     }
   }
-  const PlaceChoice choice({{"shown", "Show"}}, {{kAll}, {kUnbiased}}, {kAll});
+  const SceneChoice choice({{"shown", "Show"}}, {{kAll}, {kUnbiased}}, {kAll});
   Json light = axis("light", "effective fraction: share of the sphere that is lit");
   light["scale"] = {{"domain", lights_of(regimes.regimes)}};
   Json chart = base_chart(300);

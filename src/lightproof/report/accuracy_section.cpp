@@ -34,20 +34,20 @@ constexpr std::string_view kHowToRead =
     "standard errors on either side. Errors below 0.01 % and above 1000 % are drawn on the edge.";
 
 std::vector<ChartTitle> titles_of(const std::vector<AccuracyChart>& charts) {
-  const PlaceChoice choice = accuracy_choice(charts);
+  const SceneChoice choice = accuracy_choice(charts);
   std::vector<ChartTitle> titles;
   for (const AccuracyChart& chart : charts) {
-    titles.push_back({choice.key(place_of(chart)), accuracy_finding(chart)});
+    titles.push_back({choice.key(scene_of(chart)), accuracy_finding(chart)});
   }
   return titles;
 }
 
-/// What belongs to the chosen place alone.
+/// What belongs to the chosen scene alone.
 std::string blocks_of(const std::vector<AccuracyChart>& charts) {
-  const PlaceChoice choice = accuracy_choice(charts);
+  const SceneChoice choice = accuracy_choice(charts);
   std::string html;
   for (const AccuracyChart& chart : charts) {
-    html += choice_block(choice.key(place_of(chart)),
+    html += choice_block(choice.key(scene_of(chart)),
                          paragraph(front_sentence(chart)) +
                              paragraph(fmt::format("{}, {}, {}: {}", chart.map, chart.receiver,
                                                    chart.material, accuracy_caveats(chart)),
@@ -66,10 +66,10 @@ std::string first_finding(const std::vector<AccuracyChart>& charts) {
 std::string slope_figure(const std::vector<AccuracyChart>& charts) {
   const std::string spec = slope_chart(charts);
   if (spec.empty()) return "";
-  const PlaceChoice choice = accuracy_choice(charts);
+  const SceneChoice choice = accuracy_choice(charts);
   std::vector<ChartTitle> titles;
   for (const AccuracyChart& chart : charts) {
-    titles.push_back({choice.key(place_of(chart)), slope_finding(chart)});
+    titles.push_back({choice.key(scene_of(chart)), slope_finding(chart)});
   }
   return chart_figure({"slope-chart", titles.front().title,
                        "Fitted slopes of error against samples, by point set and kind of table",
@@ -85,10 +85,10 @@ std::string slope_figure(const std::vector<AccuracyChart>& charts) {
 std::string memory_figure(const std::vector<AccuracyChart>& charts) {
   const std::string spec = memory_chart(charts);
   if (spec.empty()) return "";
-  const PlaceChoice choice = accuracy_choice(charts);
+  const SceneChoice choice = accuracy_choice(charts);
   std::vector<ChartTitle> titles;
   for (const AccuracyChart& chart : charts) {
-    titles.push_back({choice.key(place_of(chart)), memory_finding(chart)});
+    titles.push_back({choice.key(scene_of(chart)), memory_finding(chart)});
   }
   return chart_figure({"memory-chart", titles.front().title,
                        "Error at 64 samples against the memory that an estimator keeps",

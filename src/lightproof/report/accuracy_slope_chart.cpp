@@ -88,13 +88,13 @@ Json dots_and_bars(const char* kind, const Json& x, const std::vector<SeriesStyl
 }  // namespace
 
 std::string slope_chart(const std::vector<AccuracyChart>& charts) {
-  const PlaceChoice choice = accuracy_choice(charts);
+  const SceneChoice choice = accuracy_choice(charts);
   Json rows = Json::array();
   std::vector<std::string> sources;
   for (const AccuracyChart& one : charts) {
     for (const Slope& slope : slopes_of(one)) {
       rows.push_back(row_of(slope));
-      choice.put(rows.back(), place_of(one));
+      choice.put(rows.back(), scene_of(one));
       sources.push_back(slope.source);
     }
   }

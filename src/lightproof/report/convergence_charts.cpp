@@ -12,7 +12,7 @@
 #include "lightproof/report/charts.h"
 #include "lightproof/report/findings.h"
 #include "lightproof/report/gate_summary.h"
-#include "lightproof/report/place_choice.h"
+#include "lightproof/report/scene_choice.h"
 
 namespace lightproof {
 namespace {
@@ -38,9 +38,9 @@ Json sample_counts(const std::vector<ConvergenceRecord>& records, std::size_t li
   }
   const std::size_t step = (counts.size() + limit - 1) / limit;
   Json kept = Json::array();
-  std::size_t place = 0;
+  std::size_t index = 0;
   for (const std::uint64_t count : counts) {
-    if (place++ % step == 0) kept.push_back(count);
+    if (index++ % step == 0) kept.push_back(count);
   }
   return kept;
 }
@@ -121,51 +121,51 @@ Json convergence_layers(const std::vector<SeriesStyle>& styles, LogRange range, 
   return {predicted, bars, measured, points};
 }
 
-Place place_of(const ConvergenceRecord& r) { return {r.map, scene_name(r)}; }
+SceneKey scene_of(const ConvergenceRecord& r) { return {r.map, scene_name(r)}; }
 
 /// The rows of all records, or those that belong to a chart with lists.
-Json convergence_rows(const std::vector<ConvergenceRecord>& records, const PlaceChoice* choice) {
+Json convergence_rows(const std::vector<ConvergenceRecord>& records, const SceneChoice* choice) {
   Json rows = Json::array();
   for (const ConvergenceRecord& r : records) {
     for (const ConvergencePoint& p : r.points) {
       if (!drawable(p.rmse) || is_all_but_exact(r)) continue;
       rows.push_back(convergence_row(r, p));
-      if (choice != nullptr) choice->put(rows.back(), place_of(r));
+      if (choice != nullptr) choice->put(rows.back(), scene_of(r));
     }
   }
   return rows;
 }
 
 /// Where the slopes of most estimators could be fitted: there is something to see.
-Place telling_place(const std::vector<ConvergenceRecord>& records) {
-  std::map<Place, int> fitted;
+SceneKey scene_with_most_fits(const std::vector<ConvergenceRecord>& records) {
+  std::map<SceneKey, int> fitted;
   int most = 0;
   for (const ConvergenceRecord& r : records) {
-    most = std::max(most, fitted[place_of(r)] += has_slope(r) ? 1 : 0);
+    most = std::max(most, fitted[scene_of(r)] += has_slope(r) ? 1 : 0);
   }
   const auto first = std::find_if(records.begin(), records.end(),
-                                  [&](const auto& r) { return fitted[place_of(r)] == most; });
-  return place_of(*first);
+                                  [&](const auto& r) { return fitted[scene_of(r)] == most; });
+  return scene_of(*first);
 }
 
-PlaceChoice choice_of(const std::vector<ConvergenceRecord>& records) {
-  std::vector<Place> places;
-  for (const ConvergenceRecord& r : records) places.push_back(place_of(r));
-  return {{{"map", "Map"}, {"scene", "Receiver, material"}}, places, telling_place(records)};
+SceneChoice choice_of(const std::vector<ConvergenceRecord>& records) {
+  std::vector<SceneKey> scenes;
+  for (const ConvergenceRecord& r : records) scenes.push_back(scene_of(r));
+  return {{{"map", "Map"}, {"scene", "Receiver, material"}}, scenes, scene_with_most_fits(records)};
 }
 
 std::vector<ConvergenceRecord> records_at(const std::vector<ConvergenceRecord>& records,
-                                          const Place& place) {
+                                          const SceneKey& scene) {
   std::vector<ConvergenceRecord> here;
   std::copy_if(records.begin(), records.end(), std::back_inserter(here),
-               [&](const ConvergenceRecord& r) { return place_of(r) == place; });
+               [&](const ConvergenceRecord& r) { return scene_of(r) == scene; });
   return here;
 }
 
-/// What is found in one place.
-std::string place_title(const std::vector<ConvergenceRecord>& records, const Place& place) {
-  return fmt::format("{}, {}: {}", place[0], place[1],
-                     convergence_finding(records_at(records, place)));
+/// What is found in one scene.
+std::string scene_title(const std::vector<ConvergenceRecord>& records, const SceneKey& scene) {
+  return fmt::format("{}, {}: {}", scene[0], scene[1],
+                     convergence_finding(records_at(records, scene)));
 }
 
 }  // namespace
@@ -181,7 +181,7 @@ std::string scene_name(const ConvergenceRecord& record) {
 }
 
 std::string convergence_chart(const std::vector<ConvergenceRecord>& records) {
-  const PlaceChoice choice = choice_of(records);
+  const SceneChoice choice = choice_of(records);
   Json chart = base_chart(380);
   chart["params"] = choice.params();
   chart["transform"] = {choice.filter()};
@@ -192,13 +192,13 @@ std::string convergence_chart(const std::vector<ConvergenceRecord>& records) {
 }
 
 std::vector<ChartTitle> convergence_titles(const std::vector<ConvergenceRecord>& records) {
-  const PlaceChoice choice = choice_of(records);
-  std::set<Place> places;
-  for (const ConvergenceRecord& r : records) places.insert(place_of(r));
-  const Place first = telling_place(records);
-  std::vector<ChartTitle> titles = {{choice.key(first), place_title(records, first)}};
-  for (const Place& place : places) {
-    if (place != first) titles.push_back({choice.key(place), place_title(records, place)});
+  const SceneChoice choice = choice_of(records);
+  std::set<SceneKey> scenes;
+  for (const ConvergenceRecord& r : records) scenes.insert(scene_of(r));
+  const SceneKey first = scene_with_most_fits(records);
+  std::vector<ChartTitle> titles = {{choice.key(first), scene_title(records, first)}};
+  for (const SceneKey& scene : scenes) {
+    if (scene != first) titles.push_back({choice.key(scene), scene_title(records, scene)});
   }
   return titles;
 }

@@ -42,16 +42,16 @@ Table slope_table(const std::vector<ConvergenceRecord>& records) {
   return table;
 }
 
-/// Of every place the least variance is framed.
-Table density_table(const std::vector<DensityVariances>& places) {
+/// Of every scene the least variance is framed.
+Table density_table(const std::vector<DensityVariances>& scenes) {
   std::vector<std::string> columns = {"Map", "Receiver", "Material"};
   for (const DensityInfo& density : kDensities) {
     columns.push_back(fmt::format("{}, {}", density.label, density.name));
   }
   Table table("Exact variance / mean\u00b2 of single estimates by each density", columns);
-  for (const DensityVariances& p : places) {
-    std::vector<Cell> row = {text_cell(p.place->map), text_cell(p.place->receiver),
-                             text_cell(p.place->material)};
+  for (const DensityVariances& p : scenes) {
+    std::vector<Cell> row = {text_cell(p.scene->map), text_cell(p.scene->receiver),
+                             text_cell(p.scene->material)};
     for (const double variance : p.variances) {
       row.push_back(std::isfinite(variance) ? number_cell(variance, 4)
                                             : Cell{"\u2013", "number", ""});
@@ -63,10 +63,10 @@ Table density_table(const std::vector<DensityVariances>& places) {
 }
 
 std::string density_comparison(const std::vector<ConvergenceRecord>& records) {
-  const std::vector<DensityVariances> places = density_variances(records);
-  if (places.empty()) return "";
-  return fmt::format("<h3>{}</h3>\n", escaped(density_finding(places))) +
-         paragraph(kDensityNote, "note") + density_table(places).html();
+  const std::vector<DensityVariances> scenes = density_variances(records);
+  if (scenes.empty()) return "";
+  return fmt::format("<h3>{}</h3>\n", escaped(density_finding(scenes))) +
+         paragraph(kDensityNote, "note") + density_table(scenes).html();
 }
 
 Table variance_table(const std::vector<ConvergenceRecord>& records) {
@@ -166,7 +166,7 @@ std::string convergence_section(const std::vector<ConvergenceRecord>& records) {
   const auto exact = static_cast<std::size_t>(std::count_if(
       records.begin(), records.end(), [](const auto& r) { return is_all_but_exact(r); }));
   const std::vector<ChartTitle> titles = convergence_titles(records);
-  std::string note = fmt::format("{} Over all places: {}. {}", kConvergenceNote,
+  std::string note = fmt::format("{} Over all scenes: {}. {}", kConvergenceNote,
                                  convergence_finding(records), prediction_finding(records));
   if (exact > 0) {
     note += fmt::format(" Not shown: {} that {} all but exact (variance below 1e-8 of mean\u00b2).",

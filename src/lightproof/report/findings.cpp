@@ -26,7 +26,7 @@ std::string capitalised(std::string text) {
   return text;
 }
 
-std::string place_of(const ConvergenceRecord& r) {
+std::string scene_text(const ConvergenceRecord& r) {
   return fmt::format("{} on {}, {}, {}", r.estimator, r.map, r.receiver, r.material);
 }
 
@@ -89,7 +89,7 @@ std::string slope_sentence(const Agreement& slopes, Range range, Range errors) {
       "{} of {} fall with slope \u22120.5 within 3 standard errors ({}); the farthest is {} "
       "with slope {}",
       with_thousands(slopes.within), counted(slopes.all, "estimator"), by_chance(slopes.all),
-      place_of(worst), with_error(worst.slope, worst.slope_error));
+      scene_text(worst), with_error(worst.slope, worst.slope_error));
 }
 
 }  // namespace
@@ -136,7 +136,7 @@ std::string prediction_finding(const std::vector<ConvergenceRecord>& records) {
       "{} of {} lie within 3 standard errors of the predicted error ({}); the farthest is {} "
       "standard errors away ({}).",
       with_thousands(points.within), counted(points.all, "measured point"), by_chance(points.all),
-      format_number(points.farthest, 2), place_of(*points.worst));
+      format_number(points.farthest, 2), scene_text(*points.worst));
   if (vague == 0) return text;
   return text + fmt::format(
                     " Left out of this count: {} whose standard error is unknown or more "
@@ -181,36 +181,36 @@ std::string variance_finding(const std::vector<ConvergenceRecord>& records) {
       "{} of {} of measured to predicted variance within 3 standard errors of 1 ({}); the "
       "farthest is {} with {}{}",
       with_thousands(ratios.within), counted(ratios.all, "ratio"), by_chance(ratios.all),
-      place_of(worst),
+      scene_text(worst),
       with_error(worst.measured_variance / worst.predicted_variance, worst.variance_ratio_error),
       rest);
 }
 
 std::vector<DensityVariances> density_variances(const std::vector<ConvergenceRecord>& records) {
-  std::vector<DensityVariances> places;
-  const auto at_place_of = [&](const ConvergenceRecord& r) {
-    return std::find_if(places.begin(), places.end(), [&](const DensityVariances& p) {
-      return p.place->map == r.map && p.place->receiver == r.receiver &&
-             p.place->material == r.material;
+  std::vector<DensityVariances> scenes;
+  const auto at_scene_of = [&](const ConvergenceRecord& r) {
+    return std::find_if(scenes.begin(), scenes.end(), [&](const DensityVariances& p) {
+      return p.scene->map == r.map && p.scene->receiver == r.receiver &&
+             p.scene->material == r.material;
     });
   };
   for (const ConvergenceRecord& r : records) {
     for (std::size_t i = 0; i < kDensities.size(); ++i) {
       if (r.estimator != fmt::format("environment {}", kDensities[i].label)) continue;
-      auto place = at_place_of(r);
-      if (place == places.end()) {
-        places.push_back({&r, {}, 0});
-        place = places.end() - 1;
-        place->variances.fill(std::nan(""));
+      auto scene = at_scene_of(r);
+      if (scene == scenes.end()) {
+        scenes.push_back({&r, {}, 0});
+        scene = scenes.end() - 1;
+        scene->variances.fill(std::nan(""));
       }
-      place->variances[i] = r.predicted_variance;
+      scene->variances[i] = r.predicted_variance;
     }
   }
-  std::erase_if(places, [](const DensityVariances& p) {
+  std::erase_if(scenes, [](const DensityVariances& p) {
     return std::count_if(p.variances.begin(), p.variances.end(),
                          [](double v) { return std::isfinite(v); }) < 2;
   });
-  for (DensityVariances& p : places) {
+  for (DensityVariances& p : scenes) {
     const auto unknown_last = [](double a, double b) {
       return (std::isnan(a) ? HUGE_VAL : a) < (std::isnan(b) ? HUGE_VAL : b);
     };
@@ -218,13 +218,13 @@ std::vector<DensityVariances> density_variances(const std::vector<ConvergenceRec
         std::min_element(p.variances.begin(), p.variances.end(), unknown_last) -
         p.variances.begin());
   }
-  return places;
+  return scenes;
 }
 
-std::string density_finding(const std::vector<DensityVariances>& places) {
+std::string density_finding(const std::vector<DensityVariances>& scenes) {
   std::string text;
   for (std::size_t i = 0; i < kDensities.size(); ++i) {
-    const auto best = std::count_if(places.begin(), places.end(),
+    const auto best = std::count_if(scenes.begin(), scenes.end(),
                                     [&](const DensityVariances& p) { return p.least == i; });
     if (best == 0) continue;
     text += fmt::format("{}{} ({}) in {}", text.empty() ? "" : ", ", kDensities[i].label,
@@ -232,7 +232,7 @@ std::string density_finding(const std::vector<DensityVariances>& places) {
   }
   if (text.empty()) return "";
   return fmt::format("Least exact variance of the densities of the map, over {}: {}",
-                     counted(places.size(), "place"), text);
+                     counted(scenes.size(), "scene"), text);
 }
 
 std::string saving_finding(const std::vector<const ConvergenceRecord*>& records) {

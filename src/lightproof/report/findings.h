@@ -70,7 +70,7 @@ std::string tables_finding(const std::vector<TableRecord>& records);
 /// The exact variances of the estimators that draw from the map by one of kDensities each, in one
 /// place: on one map, receiver and material.
 struct DensityVariances {
-  const ConvergenceRecord* place;  ///< one of the records, which names the place
+  const ConvergenceRecord* scene;  ///< one of the records, which names the scene
   /// Per sample, relative to mean^2, in the order of kDensities; not a number where unknown.
   std::array<double, kDensities.size()> variances;
   std::size_t least;  ///< index of the least one
@@ -80,7 +80,7 @@ struct DensityVariances {
 std::vector<DensityVariances> density_variances(const std::vector<ConvergenceRecord>& records);
 
 /// Which density has the least variance in how many places. Empty if there are no places.
-std::string density_finding(const std::vector<DensityVariances>& places);
+std::string density_finding(const std::vector<DensityVariances>& scenes);
 
 /// How many times fewer samples the best estimator needs than the worst for the same error, by the
 /// predicted variances. `records` is not empty.

@@ -26,21 +26,21 @@ std::string exponent_range(const std::vector<NamedExponent>& exponents) {
 }
 
 /// "L2 (1 MiB) at 512×256 (alias) to 1024×512 (binary_search)"; empty if no table outgrows it.
-std::string outgrown(const std::vector<GrowthFit>& growth, std::optional<Extent> GrowthFit::*place,
+std::string outgrown(const std::vector<GrowthFit>& growth, std::optional<Extent> GrowthFit::*extent,
                      std::string_view cache, const std::optional<double>& bytes) {
   std::vector<const GrowthFit*> fits;
   for (const GrowthFit& fit : growth) {
-    if (fit.*place) fits.push_back(&fit);
+    if (fit.*extent) fits.push_back(&fit);
   }
   if (fits.empty()) return "";
-  const auto size = [&](const GrowthFit* fit) { return (fit->*place)->count(); };
+  const auto size = [&](const GrowthFit* fit) { return (fit->*extent)->count(); };
   const auto [first, last] = std::ranges::minmax_element(fits, {}, size);
   const auto text = [&](const GrowthFit* fit) {
-    return fmt::format("{} ({})", extent_text(*(fit->*place)), fit->sampler);
+    return fmt::format("{} ({})", extent_text(*(fit->*extent)), fit->sampler);
   };
   const std::string cache_text = fmt::format("{} ({}) at ", cache, bytes_text(bytes.value_or(0.0)));
   if (size(*first) < size(*last)) return cache_text + text(*first) + " to " + text(*last);
-  return cache_text + (fits.size() == 1 ? text(*first) : extent_text(*((*first)->*place)));
+  return cache_text + (fits.size() == 1 ? text(*first) : extent_text(*((*first)->*extent)));
 }
 
 /// "350 ms", "1.20 s".

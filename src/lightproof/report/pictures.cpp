@@ -138,10 +138,10 @@ double common_range(std::span<const Grid<double>* const> pictures) {
     }
   }
   if (sizes.empty()) return 1.0;
-  const auto place =
+  const auto median =
       static_cast<std::ptrdiff_t>(kShareInRange * static_cast<double>(sizes.size() - 1));
-  std::nth_element(sizes.begin(), sizes.begin() + place, sizes.end());
-  const double size = *(sizes.begin() + place);
+  std::nth_element(sizes.begin(), sizes.begin() + median, sizes.end());
+  const double size = *(sizes.begin() + median);
   return size > 0.0 ? rounded_up(size) : 1.0;
 }
 

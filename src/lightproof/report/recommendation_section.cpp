@@ -121,16 +121,16 @@ std::string measured_table(const std::vector<AccuracyChart>& charts) {
     const std::optional<FastestLine> fastest = fastest_to(chart, kUsualError);
     if (!fastest) continue;
     const AccuracyLine& line = *fastest->line;
-    const auto samples = whole_samples(fastest->place);
+    const auto samples = whole_samples(fastest->point);
     const std::string take =
         line.points.size() == 1
-            ? fmt::format("{}, {} error", line.estimator, percent(fastest->place.error))
+            ? fmt::format("{}, {} error", line.estimator, percent(fastest->point.error))
             : fmt::format("{}, {}, {} error", line.estimator, counted(samples, "sample"),
                           percent(kUsualError));
     table.add({text_cell(chart.map),
                {take, "take", ""},
                text_cell(chart.receiver + ", " + chart.material),
-               {seconds_text(fastest->place.seconds), "number", ""},
+               {seconds_text(fastest->point.seconds), "number", ""},
                {seconds_text(line.set_up_seconds), "number", ""},
                {bytes_text(static_cast<double>(line.bytes)), "number", ""}});
   }

@@ -1,6 +1,8 @@
 // Renders in equal time, with their signed errors.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "lightproof/page/html.h"
@@ -42,6 +44,20 @@ std::string reference_text(const RenderRecord& r) {
                      counted(r.reference_samples, "sample"));
 }
 
+/// The estimators that stand for no kind, the least error first, folded.
+std::string other_figures(const Scene& scene, double scale) {
+  Scene others;
+  std::ranges::copy_if(scene, std::back_inserter(others),
+                       [](const RenderRecord* r) { return !r->is_of_each_kind; });
+  if (others.empty()) return "";
+  std::ranges::sort(others, {}, &RenderRecord::rmse);
+  std::string figures = "<div class=\"renders\">\n";
+  for (const RenderRecord* r : others) figures += estimator_figure(*r, scale);
+  return collapsible(fmt::format("Others in the same time, the least error first: {}",
+                                 counted(others.size(), "estimator")),
+                     figures + "</div>\n");
+}
+
 std::string scene_html(const Scene& scene) {
   const RenderRecord& first = *scene.front();
   const double scale = mean_exposure(first.reference);
@@ -53,8 +69,10 @@ std::string scene_html(const Scene& scene) {
       fmt::format("<figure>{}\n{}<figcaption><strong>Reference</strong>{}</figcaption></figure>\n",
                   image_html(tone_mapped(first.reference, scale), "Reference picture"),
                   colour_bar_html(kErrorRange), reference_text(first));
-  for (const RenderRecord* r : scene) html += estimator_figure(*r, scale);
-  return html + "</div>\n";
+  for (const RenderRecord* r : scene) {
+    if (r->is_of_each_kind) html += estimator_figure(*r, scale);
+  }
+  return html + "</div>\n" + other_figures(scene, scale);
 }
 
 std::string render_table(const std::vector<RenderRecord>& renders) {

@@ -38,21 +38,21 @@ std::string split_sum_finding(const std::vector<SplitSumRecord>& records) {
   if (worst->rmse < 1e-4) {
     return "The split sum errs by less than 0.01\u00a0% of the mean radiance everywhere";
   }
-  const auto place = [](const SplitSumRecord& r) {
+  const auto point_text = [](const SplitSumRecord& r) {
     return fmt::format("{}, roughness {}, F0 = {}", r.map, plain_number(r.roughness),
                        plain_number(r.normal_reflectance));
   };
   const std::string whole = fmt::format(
       "The split sum errs by up to {} of the mean radiance at {}\u00b0 from the normal "
       "({})",
-      percent_text(worst->rmse), std::lround(view_degrees(*worst)), place(*worst));
+      percent_text(worst->rmse), std::lround(view_degrees(*worst)), point_text(*worst));
   std::vector<SplitSumRecord> along;
   std::copy_if(records.begin(), records.end(), std::back_inserter(along),
                [](const SplitSumRecord& r) { return r.view_angle == 0.0; });
   if (along.empty() || worst->view_angle == 0.0) return whole;
   const auto normal = std::max_element(along.begin(), along.end(), less_wrong);
   return fmt::format("{}, and along it by up to {} ({})", whole, percent_text(normal->rmse),
-                     place(*normal));
+                     point_text(*normal));
 }
 
 }  // namespace lightproof

@@ -32,9 +32,9 @@ std::string throughput_table(const std::vector<ThroughputRecord>& records) {
   return table.html();
 }
 
-Cell leaving_cell(const std::optional<Extent>& place, const std::optional<double>& bytes) {
+Cell leaving_cell(const std::optional<Extent>& extent, const std::optional<double>& bytes) {
   if (!bytes) return text_cell("not known");
-  return text_cell(place ? extent_text(*place) : "no size");
+  return text_cell(extent ? extent_text(*extent) : "no size");
 }
 
 /// "0.02, from 1024×512 on 0.31".

@@ -38,12 +38,13 @@ struct AccuracyLine {
   double set_up_processor_seconds = 0.0;  ///< the same as processor time of all threads
   std::size_t bytes = 0;                  ///< memory of what was set up, beside the map itself
   std::vector<AccuracyPoint> points;      ///< ascending numbers of samples; at least one
-  /// Slope of log rmse against log samples with its standard error; not a number where fewer than
-  /// three points could be measured to a quarter of their error.
+  /// Slope of log rmse against log samples with its standard error, scatter included; not a number
+  /// where fewer than three points could be measured to a quarter of their error.
   double slope = std::numeric_limits<double>::quiet_NaN();
   double slope_error = std::numeric_limits<double>::quiet_NaN();
   /// Root mean square bias over the shading points at the largest number of samples, divided like
-  /// `rmse`: the error that no number of samples takes away. 0 of an unbiased one.
+  /// `rmse`: the error that no number of samples takes away. 0 of an unbiased one, and of one whose
+  /// bias vanishes with more samples.
   double floor = 0.0;
 
   static auto fields(auto& line) {

@@ -12,21 +12,21 @@ constexpr double kGain = 0.9;      // error over that of a faster one on the fro
 
 bool is_known(double error) { return std::isfinite(error) && error > 0.0; }
 
-std::vector<LinePlace> known_places(const AccuracyLine& line) {
-  std::vector<LinePlace> places;
+std::vector<LinePoint> known_points(const AccuracyLine& line) {
+  std::vector<LinePoint> points;
   for (const AccuracyPoint& point : line.points) {
     const double error = known_error(point);
     if (!is_known(error) || !(point.seconds > 0.0)) continue;
-    places.push_back({static_cast<double>(point.samples), point.seconds, error});
+    points.push_back({static_cast<double>(point.samples), point.seconds, error});
   }
-  return places;
+  return points;
 }
 
 double between(double a, double b, double share) {
   return std::exp(std::lerp(std::log(a), std::log(b), share));
 }
 
-LinePlace between(const LinePlace& a, const LinePlace& b, double share) {
+LinePoint between(const LinePoint& a, const LinePoint& b, double share) {
   return {between(a.samples, b.samples, share), between(a.seconds, b.seconds, share),
           between(a.error, b.error, share)};
 }
@@ -48,38 +48,38 @@ double known_error(const AccuracyPoint& point) {
   return is_known(point.predicted) || !is_measured(point) ? point.predicted : point.rmse;
 }
 
-std::uint64_t whole_samples(const LinePlace& place) {
+std::uint64_t whole_samples(const LinePoint& point) {
   // Logarithms leave a whole number a little off.
-  return static_cast<std::uint64_t>(std::ceil(place.samples * (1.0 - 1e-9)));
+  return static_cast<std::uint64_t>(std::ceil(point.samples * (1.0 - 1e-9)));
 }
 
-std::optional<LinePlace> at_time(const AccuracyLine& line, double seconds) {
-  const std::vector<LinePlace> places = known_places(line);
-  if (places.empty() || places.front().seconds > seconds) return std::nullopt;
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    if (places[i].seconds < seconds) continue;
-    const LinePlace& before = places[i - 1];
-    return between(before, places[i], share_of_way(before.seconds, places[i].seconds, seconds));
+std::optional<LinePoint> at_time(const AccuracyLine& line, double seconds) {
+  const std::vector<LinePoint> points = known_points(line);
+  if (points.empty() || points.front().seconds > seconds) return std::nullopt;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].seconds < seconds) continue;
+    const LinePoint& before = points[i - 1];
+    return between(before, points[i], share_of_way(before.seconds, points[i].seconds, seconds));
   }
-  const bool stays = line.is_biased || places.back().seconds == seconds;
-  return stays ? std::optional(places.back()) : std::nullopt;
+  const bool stays = line.is_biased || points.back().seconds == seconds;
+  return stays ? std::optional(points.back()) : std::nullopt;
 }
 
-std::optional<LinePlace> at_error(const AccuracyLine& line, double error) {
-  const std::vector<LinePlace> places = known_places(line);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places[i].error > error) continue;
-    if (i == 0) return places[i];
-    const LinePlace& before = places[i - 1];
-    return between(before, places[i], share_of_way(before.error, places[i].error, error));
+std::optional<LinePoint> at_error(const AccuracyLine& line, double error) {
+  const std::vector<LinePoint> points = known_points(line);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].error > error) continue;
+    if (i == 0) return points[i];
+    const LinePoint& before = points[i - 1];
+    return between(before, points[i], share_of_way(before.error, points[i].error, error));
   }
   return std::nullopt;
 }
 
 double efficiency(const AccuracyLine& line) {
-  const std::vector<LinePlace> places = known_places(line);
-  if (places.empty()) return std::nan("");
-  const LinePlace& last = places.back();
+  const std::vector<LinePoint> points = known_points(line);
+  if (points.empty()) return std::nan("");
+  const LinePoint& last = points.back();
   return 1.0 / (last.error * last.error * last.seconds);
 }
 
@@ -111,9 +111,9 @@ std::vector<ChartPoint> pareto_front(const AccuracyChart& chart, double set_up_s
 std::optional<FastestLine> fastest_to(const AccuracyChart& chart, double error) {
   std::optional<FastestLine> fastest;
   for (const AccuracyLine& line : chart.lines) {
-    const std::optional<LinePlace> place = at_error(line, error);
-    if (!place || (fastest && fastest->place.seconds <= place->seconds)) continue;
-    fastest = {&line, *place};
+    const std::optional<LinePoint> point = at_error(line, error);
+    if (!point || (fastest && fastest->point.seconds <= point->seconds)) continue;
+    fastest = {&line, *point};
   }
   return fastest;
 }

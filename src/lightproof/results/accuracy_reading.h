@@ -18,22 +18,22 @@ bool is_measured(const AccuracyPoint& point);
 double known_error(const AccuracyPoint& point);
 
 /// A place on a line, which may lie between two of its points.
-struct LinePlace {
+struct LinePoint {
   double samples = 0.0;
   double seconds = 0.0;
   double error = 0.0;
 };
 
 /// The fewest whole samples that reach it.
-std::uint64_t whole_samples(const LinePlace& place);
+std::uint64_t whole_samples(const LinePoint& point);
 
 /// What a line reaches in so many seconds, by straight lines between the logarithms of its points;
 /// a biased one stays at its last point with more. None if its first estimate takes longer, or if
 /// it was not measured for so long.
-std::optional<LinePlace> at_time(const AccuracyLine& line, double seconds);
+std::optional<LinePoint> at_time(const AccuracyLine& line, double seconds);
 
 /// Where a line first reaches an error, in the same way. None if it does not within its points.
-std::optional<LinePlace> at_error(const AccuracyLine& line, double error);
+std::optional<LinePoint> at_error(const AccuracyLine& line, double error);
 
 /// 1 / (error^2 x seconds) at the last point whose error is known: of an unbiased line the same at
 /// all of its points, but for what an estimate takes that does not depend on its samples. Not a
@@ -57,7 +57,7 @@ std::vector<ChartPoint> pareto_front(const AccuracyChart& chart, double set_up_s
 /// The line that reaches an error first, and where.
 struct FastestLine {
   const AccuracyLine* line;
-  LinePlace place;
+  LinePoint point;
 };
 
 /// None if no line reaches it.

@@ -15,6 +15,7 @@ struct RenderRecord {
   std::string receiver;
   std::string material;
   std::string estimator;
+  bool is_of_each_kind = true;  ///< whether it stands for its kind; the others are shown on demand
   std::uint64_t samples = 0;
   Grid<Rgb> picture;     ///< the estimator's picture, row 0 at the top
   Grid<Rgb> reference;   ///< the picture that all estimators of a map are held against

@@ -25,8 +25,8 @@ class AliasLinesKernel {
       : runs_(view.runs),
         lines_(view.lines),
         positions_(view.positions),
-        across_(view.lines.runs),
-        inverse_across_(1.0 / view.lines.runs) {}
+        runs_across_(view.lines.runs),
+        inverse_runs_across_(1.0 / view.lines.runs) {}
 
   template <int kStage, class Output>
   HWY_INLINE void stage(Block& block, std::size_t count, const Output& out) const {
@@ -40,15 +40,16 @@ class AliasLinesKernel {
       lines_.choose_runs(block.lines, count);
     } else {
       lines_.choose_texels(block.t, block.lines, count);
-      for_vectors(count, [&](std::size_t i) HWY_ATTR { place(block, i, out + i); });
+      for_vectors(count, [&](std::size_t i) HWY_ATTR { store_texels(block, i, out + i); });
     }
   }
 
  private:
   template <class Output>
-  HWY_INLINE void place(const Block& block, std::size_t i, const Output& out) const {
+  HWY_INLINE void store_texels(const Block& block, std::size_t i, const Output& out) const {
     const CdfLinesKernel::Texel found = lines_.texels(block.t, block.lines, i);
-    const Cell run = cell_at(load(block.runs.cell + i), number(across_), number(inverse_across_));
+    const Cell run =
+        cell_at(load(block.runs.cell + i), number(runs_across_), number(inverse_runs_across_));
     const Number x = hn::Add(hn::Mul(run.x, number(kRunTexels)), found.index);
     positions_.store_samples({x, run.y}, found.fraction, load(block.runs.within + i),
                              hn::Mul(load(block.runs.mass + i), found.mass), out);
@@ -57,8 +58,8 @@ class AliasLinesKernel {
   AliasTableKernel runs_;
   CdfLinesKernel lines_;
   PositionKernel positions_;
-  double across_;
-  double inverse_across_;
+  double runs_across_;
+  double inverse_runs_across_;
 };
 
 }  // namespace lightproof::HWY_NAMESPACE

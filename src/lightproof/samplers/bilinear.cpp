@@ -85,7 +85,7 @@ Grid<double> BilinearPatches::weights() const {
   return weights;
 }
 
-double BilinearPatches::position_along(const Corners& corners, int row, double share) const {
+double BilinearPatches::position_in_row(const Corners& corners, int row, double share) const {
   const double low = corners.low();
   const double high = corners.high();
   if (measure_ == MapMeasure::square) return invert_linear(low, high, share);
@@ -93,14 +93,14 @@ double BilinearPatches::position_along(const Corners& corners, int row, double s
   return is_upper(row) ? 1.0 - sine.invert(high, low, 1.0 - share) : sine.invert(low, high, share);
 }
 
-TexelSample BilinearPatches::sample(int column, int row, double across, double along,
-                                    double mass) const {
+TexelSample BilinearPatches::sample(int column, int row, double column_fraction,
+                                    double row_fraction, double mass) const {
   const auto [width, height] = texels();
   const Corners corner = corners(column, row);
-  const double q = inside(position_along(corner, row, along));
-  const double p =
-      inside(invert_linear(between(corner.luminance[0][0], corner.luminance[1][0], q),
-                           between(corner.luminance[0][1], corner.luminance[1][1], q), across));
+  const double q = inside(position_in_row(corner, row, row_fraction));
+  const double p = inside(invert_linear(between(corner.luminance[0][0], corner.luminance[1][0], q),
+                                        between(corner.luminance[0][1], corner.luminance[1][1], q),
+                                        column_fraction));
   const Part in_s = part(column, width);
   const Part in_t = part(row, height);
   const SquarePoint at = {(column - 0.5 + in_s.begin + in_s.length * p) / width,

@@ -38,7 +38,8 @@ class BilinearPatches {
   /// The sample in patch (column, row), which is drawn with probability `mass`, at the point below
   /// whose t lies the share `along` of the patch's mass, and to the left of which lies the share
   /// `across` of the mass at that t.
-  TexelSample sample(int column, int row, double across, double along, double mass) const;
+  TexelSample sample(int column, int row, double column_fraction, double row_fraction,
+                     double mass) const;
   /// The column of patches that this s lies in.
   int column_of(double s) const;
   /// The row of patches that this t lies in.
@@ -91,7 +92,7 @@ class BilinearPatches {
   }
   /// What is returned with a sample and what is asked for later are the same bits.
   PerSquare density(const Corners& corners, int column, int row, double mass, SquarePoint at) const;
-  double position_along(const Corners& corners, int row, double share) const;
+  double position_in_row(const Corners& corners, int row, double share) const;
 
   MapMeasure measure_;     ///< in which the density is that of the interpolation
   Grid<float> luminance_;  ///< under C times sin(theta) at the row's centre

@@ -58,9 +58,9 @@ class CdfInversion {
   /// A row, and what is left of the two random numbers.
   struct Row {
     int index;
-    double units;     ///< its mass in units of 2^-31
-    double along;     ///< share of its mass that lies before u.t
-    double scaled_s;  ///< u.s in units of 2^-31
+    double units;         ///< its mass in units of 2^-31
+    double row_fraction;  ///< share of its mass that lies before u.t
+    double scaled_s;      ///< u.s in units of 2^-31
   };
   /// Begins the sample draw(u): asks the memory for where finish() begins to search the row, which
   /// itself is searched for that. Other work, or the beginnings of other samples, may lie between
@@ -77,7 +77,7 @@ class CdfInversion {
   TexelDraw finish(const Row& row) const {
     const CdfCell column =
         finder_.column(table_, row.index, static_cast<std::uint32_t>(row.scaled_s));
-    return {column.index, row.index, column.fraction(row.scaled_s), row.along,
+    return {column.index, row.index, column.fraction(row.scaled_s), row.row_fraction,
             cdf_mass(row.units, column.units())};
   }
   const TexelPositions& positions() const { return positions_; }

@@ -27,8 +27,8 @@ struct CdfCells {
 struct FoundCells {
   Number x;
   Number y;
-  Number across;
-  Number along;
+  Number column_fraction;
+  Number row_fraction;
   Number mass;
 };
 
@@ -55,17 +55,19 @@ HWY_INLINE FoundCell found_cell(const std::int64_t* entries, Number scaled) {
 }
 
 HWY_INLINE FoundCells found_cells(const BlockPoints& points, const CdfCells& cells, std::size_t i) {
-  const FoundCell along = found_cell(cells.row + i, scaled_to_entries(points.t + i));
-  const FoundCell across = found_cell(cells.column + i, scaled_to_entries(points.s + i));
-  return {to_number(load(cells.x + i)), to_number(load(cells.y + i)), across.fraction,
-          along.fraction, hn::Mul(hn::Mul(number(0x1p-62), along.units), across.units)};
+  const FoundCell row_fraction = found_cell(cells.row + i, scaled_to_entries(points.t + i));
+  const FoundCell column_fraction = found_cell(cells.column + i, scaled_to_entries(points.s + i));
+  return {to_number(load(cells.x + i)), to_number(load(cells.y + i)), column_fraction.fraction,
+          row_fraction.fraction,
+          hn::Mul(hn::Mul(number(0x1p-62), row_fraction.units), column_fraction.units)};
 }
 
 /// Writes a vector of samples.
 template <class Output>
 HWY_INLINE void store_found(const PositionKernel& positions, const FoundCells& found,
                             const Output& to) {
-  positions.store_samples({found.x, found.y}, found.across, found.along, found.mass, to);
+  positions.store_samples({found.x, found.y}, found.column_fraction, found.row_fraction, found.mass,
+                          to);
 }
 
 }  // namespace lightproof::HWY_NAMESPACE

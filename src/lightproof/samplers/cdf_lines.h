@@ -19,7 +19,7 @@ inline constexpr int kRunTexels = 32;
 
 /// A texel of a run, found by a random number.
 struct RunTexel {
-  int index;        ///< the texel's place in its run
+  int index;        ///< the texel's index in its run
   double mass;      ///< the texel's share of the run's mass
   double fraction;  ///< share of the texel's mass that lies before the random number, in [0,1)
 };

@@ -19,7 +19,7 @@ class CdfLinesKernel {
     alignas(
         64) std::int32_t wide[kBatchBlock];  ///< what is looked for, in units of wide CDF entries
     alignas(64) std::int32_t narrow[kBatchBlock];   ///< what is looked for, in units of narrow ones
-    alignas(64) std::int32_t index[kBatchBlock];    ///< place of the texel in its run
+    alignas(64) std::int32_t index[kBatchBlock];    ///< index of the texel in its run
     alignas(64) std::int32_t pair[kBatchBlock];     ///< its lower and upper narrow CDF entry
     alignas(64) std::int64_t entries[kBatchBlock];  ///< the CDF entries as wide ones
   };

@@ -24,10 +24,10 @@ class GuideLines {
   /// A run of texels, and what is left of the two random numbers.
   struct Run {
     int row;
-    int index;      ///< of the run in its row
-    double across;  ///< share of the run's mass before the texel and the position in it
-    double along;   ///< share of the row's mass
-    double mass;    ///< the run's probability
+    int index;               ///< of the run in its row
+    double column_fraction;  ///< share of the run's mass before the texel and the position in it
+    double row_fraction;     ///< share of the row's mass
+    double mass;             ///< the run's probability
   };
   /// Begins the sample draw(u): asks the memory for what finish() reads.
   /// The guide tables and sums of rows and runs are read for that: they are small beside the
@@ -39,8 +39,8 @@ class GuideLines {
   }
   /// The sample that prepare() began.
   TexelDraw finish(const Run& run) const {
-    const RunTexel found = lines_.find(lines_.index(run.index, run.row), run.across);
-    return {run.index * kRunTexels + found.index, run.row, found.fraction, run.along,
+    const RunTexel found = lines_.find(lines_.index(run.index, run.row), run.column_fraction);
+    return {run.index * kRunTexels + found.index, run.row, found.fraction, run.row_fraction,
             run.mass * found.mass};
   }
   const TexelPositions& positions() const { return positions_; }

@@ -94,7 +94,7 @@ TexelSample LinearScanPublished::sample(SquarePoint u) const {
                       at.s < 1.0 && at.t >= 0.0 && at.t < 1.0;
   if (!on_map) return {at, column.index, row.index, PerSquare{0.0}};
   if (position_measure_ == MapMeasure::solid_angle) {
-    at.t = solid_angle_rows_.place(row.index, static_cast<double>(row.fraction)).t;
+    at.t = solid_angle_rows_.position(row.index, static_cast<double>(row.fraction)).t;
   }
   return {at, column.index, row.index, pdf_in(column.index, row.index, at)};
 }

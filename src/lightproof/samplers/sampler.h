@@ -37,8 +37,8 @@ struct LightSample {
 struct TexelDraw {
   int x;
   int y;
-  double across;
-  double along;
+  double column_fraction;
+  double row_fraction;
   double mass;
 };
 

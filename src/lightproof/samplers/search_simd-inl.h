@@ -72,7 +72,7 @@ class TreeKernel {
       store(hn::ShiftLeft<2>(root), nodes.start + i);
       store(whole(1), search.cell + i);
       store(whole(std::int64_t{kCdfOne} << 32U), search.entries + i);
-      place(nodes, whole(1), i);
+      point_to(nodes, whole(1), i);
     });
     for (unsigned level = 0; level < trees_.levels; ++level) {
       if (level + 4 < trees_.levels) fetch(trees_.words, nodes.below, count);
@@ -94,7 +94,7 @@ class TreeKernel {
     alignas(64) std::int64_t words[kBatchBlock];  ///< the nodes' words, in the lower halves
   };
 
-  static HWY_INLINE void place(Nodes& nodes, Int node, std::size_t i) {
+  static HWY_INLINE void point_to(Nodes& nodes, Int node, std::size_t i) {
     const Int start = load(nodes.start + i);
     store(hn::Add(start, hn::ShiftLeft<2>(node)), nodes.at + i);
     store(hn::Add(start, hn::ShiftLeft<6>(node)), nodes.below + i);
@@ -111,7 +111,7 @@ class TreeKernel {
     const Int parent = load(search.cell + i);
     const Int node = hn::Add(hn::Add(parent, parent), hn::IfThenZeroElse(left, whole(1)));
     store(node, search.cell + i);
-    place(nodes, node, i);
+    point_to(nodes, node, i);
   }
 
   CdfTrees::View trees_;

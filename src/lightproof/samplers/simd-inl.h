@@ -193,23 +193,23 @@ class PositionKernel {
 
   /// Writes a vector of samples: the texels, the shares of their width and of their
   /// height or solid angle, and their probabilities.
-  HWY_INLINE void store_samples(Cell cell, Number across, Number along, Number mass,
+  HWY_INLINE void store_samples(Cell cell, Number column_fraction, Number row_fraction, Number mass,
                                 TexelSample* to) const {
-    const Number s = hn::Mul(hn::Add(cell.x, inside(across)), number(view_.texel_width));
+    const Number s = hn::Mul(hn::Add(cell.x, inside(column_fraction)), number(view_.texel_width));
     Number t;
     Number pdf;
     if (view_.measure == MapMeasure::square) {
-      t = hn::Mul(hn::Add(cell.y, inside(along)), number(view_.texel_height));
+      t = hn::Mul(hn::Add(cell.y, inside(row_fraction)), number(view_.texel_height));
       pdf = hn::Mul(mass, number(view_.texels));
     } else {
-      const Place place = place_by_solid_angle(cell.y, along);
-      t = position_by_solid_angle(cell.y, place);
-      Number sine = place.sine;
+      const RowPosition at = row_position(cell.y, row_fraction);
+      t = position_by_solid_angle(cell.y, at);
+      Number sine = at.sine;
       if (!SolidAngleRows::has_many_rows(view_.extent.height)) {
         const Number near = hn::Min(t, hn::Sub(number(1.0), t));
         sine = hn::Sin(Numbers(), hn::Mul(number(kPi), near));
       }
-      pdf = hn::Mul(density_by_solid_angle(place, mass), hn::Mul(number(2.0 * kPi * kPi), sine));
+      pdf = hn::Mul(density_by_solid_angle(at, mass), hn::Mul(number(2.0 * kPi * kPi), sine));
     }
     static_assert(sizeof(TexelSample) == 32 && offsetof(TexelSample, x) == 16 &&
                   offsetof(TexelSample, y) == 20 && offsetof(TexelSample, pdf) == 24);
@@ -221,13 +221,13 @@ class PositionKernel {
   }
 
   /// Stores samples as directions: neither arc sine nor sine of an arc sine is needed.
-  HWY_INLINE void store_samples(Cell cell, Number across, Number along, Number mass,
+  HWY_INLINE void store_samples(Cell cell, Number column_fraction, Number row_fraction, Number mass,
                                 const DirectionPointers& to) const {
-    const Number s = hn::Mul(hn::Add(cell.x, inside(across)), number(view_.texel_width));
+    const Number s = hn::Mul(hn::Add(cell.x, inside(column_fraction)), number(view_.texel_width));
     const auto azimuth = sin_cos_of_turns(Numbers(), s);
     const Height height = view_.measure == MapMeasure::square
-                              ? height_by_position(cell.y, along, mass)
-                              : height_by_solid_angle(cell.y, along, mass);
+                              ? height_by_position(cell.y, row_fraction, mass)
+                              : height_by_solid_angle(cell.y, row_fraction, mass);
     store_anywhere(hn::Neg(hn::Mul(height.sine, azimuth.cos)), to.x);
     store_anywhere(hn::Mul(height.sine, azimuth.sin), to.y);
     store_anywhere(height.z, to.z);
@@ -253,22 +253,22 @@ class PositionKernel {
   };
 
   /// Uniform in t.
-  HWY_INLINE Height height_by_position(Number y, Number along, Number mass) const {
-    const Number t = hn::Mul(hn::Add(y, inside(along)), number(view_.texel_height));
+  HWY_INLINE Height height_by_position(Number y, Number row_fraction, Number mass) const {
+    const Number t = hn::Mul(hn::Add(y, inside(row_fraction)), number(view_.texel_height));
     const auto from_nadir = sin_cos_of_turns(Numbers(), hn::Mul(t, number(0.5)));
     const Number density = hn::Mul(mass, number(view_.texels / (2.0 * kPi * kPi)));
     return {from_nadir.sin, hn::Neg(from_nadir.cos), hn::Div(density, from_nadir.sin)};
   }
 
   /// Uniform in solid angle.
-  HWY_INLINE Height height_by_solid_angle(Number y, Number along, Number mass) const {
-    const Place place = place_by_solid_angle(y, along);
-    return {place.sine, hn::IfThenElse(place.upper, place.cosine, hn::Neg(place.cosine)),
-            density_by_solid_angle(place, mass)};
+  HWY_INLINE Height height_by_solid_angle(Number y, Number row_fraction, Number mass) const {
+    const RowPosition at = row_position(y, row_fraction);
+    return {at.sine, hn::IfThenElse(at.upper, at.cosine, hn::Neg(at.cosine)),
+            density_by_solid_angle(at, mass)};
   }
 
   /// SolidAngleRows, at a share of a row. Angles are those from the nearer pole.
-  struct Place {
+  struct RowPosition {
     Mask upper;           ///< whether the nearer pole is the zenith
     Number row;           ///< counted from it
     Int line;             ///< index of the row's line, in doubles
@@ -281,7 +281,7 @@ class PositionKernel {
   HWY_INLINE Number of_line(Int line, double SolidAngleRows::Line::*number_of) const {
     return gather_numbers(&(view_.lines->*number_of), line);
   }
-  HWY_INLINE Place place_by_solid_angle(Number y, Number fraction) const {
+  HWY_INLINE RowPosition row_position(Number y, Number fraction) const {
     const Number height = number(view_.extent.height);
     const Mask upper = hn::Ge(hn::Add(y, y), height);
     const Number row = hn::IfThenElse(upper, hn::Sub(hn::Sub(height, number(1.0)), y), y);
@@ -300,31 +300,30 @@ class PositionKernel {
   }
 
   /// Per steradian.
-  HWY_INLINE Number density_by_solid_angle(const Place& place, Number mass) const {
-    return hn::Div(mass, hn::Mul(number(view_.solid_angle), place.span));
+  HWY_INLINE Number density_by_solid_angle(const RowPosition& at, Number mass) const {
+    return hn::Div(mass, hn::Mul(number(view_.solid_angle), at.span));
   }
 
-  HWY_INLINE Number position_by_solid_angle(Number y, const Place& place) const {
+  HWY_INLINE Number position_by_solid_angle(Number y, const RowPosition& at) const {
     const int height = view_.extent.height;
     Number within;
     if (SolidAngleRows::needs_few_terms(height)) {
-      within = since_edge<SolidAngleRows::kFewTerms>(place);
+      within = since_edge<SolidAngleRows::kFewTerms>(at);
     } else if (SolidAngleRows::has_many_rows(height)) {
-      within = since_edge<SolidAngleRows::kArcSine.size()>(place);
+      within = since_edge<SolidAngleRows::kArcSine.size()>(at);
     } else {
-      const Number sine = hn::Min(hn::Sqrt(place.squared_sine), number(1.0));
+      const Number sine = hn::Min(hn::Sqrt(at.squared_sine), number(1.0));
       const Number angle = hn::Asin(Numbers(), sine);
-      within = hn::Sub(hn::Mul(hn::Mul(number(2.0 / kPi), angle), number(height)), place.row);
+      within = hn::Sub(hn::Mul(hn::Mul(number(2.0 / kPi), angle), number(height)), at.row);
     }
-    const Number share = inside(hn::IfThenElse(place.upper, hn::Sub(number(1.0), within), within));
+    const Number share = inside(hn::IfThenElse(at.upper, hn::Sub(number(1.0), within), within));
     return hn::Mul(hn::Add(y, share), number(view_.texel_height));
   }
 
   template <std::size_t kTerms>
-  HWY_INLINE Number since_edge(const Place& place) const {
-    const Number x =
-        hn::Sub(hn::Mul(place.sine, of_line(place.line, &SolidAngleRows::Line::cosine)),
-                hn::Mul(place.cosine, of_line(place.line, &SolidAngleRows::Line::sine)));
+  HWY_INLINE Number since_edge(const RowPosition& at) const {
+    const Number x = hn::Sub(hn::Mul(at.sine, of_line(at.line, &SolidAngleRows::Line::cosine)),
+                             hn::Mul(at.cosine, of_line(at.line, &SolidAngleRows::Line::sine)));
     const Number square = hn::Mul(x, x);
     Number sum = number(SolidAngleRows::kArcSine[kTerms - 1]);
     for (std::size_t k = kTerms - 1; k-- > 0;) {

@@ -38,16 +38,16 @@ class SolidAngleRows {
   };
 
   /// A position along a row.
-  struct Place {
+  struct RowPosition {
     double t;
     double sine;  ///< sin(theta) there
   };
 
   explicit SolidAngleRows(Extent extent);
 
-  /// The place in row `y` below which lies the share `fraction` of the row's solid angle.
-  Place place(int y, double fraction) const {
-    const AlongRow at = along_row(y, fraction);
+  /// The position in row `y` below which lies the share `fraction` of the row's solid angle.
+  RowPosition position(int y, double fraction) const {
+    const RowShare at = row_share(y, fraction);
     if (!has_many_rows(height_)) {
       const double half_sine = std::min(std::sqrt(at.squared_sine), 1.0);
       const double t = t_of(y, 2.0 / kPi * std::asin(half_sine) * height_ - from_pole(y));
@@ -63,7 +63,7 @@ class SolidAngleRows {
   };
   /// The height in row `y` below which lies the share `fraction` of the row's solid angle.
   Height height(int y, double fraction) const {
-    const AlongRow at = along_row(y, fraction);
+    const RowShare at = row_share(y, fraction);
     return {at.sine, negate_if(2 * y < height_, at.cosine)};
   }
 
@@ -99,13 +99,13 @@ class SolidAngleRows {
   int from_pole(int y) const { return 2 * y >= height_ ? height_ - 1 - y : y; }
 
   /// A share of a row. Angles are those from the pole.
-  struct AlongRow {
+  struct RowShare {
     const Line* line;
     double squared_sine;  ///< of half the angle
     double sine;
     double cosine;
   };
-  AlongRow along_row(int y, double fraction) const {
+  RowShare row_share(int y, double fraction) const {
     const bool upper = 2 * y >= height_;
     const Line& line = lines_[static_cast<std::size_t>(from_pole(y))];
     const double from_edge = select(upper, 1.0 - fraction, fraction);
@@ -180,12 +180,12 @@ class TexelPositions {
 
   /// The drawn texel's sample as a point of the square.
   TexelSample sample(const TexelDraw& draw) const {
-    const double s = position_in_cell(draw.x, draw.across, texel_width_);
+    const double s = position_in_cell(draw.x, draw.column_fraction, texel_width_);
     if (measure_ == MapMeasure::square) {
-      const double t = position_in_cell(draw.y, draw.along, texel_height_);
+      const double t = position_in_cell(draw.y, draw.row_fraction, texel_height_);
       return {{s, t}, draw.x, draw.y, {draw.mass * texels_}};
     }
-    const auto [t, sine] = solid_angle_rows_.place(draw.y, draw.along);
+    const auto [t, sine] = solid_angle_rows_.position(draw.y, draw.row_fraction);
     const double per_steradian = draw.mass / solid_angle_rows_.texel_solid_angle(draw.y);
     return {{s, t}, draw.x, draw.y, {per_steradian * (2.0 * kPi * kPi * sine)}};
   }
@@ -193,20 +193,21 @@ class TexelPositions {
   /// The drawn texel's sample as a direction: that of sample(), to some roundings.
   LightSample direction(const TexelDraw& draw) const {
     if (!is_plain_) return mapped(sample(draw));
-    const SinCosOfTurns azimuth = columns_.at(draw.x, draw.across);
+    const SinCosOfTurns azimuth = columns_.at(draw.x, draw.column_fraction);
     double sine;
     double z;
     double pdf;
     if (measure_ == MapMeasure::square) {
       // Rows are counted from the nearer pole, where the sine loses no precision.
       const bool upper = 2 * draw.y >= extent_.height;
-      const SinCosOfTurns from_pole = rows_.at(upper ? extent_.height - 1 - draw.y : draw.y,
-                                               select(upper, 1.0 - draw.along, draw.along));
+      const SinCosOfTurns from_pole =
+          rows_.at(upper ? extent_.height - 1 - draw.y : draw.y,
+                   select(upper, 1.0 - draw.row_fraction, draw.row_fraction));
       sine = from_pole.sin;
       z = negate_if(!upper, from_pole.cos);
       pdf = draw.mass * texels_per_turn_ / sine;
     } else {
-      const SolidAngleRows::Height height = solid_angle_rows_.height(draw.y, draw.along);
+      const SolidAngleRows::Height height = solid_angle_rows_.height(draw.y, draw.row_fraction);
       sine = height.sine;
       z = height.z;
       pdf = draw.mass / solid_angle_rows_.texel_solid_angle(draw.y);

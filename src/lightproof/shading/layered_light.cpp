@@ -77,11 +77,11 @@ glm::dvec3 LayeredLight::contribution(const LayeredSurface& surface, const Shadi
   const double cosine = glm::dot(at.frame.normal, light);
   if (!(cosine > 0.0)) return glm::dvec3(0.0);
   const CoatValue coat = coat_value(surface, at, light);
-  const SquarePoint place = square_from_direction(light);
-  const double of_map = to_solid_angle(sampler_.pdf(place), place).value;
+  const SquarePoint square = square_from_direction(light);
+  const double of_map = to_solid_angle(sampler_.pdf(square), square).value;
   const double mixture = (coat.pdf + cosine / kPi + of_map) / kTechniques;
   if (!(mixture > 0.0) || !scene_->is_visible(at.position, light)) return glm::dvec3(0.0);
-  return glm::dvec3(look_up_nearest(map_->radiance, place)) * value_of(surface, at, cosine, coat) /
+  return glm::dvec3(look_up_nearest(map_->radiance, square)) * value_of(surface, at, cosine, coat) /
          mixture;
 }
 

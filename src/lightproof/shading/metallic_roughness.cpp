@@ -33,9 +33,9 @@ struct Neighbours {
 };
 
 Neighbours neighbours(double coordinate, int count) {
-  const double place = std::clamp(coordinate * count - 0.5, 0.0, count - 1.0);
-  const int first = static_cast<int>(place);
-  return {first, std::min(first + 1, count - 1), place - first};
+  const double position = std::clamp(coordinate * count - 0.5, 0.0, count - 1.0);
+  const int first = static_cast<int>(position);
+  return {first, std::min(first + 1, count - 1), position - first};
 }
 
 }  // namespace

@@ -36,23 +36,25 @@ EnvironmentMap room_with_windows() {
 }
 
 /// A pixel of what is compared.
-struct Place {
+struct PixelIndex {
   int x;
   int y;
 };
 
-/// Fills the errors, and their root mean squares. `standard_error` is of luminance, place by place;
+/// Fills the errors, and their root mean squares. `standard_error` is of luminance, pixel by pixel;
 /// empty if the exact picture has none.
-void compare(PublishedPicture& picture, const std::vector<Place>& places,
+void compare(PublishedPicture& picture, const std::vector<PixelIndex>& compared,
              const std::vector<double>& standard_errors) {
-  const auto luminance = [](const Grid<Rgb>& of, Place at) { return luminance_of(of(at.x, at.y)); };
-  const double count = static_cast<double>(places.size());
+  const auto luminance = [](const Grid<Rgb>& of, PixelIndex at) {
+    return luminance_of(of(at.x, at.y));
+  };
+  const double count = static_cast<double>(compared.size());
   double mean = 0.0;
-  for (const Place at : places) mean += luminance(picture.exact, at) / count;
+  for (const PixelIndex at : compared) mean += luminance(picture.exact, at) / count;
   const auto error_of = [&](const Grid<Rgb>& form, Grid<double>& error) {
     error = Grid<double>(form.extent());
     double squares = 0.0;
-    for (const Place at : places) {
+    for (const PixelIndex at : compared) {
       const double difference = (luminance(form, at) - luminance(picture.exact, at)) / mean;
       error(at.x, at.y) = difference;
       squares += difference * difference / count;
@@ -102,9 +104,9 @@ PublishedPicture shaded_sphere(const EnvironmentMap& map, const LayeredSurface& 
     picture.exact(pixels[i].x, pixels[i].y) = Rgb(estimate.radiance);
     noise[i] = luminance_error(estimate.standard_error);
   });
-  std::vector<Place> places;
-  for (const Pixel& pixel : pixels) places.push_back({pixel.x, pixel.y});
-  compare(picture, places, noise);
+  std::vector<PixelIndex> compared;
+  for (const Pixel& pixel : pixels) compared.push_back({pixel.x, pixel.y});
+  compare(picture, compared, noise);
   picture.exact_form = brute_force_text(options.samples);
   return picture;
 }
@@ -163,11 +165,11 @@ PublishedPicture reflectivity_picture(const ShadedPictureOptions& options) {
   picture.exact = from_top(prefilter(map.radiance, level).front());
   picture.published = accumulated(ReflectivityForm::published);
   picture.corrected = accumulated(ReflectivityForm::normalised);
-  std::vector<Place> places;
+  std::vector<PixelIndex> compared;
   for (int y = 0; y < kExtent.height; ++y) {
-    for (int x = 0; x < kExtent.width; ++x) places.push_back({x, y});
+    for (int x = 0; x < kExtent.width; ++x) compared.push_back({x, y});
   }
-  compare(picture, places, {});
+  compare(picture, compared, {});
   return picture;
 }
 

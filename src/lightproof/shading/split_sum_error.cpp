@@ -148,8 +148,8 @@ class KernelTransform {
     for (int l = 0; l <= functions_.degree(); ++l) {
       double& sum = power[static_cast<std::size_t>(l)];
       for (int m = 0; m <= l; ++m) {
-        const std::size_t place = legendre_index(l, m);
-        double value = f0 * sums_.scale[place] + sums_.bias[place];
+        const std::size_t index = legendre_index(l, m);
+        double value = f0 * sums_.scale[index] + sums_.bias[index];
         if (m == 0) value -= reflectance * sums_.lobe[static_cast<std::size_t>(l)];
         sum += (m == 0 ? 1.0 : 2.0) * value * value;
       }
@@ -172,12 +172,12 @@ class KernelTransform {
     sums_.scale_and_lobe += area * lobe * circle_.scale[0];
     sums_.bias_and_lobe += area * lobe * circle_.bias[0];
     sums_.lobe_square += area * 2.0 * kPi * lobe * lobe;
-    std::size_t place = 0;
+    std::size_t index = 0;
     for (std::size_t l = 0; l < degrees(); ++l) {
-      sums_.lobe[l] += area * 2.0 * kPi * lobe * legendre_[place];
-      for (std::size_t m = 0; m <= l; ++m, ++place) {
-        sums_.scale[place] += area * circle_.scale[m] * legendre_[place];
-        sums_.bias[place] += area * circle_.bias[m] * legendre_[place];
+      sums_.lobe[l] += area * 2.0 * kPi * lobe * legendre_[index];
+      for (std::size_t m = 0; m <= l; ++m, ++index) {
+        sums_.scale[index] += area * circle_.scale[m] * legendre_[index];
+        sums_.bias[index] += area * circle_.bias[m] * legendre_[index];
       }
     }
   }

@@ -13,7 +13,7 @@
 #include "lightproof/stability/hard_maps.h"
 #include "lightproof/stability/other_trials.h"
 #include "lightproof/stability/prefilter_trials.h"
-#include "lightproof/stability/sampler_trials.h"
+#include "lightproof/stability/sampler_on_map.h"
 
 namespace lightproof {
 namespace {

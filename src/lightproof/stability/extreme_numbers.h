@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "lightproof/stability/sampler_trials.h"
+#include "lightproof/stability/sampler_on_map.h"
 
 namespace lightproof {
 

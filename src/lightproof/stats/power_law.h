@@ -1,6 +1,7 @@
 // Straight lines on log-log paper.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -46,6 +47,25 @@ inline PowerLaw fit_power_law(std::span<const PowerLawPoint> points) {
   }
   const double exponent = sxy / sxx;
   return {exponent, 1.0 / std::sqrt(sxx), std::exp((sy - exponent * sx) / sw)};
+}
+
+/// How many times their own standard errors the points lie from a law that was fitted to them, root
+/// mean square over their number less two: about 1 if they follow it. Needs three points.
+inline double scatter_about(const PowerLaw& law, std::span<const PowerLawPoint> points) {
+  double chi_square = 0.0;
+  for (const PowerLawPoint& point : points) {
+    const double fitted = law.constant * std::pow(point.x, law.exponent);
+    const double residual = std::log(point.y / fitted) / point.relative_error;
+    chi_square += residual * residual;
+  }
+  return std::sqrt(chi_square / static_cast<double>(points.size() - 2));
+}
+
+/// The standard error of a fitted exponent. What scatters about the law by more than its own errors
+/// follows none: the exponent is only as certain as the scatter allows for. Needs three points.
+inline double exponent_error_with_scatter(const PowerLaw& law,
+                                          std::span<const PowerLawPoint> points) {
+  return law.exponent_error * std::max(1.0, scatter_about(law, points));
 }
 
 }  // namespace lightproof

@@ -83,18 +83,18 @@ struct Candidate {
 };
 
 /// The points at which a line may bend, one for each x.
-std::vector<std::size_t> places_of(const Vector& x) {
-  std::vector<std::size_t> places;
+std::vector<std::size_t> breakpoints_of(const Vector& x) {
+  std::vector<std::size_t> breakpoints;
   for (std::size_t i = kBeyond; i + kBeyond < x.size(); ++i) {
     const bool inside = x[i] > x[kBeyond - 1] && x[i] < x[x.size() - kBeyond];
-    if (inside && x[i] > x[i - 1]) places.push_back(i);
+    if (inside && x[i] > x[i - 1]) breakpoints.push_back(i);
   }
-  return places;
+  return breakpoints;
 }
 
 Candidate with_one_breakpoint(const Vector& x, std::size_t point) {
   Vector beyond;
-  for (const double place : x) beyond.push_back(std::max(place - x[point], 0.0));
+  for (const double value : x) beyond.push_back(std::max(value - x[point], 0.0));
   const Straightened bend = straightened(from_mean(x), beyond);
   return {{point}, {bend}, {of_length_one(bend.residuals)}};
 }
@@ -111,7 +111,8 @@ Candidate with_two_breakpoints(const Candidate& first, const Candidate& second) 
 /// The lines with one breakpoint, then those with two.
 std::vector<Candidate> candidates_of(const Vector& x) {
   std::vector<Candidate> candidates;
-  for (const std::size_t place : places_of(x)) candidates.push_back(with_one_breakpoint(x, place));
+  for (const std::size_t breakpoint : breakpoints_of(x))
+    candidates.push_back(with_one_breakpoint(x, breakpoint));
   const std::size_t ones = candidates.size();
   for (std::size_t i = 0; i < ones; ++i) {
     for (std::size_t k = i + 1; k < ones; ++k) {
@@ -263,7 +264,7 @@ class AllBends {
 std::vector<std::optional<SegmentedLine>> segmented_lines(
     std::span<const std::vector<LinePoint>> lines, double alpha) {
   const auto may_bend = [](const std::vector<LinePoint>& points) {
-    return !places_of(column_of(points, &LinePoint::x)).empty();
+    return !breakpoints_of(column_of(points, &LinePoint::x)).empty();
   };
   const auto tested = static_cast<std::size_t>(std::ranges::count_if(lines, may_bend));
   const double ranks = kRanksAtLevel / strictest_level(alpha, tested);

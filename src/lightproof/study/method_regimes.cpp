@@ -55,13 +55,13 @@ MethodRegime regime_of(const AccuracyChart& chart, double roughness, double effe
   if (const auto fastest = fastest_to(chart, kError)) {
     regime.estimator = fastest->line->estimator;
     regime.family = fastest->line->family;
-    regime.seconds = fastest->place.seconds;
+    regime.seconds = fastest->point.seconds;
   }
   AccuracyChart unbiased = chart;
   std::erase_if(unbiased.lines, [](const AccuracyLine& line) { return line.is_biased; });
   if (const auto fastest = fastest_to(unbiased, kError)) {
     regime.unbiased_estimator = fastest->line->estimator;
-    regime.unbiased_seconds = fastest->place.seconds;
+    regime.unbiased_seconds = fastest->point.seconds;
   }
   return regime;
 }

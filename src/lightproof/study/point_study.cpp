@@ -28,8 +28,7 @@ std::string_view name_of(Roughness roughness) {
   return "";
 }
 
-/// The power law through the errors. A set whose errors scatter about it by more than their own
-/// standard errors follows none: its exponent is only as certain as the scatter allows for.
+/// The power law through the errors.
 void fit(PointRate& rate) {
   rate.exponent = rate.exponent_error = std::numeric_limits<double>::quiet_NaN();
   std::vector<PowerLawPoint> points;
@@ -39,16 +38,9 @@ void fit(PointRate& rate) {
         {static_cast<double>(error.points), error.rmse, error.rmse_error / error.rmse});
   }
   if (points.size() < 3) return;
-  const PowerLaw law = fit_power_law(points);
-  double chi_square = 0.0;
-  for (const PowerLawPoint& point : points) {
-    const double predicted = law.constant * std::pow(point.x, law.exponent);
-    const double residual = std::log(point.y / predicted) / point.relative_error;
-    chi_square += residual * residual;
-  }
-  const double scatter = std::sqrt(chi_square / static_cast<double>(points.size() - 2));
-  rate.exponent = law.exponent;
-  rate.exponent_error = law.exponent_error * std::max(1.0, scatter);
+  const PowerLaw fitted = fit_power_law(points);
+  rate.exponent = fitted.exponent;
+  rate.exponent_error = exponent_error_with_scatter(fitted, points);
 }
 
 PointRate rate_of(const PointSetInfo& set, const Integrand& integrand,

@@ -30,6 +30,21 @@ constexpr std::array<std::string_view, 9> kPictured = {
     "mis balance", "ris 16", "product hierarchical", "split-sum",
     "sh-9"};
 
+bool is_of_each_kind(std::string_view estimator) {
+  return std::ranges::find(kPictured, estimator) != kPictured.end();
+}
+
+/// One of each kind, in the order in which they are shown; then, if asked for, all others.
+std::vector<const EstimatorInfo*> pictured(const RenderOptions& options) {
+  std::vector<const EstimatorInfo*> chosen;
+  for (const std::string_view name : kPictured) chosen.push_back(&estimator_by_name(name));
+  if (!options.every_estimator) return chosen;
+  for (const EstimatorInfo& info : estimators()) {
+    if (!is_of_each_kind(info.name)) chosen.push_back(&info);
+  }
+  return chosen;
+}
+
 /// The estimator with which references are rendered.
 constexpr std::string_view kReferenceEstimator = "mis one-sample sobol";
 
@@ -121,6 +136,7 @@ class Studio {
     record.receiver = receiver_->name;
     record.material = material_name_;
     record.estimator = info.name;
+    record.is_of_each_kind = is_of_each_kind(info.name);
     record.samples = painter.samples_within(pixels_, options_->point_seconds);
     record.point_seconds = painter.point_seconds(pixels_, record.samples);
     const auto start = std::chrono::steady_clock::now();
@@ -165,12 +181,11 @@ std::vector<RenderRecord> renders_of(const EnvironmentMap& map, const RenderOpti
     }
   }
   std::vector<std::vector<RenderRecord>> by_scene(studios.size());
-  for (const std::string_view name : kPictured) {
-    const EstimatorInfo& info = estimator_by_name(name);
-    const PreparedEstimator prepared = info.prepare(map);
+  for (const EstimatorInfo* info : pictured(options)) {
+    const PreparedEstimator prepared = info->prepare(map);
     for (std::size_t i = 0; i < studios.size(); ++i) {
-      if (studios[i]->is_served_by(info)) {
-        by_scene[i].push_back(studios[i]->record_of(info, prepared));
+      if (studios[i]->is_served_by(*info)) {
+        by_scene[i].push_back(studios[i]->record_of(*info, prepared));
       }
     }
   }

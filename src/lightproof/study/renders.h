@@ -17,12 +17,13 @@ struct RenderOptions {
   Extent picture = {128, 96};
   double point_seconds = 16e-6;            ///< processor time of a pixel that each estimator has
   std::uint64_t reference_samples = 1024;  ///< samples per pixel of the reference
+  bool every_estimator = false;            ///< all that serve a material, not one of each kind
 };
 
-/// Renders a glossy sphere on a plane and a diffuse sphere under every map, by estimators of every
-/// kind that serve the material, one of each at least, with as many samples as take the time that
-/// all have. How many these are is measured: pictures depend on the machine. One that its samples
-/// do not matter to takes its own time.
+/// Renders a glossy sphere on a plane and a diffuse sphere under every map, by estimators that
+/// serve the material, one of each kind or all, with as many samples as take the time that all
+/// have. How many these are is measured: pictures depend on the machine. One that its samples do
+/// not matter to takes its own time.
 std::vector<RenderRecord> study_renders(std::span<const EnvironmentMap> maps,
                                         const RenderOptions& options,
                                         const Progress& progress = {});

@@ -1,10 +1,10 @@
-#include "reference/gauss_rule.h"
+#include "lightproof/core/gauss_rule.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace lightproof::reference {
+namespace lightproof {
 namespace {
 
 constexpr double kLow = -0.25;
@@ -56,4 +56,4 @@ TYPED_TEST(GaussRuleOf, HasNodesThatAscendInsideTheInterval) {
 }
 
 }  // namespace
-}  // namespace lightproof::reference
+}  // namespace lightproof

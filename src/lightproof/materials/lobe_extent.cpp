@@ -1,4 +1,4 @@
-#include "lightproof/materials/lobe_place.h"
+#include "lightproof/materials/lobe_extent.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,14 +28,14 @@ double width_of(const Material& material, double cosine) {
 
 }  // namespace
 
-bool LobePlace::varies_within(Direction direction, double angle) const {
+bool LobeExtent::varies_within(Direction direction, double angle) const {
   constexpr double kPart = 1.0 / 3.0;
   if (angle <= kPart * width) return false;
   const double distance = std::acos(std::clamp(glm::dot(direction, axis), -1.0, 1.0));
   return angle > kPart * std::max(width, distance - angle);
 }
 
-LobePlace lobe_at(const Material& material, const ShadingPoint& at) {
+LobeExtent lobe_at(const Material& material, const ShadingPoint& at) {
   const double cosine = glm::dot(at.view, at.frame.normal);
   return {2.0 * cosine * at.frame.normal - at.view, width_of(material, cosine)};
 }

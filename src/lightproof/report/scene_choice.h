@@ -14,32 +14,33 @@ struct ChoiceList {
   std::string label;
 };
 
-/// What a chart shows at a time: an entry for each list.
-using Place = std::vector<std::string>;
+/// The scene that a chart shows at a time, as map, receiver and material: an entry for each list.
+using SceneKey = std::vector<std::string>;
 
 /// A list for each of the fields if there is every combination of their entries; else one list of
-/// whole places.
-class PlaceChoice {
+/// whole scenes.
+class SceneChoice {
  public:
-  /// `places` is not empty, each has an entry for each list; `first` is the one shown at first.
-  PlaceChoice(std::vector<ChoiceList> lists, const std::vector<Place>& places, const Place& first);
+  /// `scenes` is not empty, each has an entry for each list; `first` is the one shown at first.
+  SceneChoice(std::vector<ChoiceList> lists, const std::vector<SceneKey>& scenes,
+              const SceneKey& first);
 
   /// The parameters of a Vega-Lite chart that bring the lists.
   Json params() const;
-  /// The transform that leaves the rows of the chosen place.
+  /// The transform that leaves the rows of the chosen scene.
   Json filter() const;
   /// Says of a row where it belongs.
-  void put(Json& row, const Place& place) const;
+  void put(Json& row, const SceneKey& scene) const;
   /// What the page's script makes of the entries that are chosen: "city | sphere".
-  std::string key(const Place& place) const;
+  std::string key(const SceneKey& scene) const;
 
  private:
-  Place entries(const Place& place) const;
+  SceneKey entries(const SceneKey& scene) const;
 
   std::vector<ChoiceList> lists_;
   std::vector<std::vector<std::string>> options_;  ///< a list each
-  Place first_;
-  bool is_whole_ = false;  ///< whether one list has whole places
+  SceneKey first_;
+  bool is_whole_ = false;  ///< whether one list has whole scenes
 };
 
 }  // namespace lightproof

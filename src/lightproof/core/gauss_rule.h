@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-namespace lightproof::reference {
+namespace lightproof {
 
 /// A node of a Gauss-Legendre rule over [0,1].
 struct GaussNode {
@@ -39,4 +39,4 @@ class GaussRule {
 extern template class GaussRule<2>;
 extern template class GaussRule<3>;
 
-}  // namespace lightproof::reference
+}  // namespace lightproof

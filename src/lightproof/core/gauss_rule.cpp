@@ -1,8 +1,8 @@
-#include "reference/gauss_rule.h"
+#include "lightproof/core/gauss_rule.h"
 
 #include <boost/math/quadrature/gauss.hpp>
 
-namespace lightproof::reference {
+namespace lightproof {
 
 template <std::size_t kNodes>
 GaussRule<kNodes>::GaussRule() {
@@ -20,4 +20,4 @@ GaussRule<kNodes>::GaussRule() {
 template class GaussRule<2>;
 template class GaussRule<3>;
 
-}  // namespace lightproof::reference
+}  // namespace lightproof

@@ -1,4 +1,4 @@
-#include "lightproof/report/place_choice.h"
+#include "lightproof/report/scene_choice.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,49 +9,49 @@ namespace lightproof {
 namespace {
 
 /// A combination of all lists, as one entry.
-std::string joined(const Place& place) { return fmt::format("{}", fmt::join(place, ", ")); }
+std::string joined(const SceneKey& scene) { return fmt::format("{}", fmt::join(scene, ", ")); }
 
 std::string label_of(const std::vector<ChoiceList>& lists) {
-  Place labels;
+  SceneKey labels;
   for (const ChoiceList& list : lists) labels.push_back(list.label);
   return joined(labels);
 }
 
-std::vector<std::string> options_of(const std::vector<Place>& places, std::size_t list) {
+std::vector<std::string> options_of(const std::vector<SceneKey>& scenes, std::size_t list) {
   std::vector<std::string> names;
-  for (const Place& place : places) names.push_back(place[list]);
+  for (const SceneKey& scene : scenes) names.push_back(scene[list]);
   return unique_names(names);
 }
 
-std::vector<std::string> whole_places(const std::vector<Place>& places) {
+std::vector<std::string> whole_scenes(const std::vector<SceneKey>& scenes) {
   std::vector<std::string> names;
-  for (const Place& place : places) names.push_back(joined(place));
+  for (const SceneKey& scene : scenes) names.push_back(joined(scene));
   return unique_names(names);
 }
 
 }  // namespace
 
-PlaceChoice::PlaceChoice(std::vector<ChoiceList> lists, const std::vector<Place>& places,
-                         const Place& first)
+SceneChoice::SceneChoice(std::vector<ChoiceList> lists, const std::vector<SceneKey>& scenes,
+                         const SceneKey& first)
     : lists_(std::move(lists)), first_(first) {
   std::size_t combinations = 1;
   for (std::size_t i = 0; i < lists_.size(); ++i) {
-    options_.push_back(options_of(places, i));
+    options_.push_back(options_of(scenes, i));
     combinations *= options_.back().size();
   }
-  const std::vector<std::string> whole = whole_places(places);
+  const std::vector<std::string> whole = whole_scenes(scenes);
   is_whole_ = whole.size() != combinations;
   if (!is_whole_) return;
-  lists_ = {{"place", label_of(lists_)}};
+  lists_ = {{"scene", label_of(lists_)}};
   options_ = {whole};
 }
 
-Place PlaceChoice::entries(const Place& place) const {
-  return is_whole_ ? Place{joined(place)} : place;
+SceneKey SceneChoice::entries(const SceneKey& scene) const {
+  return is_whole_ ? SceneKey{joined(scene)} : scene;
 }
 
-Json PlaceChoice::params() const {
-  const Place chosen = entries(first_);
+Json SceneChoice::params() const {
+  const SceneKey chosen = entries(first_);
   Json params = Json::array();
   for (std::size_t i = 0; i < lists_.size(); ++i) {
     params.push_back(
@@ -62,7 +62,7 @@ Json PlaceChoice::params() const {
   return params;
 }
 
-Json PlaceChoice::filter() const {
+Json SceneChoice::filter() const {
   std::string test;
   for (const ChoiceList& list : lists_) {
     test +=
@@ -71,13 +71,13 @@ Json PlaceChoice::filter() const {
   return {{"filter", test}};
 }
 
-void PlaceChoice::put(Json& row, const Place& place) const {
-  const Place chosen = entries(place);
+void SceneChoice::put(Json& row, const SceneKey& scene) const {
+  const SceneKey chosen = entries(scene);
   for (std::size_t i = 0; i < lists_.size(); ++i) row[lists_[i].field] = chosen[i];
 }
 
-std::string PlaceChoice::key(const Place& place) const {
-  return fmt::format("{}", fmt::join(entries(place), " | "));
+std::string SceneChoice::key(const SceneKey& scene) const {
+  return fmt::format("{}", fmt::join(entries(scene), " | "));
 }
 
 }  // namespace lightproof

@@ -6,7 +6,7 @@
 namespace lightproof {
 
 /// The place in which a material's k varies fast: around the mirrored view.
-struct LobePlace {
+struct LobeExtent {
   Direction axis;
   double width;  ///< in radians; infinite if there is no lobe
 
@@ -17,6 +17,6 @@ struct LobePlace {
 };
 
 /// The lobe of a material at a shading point.
-LobePlace lobe_at(const Material& material, const ShadingPoint& at);
+LobeExtent lobe_at(const Material& material, const ShadingPoint& at);
 
 }  // namespace lightproof
