@@ -41,9 +41,9 @@ TEST_F(InputOptions, APresetSaysHowAFileIsReadAndIsRefusedWithoutOne) {
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("--preset: it says how the pixels of a file map"));
   write_map(path("a.exr"));
-  EXPECT_EQ(
-      quick_gate({"constant", path("a.exr"), "--preset", "exr-area", "--sampler", "alias"}).exit_code,
-      0);
+  EXPECT_EQ(quick_gate({"constant", path("a.exr"), "--preset", "exr-area", "--sampler", "alias"})
+                .exit_code,
+            0);
 }
 
 TEST_F(InputOptions, ChannelsAreOneOrThree) {
