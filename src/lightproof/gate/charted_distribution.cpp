@@ -80,16 +80,17 @@ std::vector<ChartNode> nodes_of(const reference::UniformChart& chart) {
   const std::vector<GaussNode> side = nodes_of_side();
   const double area = 1.0 / static_cast<double>(kCells.count());
   std::vector<ChartNode> nodes;
-  for (int y = 0; y < kCells.height; ++y) {
-    for (int x = 0; x < kCells.width; ++x) {
-      for (const GaussNode& in_t : side) {
-        for (const GaussNode& in_s : side) {
-          const SquarePoint at = {(x + in_s.at) / kCells.width, (y + in_t.at) / kCells.height};
-          const Direction d = chart.direction_from_square(at);
-          nodes.push_back({d, chart.pdf(d).value, area * in_t.weight * in_s.weight});
-        }
+  const auto add_cell = [&](int x, int y) {
+    for (const GaussNode& in_t : side) {
+      for (const GaussNode& in_s : side) {
+        const SquarePoint at = {(x + in_s.at) / kCells.width, (y + in_t.at) / kCells.height};
+        const Direction d = chart.direction_from_square(at);
+        nodes.push_back({d, chart.pdf(d).value, area * in_t.weight * in_s.weight});
       }
     }
+  };
+  for (int y = 0; y < kCells.height; ++y) {
+    for (int x = 0; x < kCells.width; ++x) add_cell(x, y);
   }
   return nodes;
 }

@@ -3,9 +3,7 @@
 
 #include "lightproof/stability/stability_case.h"
 
-namespace lightproof {
-
-namespace trials {
+namespace lightproof::trials {
 
 Finding one_bright_texel(const SamplerUnderTest& method, const TrialOptions& options);
 Finding own_filter(const SamplerUnderTest& method, const TrialOptions& options);
@@ -34,5 +32,4 @@ Finding denormal_map(const SamplerUnderTest& method, const TrialOptions& options
 Finding rebuilt_probabilities(const SamplerUnderTest& method, const TrialOptions& options);
 Finding two_maps(const SamplerUnderTest& method, const TrialOptions& options);
 
-}  // namespace trials
-}  // namespace lightproof
+}  // namespace lightproof::trials
