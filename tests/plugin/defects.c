@@ -175,7 +175,7 @@ const lightproof_plugin* lightproof_plugin_describe(void) {
   if (is("y-up")) plugin.axes = "x,-z,y";
   if (is("picture")) {
     plugin.columns = "u,v,pdf";
-    plugin.preset = "openexr";
+    plugin.preset = "exr-area";
     plugin.measure = "square";
     plugin.sample = picture_sample;
     plugin.pdf = picture_pdf;

@@ -116,6 +116,15 @@ std::vector<TexelSample> samples_at(const BoundSampler& sampler,
   return samples;
 }
 
+std::vector<PerSquare> densities_at(const BoundSampler& sampler,
+                                    std::span<const TexelSample> samples) {
+  std::vector<SquarePoint> positions;
+  for (const TexelSample& sample : samples) positions.push_back(sample.at);
+  std::vector<PerSquare> densities(positions.size());
+  sampler.pdf_at(positions, densities);
+  return densities;
+}
+
 /// Equal up to kSamePdf and what rounding makes of b, relative.
 bool is_same_pdf(PerSquare a, PerSquare b, double rounding = 0.0) {
   return std::abs(a.value - b.value) <= (kSamePdf + rounding) * std::abs(b.value);
@@ -193,15 +202,6 @@ class DensitiesInOrder {
   std::vector<PerSquare> densities_;
   std::size_t taken_ = 0;
 };
-
-std::vector<PerSquare> densities_at(const BoundSampler& sampler,
-                                    std::span<const TexelSample> samples) {
-  std::vector<SquarePoint> positions;
-  for (const TexelSample& sample : samples) positions.push_back(sample.at);
-  std::vector<PerSquare> densities(positions.size());
-  sampler.pdf_at(positions, densities);
-  return densities;
-}
 
 }  // namespace
 

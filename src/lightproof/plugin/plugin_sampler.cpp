@@ -383,9 +383,9 @@ BoundSampler bound_plugin(std::shared_ptr<const PluginLibrary> library, const En
 
 struct TimedPlugin::State {
   State(const PluginLibrary& library, const EnvironmentMap& map)
-      : map(library, map), process(this->map.start()) {}
+      : shared(library, map), process(shared.start()) {}
 
-  MapOfPlugin map;
+  MapOfPlugin shared;
   std::unique_ptr<PluginProcess> process;
 };
 
