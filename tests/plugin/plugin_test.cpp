@@ -76,9 +76,10 @@ std::string name_of(std::string name) {
   return name;
 }
 
+/// Thousands of times what a batch of these plug-ins takes: a busy machine does not matter.
 PluginOptions with_little_time() {
   PluginOptions options;
-  options.limits.batch_time = std::chrono::milliseconds{300};
+  options.limits.batch_time = std::chrono::milliseconds{1000};
   return options;
 }
 
@@ -192,8 +193,8 @@ INSTANTIATE_TEST_SUITE_P(
         Failure{"crash-in-pdf", {"pdf() crashed (signal 11", "at the direction (", "0.9"}},
         Failure{"in-order-crash",
                 {"draw() crashed (signal 6", "sample number 4096 with the seed 1"}},
-        Failure{"hang", {"sample() took longer than 0.3 s at u = (0.700"}},
-        Failure{"spin", {"sample() took longer than 0.3 s at u = (0.700"}},
+        Failure{"hang", {"sample() took longer than 1 s at u = (0.700"}},
+        Failure{"spin", {"sample() took longer than 1 s at u = (0.700"}},
         Failure{"exit", {"sample() ended its process with status 3 at u = (0.700"}},
         Failure{"fork", {"sample() started another process", "at u = (0.700"}},
         Failure{"program", {"sample() started another process or program", "at u = (0.700"}},
