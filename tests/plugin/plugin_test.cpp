@@ -158,13 +158,14 @@ TEST_P(Broken, IsRejectedAndNamed) {
 
 INSTANTIATE_TEST_SUITE_P(
     PluginInTheGate, Broken,
-    testing::Values(Defect{"no-jacobian", "check/pdf is the declared density", nullptr},
+    testing::Values(Defect{"no-jacobian", "check/pdf is the declared density",
+                           "pdf-of-another-measure"},
                     Defect{"no-sine", "reference/rows", "other-density"},
-                    Defect{"flipped-t", "reference/rows", nullptr},
-                    Defect{"off-by-one", "reference/texels", nullptr},
+                    Defect{"flipped-t", "reference/rows", "upside-down"},
+                    Defect{"off-by-one", "reference/texels", "column-early"},
                     Defect{"other-pdf", "check/pdf of the sample", nullptr},
-                    Defect{"nan", "check/no out-of-domain samples", nullptr},
-                    Defect{"silent", "check/no out-of-domain samples", nullptr}),
+                    Defect{"nan", "check/no out-of-domain samples", "off-the-map"},
+                    Defect{"silent", "check/no out-of-domain samples", "off-the-map"}),
     [](const auto& row) { return name_of(row.param.name); });
 
 /// A call that is not answered, and what the verdict says of it.
