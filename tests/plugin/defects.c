@@ -70,12 +70,12 @@ static void changed_sample(void* pointer, size_t count, const double* u, double*
   }
 }
 
-static void changed_pdf(void* pointer, size_t count, const double* places, double* densities) {
+static void changed_pdf(void* pointer, size_t count, const double* positions, double* densities) {
   for (size_t i = 0; i < count; ++i) {
-    double at[3] = {places[3 * i], places[3 * i + 1], places[3 * i + 2]};
+    double at[3] = {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
     if (is("y-up")) {
-      at[1] = -places[3 * i + 2];
-      at[2] = places[3 * i + 1];
+      at[1] = -positions[3 * i + 2];
+      at[2] = positions[3 * i + 1];
     }
     if (is("crash-in-pdf") && at[2] > 0.9) *(volatile int*)NULL = 0;
     pdf(pointer, 1, at, densities + i);
@@ -96,9 +96,9 @@ static void picture_sample(void* pointer, size_t count, const double* u, double*
   }
 }
 
-static void picture_pdf(void* pointer, size_t count, const double* places, double* densities) {
+static void picture_pdf(void* pointer, size_t count, const double* positions, double* densities) {
   for (size_t i = 0; i < count; ++i) {
-    const double phi = kPi - 2.0 * kPi * places[2 * i], theta = kPi * places[2 * i + 1];
+    const double phi = kPi - 2.0 * kPi * positions[2 * i], theta = kPi * positions[2 * i + 1];
     const double at[3] = {sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta)};
     pdf(pointer, 1, at, densities + i);
     densities[i] *= 2.0 * kPi * kPi * sin(theta);

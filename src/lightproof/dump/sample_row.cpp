@@ -52,19 +52,19 @@ DumpedSample SampleRows::sample(std::span<const double> row) const {
   return sample;
 }
 
-std::size_t SampleRows::numbers_of_place() const { return columns_.are_directions() ? 3 : 2; }
+std::size_t SampleRows::numbers_of_position() const { return columns_.are_directions() ? 3 : 2; }
 
-void SampleRows::put_place(Direction direction, std::span<double> place) const {
+void SampleRows::put_position(Direction direction, std::span<double> position) const {
   const Direction theirs = to_theirs_(direction);
   if (columns_.are_directions()) {
-    place[0] = theirs.x;
-    place[1] = theirs.y;
-    place[2] = theirs.z;
+    position[0] = theirs.x;
+    position[1] = theirs.y;
+    position[2] = theirs.z;
     return;
   }
   const SquarePoint at = image_from_direction(convention_.preset, theirs);
-  place[0] = at.s;
-  place[1] = columns_.t_is_from_top ? 1.0 - at.t : at.t;
+  position[0] = at.s;
+  position[1] = columns_.t_is_from_top ? 1.0 - at.t : at.t;
 }
 
 PerSteradian SampleRows::density(Direction direction, double value) const {

@@ -1,4 +1,4 @@
-// A row of numbers as a sample, and a place as numbers, in the convention of another program.
+// A row of numbers as a sample, and a position as numbers, in the convention of another program.
 #pragma once
 
 #include <cstddef>
@@ -29,10 +29,10 @@ class SampleRows {
   /// The sample of a row of columns().count numbers.
   DumpedSample sample(std::span<const double> row) const;
 
-  /// Numbers that name a place: x, y, z, or two image coordinates.
-  std::size_t numbers_of_place() const;
+  /// Numbers that name a position: x, y, z, or two image coordinates.
+  std::size_t numbers_of_position() const;
   /// Writes a direction as these numbers.
-  void put_place(Direction direction, std::span<double> place) const;
+  void put_position(Direction direction, std::span<double> position) const;
   /// What a density that the other program names for a direction is per steradian.
   PerSteradian density(Direction direction, double value) const;
 

@@ -105,15 +105,15 @@ typedef struct lightproof_plugin {
    * row i of `rows`, row after row of as many numbers as there are columns. NULL: there is only
    * draw(). A sample depends on its own two random numbers alone. */
   void (*sample)(void* sampler, size_t count, const double* u, double* rows);
-  /** Draws samples number first, first + 1, and so on, `count` of them, with random numbers of its own,
-   * independent of each other; used where sample() is NULL. They depend on the seed and their
+  /** Draws samples number first, first + 1, and so on, `count` of them, with random numbers of its
+   * own, independent of each other; used where sample() is NULL. They depend on the seed and their
    * number alone. `count` is always LIGHTPROOF_PLUGIN_DRAWN, and `first` a multiple of it: a
    * generator that is seeded by both at the beginning of the call will do. */
   void (*draw)(void* sampler, uint64_t seed, uint64_t first, size_t count, double* rows);
-  /** The density with which sample() draws, at `count` places: each x, y and z, or s and t, or u
+  /** The density with which sample() draws, at `count` positions: each x, y and z, or s and t, or u
    * and v, whichever `columns` names, in this order. Writes one number for each. NULL: not known.
    */
-  void (*pdf)(void* sampler, size_t count, const double* places, double* densities);
+  void (*pdf)(void* sampler, size_t count, const double* positions, double* densities);
   /** Frees what create() returned. NULL: nothing has to be freed. */
   void (*destroy)(void* sampler);
 } lightproof_plugin;

@@ -34,7 +34,7 @@ class PluginLibrary {
   const std::string& name() const { return name_; }
   /// What it claims to draw.
   TargetDensity target() const { return target_; }
-  /// What its rows and places are.
+  /// What its rows and positions are.
   const SampleRows& rows() const { return rows_; }
   /// By how much, in radians, rounding may move its directions.
   double rounding() const { return rounding_; }

@@ -16,13 +16,13 @@ namespace lightproof {
 inline constexpr std::size_t kPluginBatch = LIGHTPROOF_PLUGIN_BATCH;
 /// Samples of one call of draw().
 inline constexpr std::size_t kPluginDrawn = LIGHTPROOF_PLUGIN_DRAWN;
-/// The most columns that rows of samples have, and numbers that a place has.
+/// The most columns that rows of samples have, and numbers that a position has.
 inline constexpr std::size_t kMostPluginColumns = 8;
-inline constexpr std::size_t kMostPlaceNumbers = 3;
+inline constexpr std::size_t kMostPositionNumbers = 3;
 
-/// Shared memory of a batch, in numbers: first what goes in (random numbers or places), then what
-/// comes out (rows or densities).
-inline constexpr std::size_t kPluginInputs = kPluginBatch * kMostPlaceNumbers;
+/// Shared memory of a batch, in numbers: first what goes in (random numbers or positions), then
+/// what comes out (rows or densities).
+inline constexpr std::size_t kPluginInputs = kPluginBatch * kMostPositionNumbers;
 inline constexpr std::size_t kPluginOutputs = kPluginBatch * kMostPluginColumns;
 
 /// Bytes of what a plug-in prints that are kept.
@@ -54,8 +54,8 @@ struct PluginRequest {
   // Of create:
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::uint32_t columns = 0;        ///< numbers of a row
-  std::uint32_t place_numbers = 0;  ///< numbers of a place
+  std::uint32_t columns = 0;           ///< numbers of a row
+  std::uint32_t position_numbers = 0;  ///< numbers of a position
   double luminance[3] = {};
   char map_name[256] = {};
 };

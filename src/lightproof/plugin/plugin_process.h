@@ -58,7 +58,7 @@ class PluginProcess {
   PluginDescription describe();
 
   /// Has a sampler made of the map. The size of the map, its name and weights, and the numbers of
-  /// rows and places are in the request.
+  /// rows and positions are in the request.
   PluginAnswer create(PluginRequest request, std::size_t texels);
 
   /// Has sample, draw or pdf called.

@@ -129,7 +129,7 @@ class MapOfPlugin {
     create_.width = static_cast<std::uint32_t>(extent.width);
     create_.height = static_cast<std::uint32_t>(extent.height);
     create_.columns = static_cast<std::uint32_t>(library.rows().columns().count);
-    create_.place_numbers = static_cast<std::uint32_t>(library.rows().numbers_of_place());
+    create_.position_numbers = static_cast<std::uint32_t>(library.rows().numbers_of_position());
     const LuminanceWeights weights = on_map(library.target(), map).weights;
     create_.luminance[0] = weights.red;
     create_.luminance[1] = weights.green;
@@ -165,8 +165,8 @@ class PluginSampler {
         mapping_(map.mapping),
         extent_(map.radiance.extent()),
         map_(*library_, map),
-        place_(map.mapping, extent_, library_->rounding(),
-               DeclaredOnMap(map, on_map(library_->target(), map))) {
+        locate_(map.mapping, extent_, library_->rounding(),
+                DeclaredOnMap(map, on_map(library_->target(), map))) {
     give_back(map_.start());
   }
 
@@ -216,7 +216,7 @@ class PluginSampler {
 
   void pdf(std::span<const SquarePoint> positions, std::span<PerSquare> densities) const {
     const SampleRows& rows = library_->rows();
-    const std::size_t size = rows.numbers_of_place();
+    const std::size_t size = rows.numbers_of_position();
     for (std::size_t done = 0; done < positions.size(); done += kPluginBatch) {
       const std::size_t count = std::min(kPluginBatch, positions.size() - done);
       PluginRequest request;
@@ -224,8 +224,8 @@ class PluginSampler {
       request.count = count;
       const auto put = [&](std::span<double> inputs) {
         for (std::size_t i = 0; i < count; ++i) {
-          rows.put_place(direction_at(mapping_, positions[done + i]),
-                         inputs.subspan(size * i, size));
+          rows.put_position(direction_at(mapping_, positions[done + i]),
+                            inputs.subspan(size * i, size));
         }
       };
       ask(request, put, [&](std::span<const double> values) {
@@ -246,7 +246,7 @@ class PluginSampler {
   TexelSample sample_of(std::span<const double> rows, std::size_t number) const {
     const std::size_t columns = library_->rows().columns().count;
     DumpedSample drawn = library_->rows().sample(rows.subspan(number * columns, columns));
-    TexelSample sample = place_(drawn);
+    TexelSample sample = locate_(drawn);
     if (sample.x < 0) return sample;
     const TurnEffect turn = effect_of_turn(mapping_, sample.at);
     sample.at = {inside(sample.at.s, sample.x, extent_.width, turn.s),
@@ -312,7 +312,7 @@ class PluginSampler {
     if (request.call == PluginCall::sample) {
       return fmt::format("u = {}", numbers_text(inputs.subspan(2 * i, 2)));
     }
-    const std::size_t size = library_->rows().numbers_of_place();
+    const std::size_t size = library_->rows().numbers_of_position();
     return fmt::format("the {} {}", size == 3 ? "direction" : "point",
                        numbers_text(inputs.subspan(size * i, size)));
   }
@@ -343,7 +343,7 @@ class PluginSampler {
   Mapping mapping_;
   Extent extent_;
   MapOfPlugin map_;
-  TexelLocator place_;
+  TexelLocator locate_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<PluginProcess>> idle_;
 };

@@ -9,7 +9,7 @@
 namespace lightproof {
 namespace {
 
-constexpr std::string_view kPlaceOfName = "@NAME@";
+constexpr std::string_view kNamePlaceholder = "@NAME@";
 constexpr std::string_view kHeader = "lightproof_plugin.h";
 constexpr std::string_view kCMakeBuild = "cmake -B build && cmake --build build";
 
@@ -36,11 +36,11 @@ std::string sampler_name_of(std::string_view folder) {
 std::string with_name(std::string_view text, std::string_view name) {
   std::string result;
   for (;;) {
-    const std::size_t at = text.find(kPlaceOfName);
+    const std::size_t at = text.find(kNamePlaceholder);
     result += text.substr(0, at);
     if (at == std::string_view::npos) return result;
     result += name;
-    text.remove_prefix(at + kPlaceOfName.size());
+    text.remove_prefix(at + kNamePlaceholder.size());
   }
 }
 

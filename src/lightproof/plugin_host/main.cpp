@@ -131,7 +131,7 @@ class Plugin {
   void create(const PluginRequest& request) {
     load();
     columns_ = request.columns;
-    places_ = request.place_numbers;
+    position_numbers_ = request.position_numbers;
     const std::span<std::byte> texels = mapped(kPluginMapFile, PROT_READ);
     if (texels.size() < std::size_t{12} * request.width * request.height) {
       throw Fault("the map is not there: it is started by lightproof alone");
@@ -162,7 +162,7 @@ class Plugin {
       case PluginCall::draw:
         return plugin_.draw(sampler_, request.seed, request.first, count, out);
       case PluginCall::pdf:
-        return plugin_.pdf(sampler_, count, in + places_ * at, out + at);
+        return plugin_.pdf(sampler_, count, in + position_numbers_ * at, out + at);
       case PluginCall::describe:
       case PluginCall::create:
         return;
@@ -226,7 +226,7 @@ class Plugin {
   lightproof_map map_ = {};
   void* sampler_ = nullptr;
   std::size_t columns_ = 0;
-  std::size_t places_ = 0;
+  std::size_t position_numbers_ = 0;
 };
 
 /// Makes a call of the plug-in, with the clock running, and looks at what it left behind.

@@ -123,9 +123,9 @@ void sample(void* sampler, std::size_t count, const double* u, double* rows) {
   }
 }
 
-void pdf(void* sampler, std::size_t count, const double* places, double* densities) {
+void pdf(void* sampler, std::size_t count, const double* positions, double* densities) {
   for (std::size_t i = 0; i < count; ++i) {
-    const double* at = places + 3 * i;
+    const double* at = positions + 3 * i;
     densities[i] = static_cast<const Sampler*>(sampler)->pdf(at[0], at[1], at[2]);
   }
 }

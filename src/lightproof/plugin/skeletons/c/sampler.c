@@ -119,10 +119,10 @@ static uint32_t cell(double coordinate, uint32_t count) {
   return at < 0.0 ? 0 : at >= count ? count - 1 : (uint32_t)at;
 }
 
-static void pdf(void* pointer, size_t count, const double* places, double* densities) {
+static void pdf(void* pointer, size_t count, const double* positions, double* densities) {
   const Sampler* self = (const Sampler*)pointer;
   for (size_t i = 0; i < count; ++i) {
-    const double x = places[3 * i], y = places[3 * i + 1], z = places[3 * i + 2];
+    const double x = positions[3 * i], y = positions[3 * i + 1], z = positions[3 * i + 2];
     const double sine = hypot(x, y);
     const uint32_t row = cell(atan2(sine, z) / kPi, self->height);
     const uint32_t column = cell(0.5 - atan2(y, x) / (2.0 * kPi), self->width);

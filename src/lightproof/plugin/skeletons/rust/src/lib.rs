@@ -164,11 +164,11 @@ unsafe extern "C" fn sample(sampler: *mut c_void, count: usize, u: *const f64, r
     points.zip(rows).for_each(|(u, numbers)| sampler.sample(u, numbers));
 }
 
-unsafe extern "C" fn pdf(sampler: *mut c_void, count: usize, places: *const f64, out: *mut f64) {
+unsafe extern "C" fn pdf(sampler: *mut c_void, count: usize, positions: *const f64, out: *mut f64) {
     let sampler = &*sampler.cast::<Sampler>();
-    let places = from_raw_parts(places, 3 * count).chunks_exact(3);
+    let positions = from_raw_parts(positions, 3 * count).chunks_exact(3);
     let out = from_raw_parts_mut(out, count).iter_mut();
-    places.zip(out).for_each(|(at, density)| *density = sampler.pdf(at));
+    positions.zip(out).for_each(|(at, density)| *density = sampler.pdf(at));
 }
 
 unsafe extern "C" fn destroy(sampler: *mut c_void) {
