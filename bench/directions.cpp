@@ -12,6 +12,9 @@
 // speed of a bare gather from a table of two bytes a texel with one reciprocal square root and one
 // sine and cosine a sample. Both are measured beside the sampler.
 //
+// A plug-in (--plugin FILE) is timed as `batch`, by the clocks of its own process, with the way
+// there and back left out; the name then ends in /manual_time.
+//
 // Before a sampler is timed its samples are checked, as for sample/, and its directions must be
 // those of its samples.
 #include <benchmark/benchmark.h>
@@ -31,7 +34,10 @@
 #include "bench/registration.h"
 #include "bench/timing.h"
 #include "bench/upper_bound_baseline.h"
+#include "lightproof/core/error.h"
 #include "lightproof/core/random_batch.h"
+#include "lightproof/gate/sampler_failure.h"
+#include "lightproof/plugin/plugin_library.h"
 #include "lightproof/samplers/batch.h"
 #include "lightproof/samplers/registry.h"
 #include "lightproof/warp/lat_long.h"
@@ -284,7 +290,75 @@ void register_orders(const SamplerInfo& info, Extent extent, DensitySpace densit
   }
 }
 
+/// The plug-in's process with the map of a size: of the last one that was asked for.
+const TimedPlugin& timed_plugin(const PluginLibrary& library, Extent extent) {
+  static std::unique_ptr<TimedPlugin> the_last;
+  static const PluginLibrary* of;
+  static Extent size;
+  if (!the_last || of != &library || !(size == extent)) {
+    the_last.reset();
+    the_last = std::make_unique<TimedPlugin>(library, map_of(extent));
+    of = &library;
+    size = extent;
+  }
+  return *the_last;
+}
+
+/// Batches of a plug-in, timed inside of its own process; the baseline as ever in this one.
+void time_plugin(benchmark::State& state, const PluginLibrary& library, Extent extent) {
+  const TimedPlugin& plugin = timed_plugin(library, extent);
+  const UpperBoundBaseline& usual = baselines_of(extent, library.target().density_space).baseline;
+  const auto baseline = [&](SquarePoint u) { return usual.direction(u); };
+  const double before = ns_per_sample(draw_scalar(baseline));
+  std::uint64_t first = 0;
+  for (int warm = 0; warm < 4; ++warm, first += kBatch) plugin.draw(batch_of_points(first));
+  PluginTime all;
+  for (auto _ : state) {
+    const PluginTime time = plugin.draw(batch_of_points(first));
+    all.cpu_nanoseconds += time.cpu_nanoseconds;
+    all.wall_nanoseconds += time.wall_nanoseconds;
+    state.SetIterationTime(1e-9 * time.wall_nanoseconds * static_cast<double>(kBatch));
+    first += kBatch;
+  }
+  const double mean = 0.5 * (before + ns_per_sample(draw_scalar(baseline)));
+  const double ns = all.cpu_nanoseconds / static_cast<double>(state.iterations());
+  state.counters["ns_per_sample"] = ns;
+  state.counters["times_baseline"] = mean / ns;
+  state.counters["wall_per_cpu"] = all.wall_nanoseconds / all.cpu_nanoseconds;
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kBatch));
+}
+
+void plugin_benchmark(benchmark::State& state, const std::shared_ptr<const PluginLibrary>& library,
+                      Extent extent) {
+  try {
+    std::vector<TexelSample> samples(points_of_fit().size());
+    bound_plugin(library, map_of(extent), std::make_shared<PluginNotes>())
+        .sample(points_of_fit(), samples);
+    const std::string why = misfit_of(samples, library->target(), extent);
+    if (!why.empty()) return disagree(state, why);
+    time_plugin(state, *library, extent);
+  } catch (const SamplerFailure& failure) {
+    disagree(state, failure.what());
+  }
+}
+
 }  // namespace
+
+void register_plugin_benchmarks(std::span<const std::string> files) {
+  for (const std::string& file : files) {
+    const auto library = std::make_shared<const PluginLibrary>(file, PluginOptions{});
+    if (!library->description().has_sample) {
+      throw InputError(fmt::format("{}: it draws in an order of its own, and is not timed", file));
+    }
+    for (const Extent extent : kExtents) {
+      const std::string name =
+          name_of(library->name(), extent, library->target().density_space, "batch");
+      benchmark::RegisterBenchmark(name.c_str(), [library, extent](benchmark::State& state) {
+        plugin_benchmark(state, library, extent);
+      })->UseManualTime();
+    }
+  }
+}
 
 void register_direction_benchmarks() {
   for (const Extent extent : kExtents) {

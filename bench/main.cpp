@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <exception>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "bench/registration.h"
 #include "bench/reporter.h"
@@ -26,6 +28,27 @@ void keep_no_freed_memory() {
 #endif
 }
 
+/// Takes `--plugin FILE` and `--plugin=FILE`, of which Google Benchmark knows nothing, out of the
+/// arguments, and returns the files.
+std::vector<std::string> take_plugins(int& count, char** arguments) {
+  constexpr std::string_view kOption = "--plugin";
+  std::vector<std::string> files;
+  int kept = 1;
+  for (int i = 1; i < count; ++i) {
+    const std::string_view word = arguments[i];
+    if (word == kOption && i + 1 < count) {
+      files.emplace_back(arguments[++i]);
+    } else if (word.starts_with("--plugin=")) {
+      files.emplace_back(word.substr(kOption.size() + 1));
+    } else {
+      arguments[kept++] = arguments[i];
+    }
+  }
+  count = kept;
+  arguments[count] = nullptr;
+  return files;
+}
+
 /// Google Benchmark takes a reporter for a file only where the command line names one.
 bool writes_file(std::span<char*> arguments) {
   return std::ranges::any_of(arguments, [](std::string_view argument) {
@@ -40,6 +63,7 @@ int main(int argc, char** argv) {
   try {
     lightproof::bench::register_sample_benchmarks();
     lightproof::bench::register_direction_benchmarks();
+    lightproof::bench::register_plugin_benchmarks(take_plugins(argc, argv));
     lightproof::bench::register_build_benchmarks();
     lightproof::bench::register_render_benchmarks();
     lightproof::bench::register_histogram_benchmarks();

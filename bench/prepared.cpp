@@ -78,22 +78,11 @@ double entry_tolerance(const SamplerInfo& sampler, Extent extent) {
   return (extent.width + extent.height) * sampler.resolution;
 }
 
-/// An explanation if the samples do not fit the reference's bins; empty if they do.
 template <class Sampler>
 std::string misfit(const Sampler& sampler, TargetDensity target, Extent extent) {
-  Grid<std::uint64_t> counts(kGateBins);
-  std::uint64_t count = 0;
-  for (const SquarePoint u : random_points().first(kFitted)) {
-    const TexelSample sample = sampler.sample(u);
-    if (!is_on_map(sample, extent)) continue;
-    ++count;
-    ++counts(cell_of(sample.at.s, kGateBins.width), cell_of(sample.at.t, kGateBins.height));
-  }
-  const double log10_p =
-      cressie_read(serpentine(counts), exact_distribution(extent, target).bins, count).log10_p;
-  return log10_p > kLeastLog10P
-             ? ""
-             : fmt::format("the samples do not fit the map: log10 p = {}", log10_p);
+  std::vector<TexelSample> samples;
+  for (const SquarePoint u : points_of_fit()) samples.push_back(sampler.sample(u));
+  return misfit_of(samples, target, extent);
 }
 
 /// An explanation if a texel is not the reference's; empty if all are. The reference draws whole
@@ -157,6 +146,23 @@ double median_build_ms(std::optional<AnySampler>& sampler,
 }
 
 }  // namespace
+
+std::span<const SquarePoint> points_of_fit() { return random_points().first(kFitted); }
+
+std::string misfit_of(std::span<const TexelSample> samples, TargetDensity target, Extent extent) {
+  Grid<std::uint64_t> counts(kGateBins);
+  std::uint64_t count = 0;
+  for (const TexelSample& sample : samples) {
+    if (!is_on_map(sample, extent)) continue;
+    ++count;
+    ++counts(cell_of(sample.at.s, kGateBins.width), cell_of(sample.at.t, kGateBins.height));
+  }
+  const double log10_p =
+      cressie_read(serpentine(counts), exact_distribution(extent, target).bins, count).log10_p;
+  return log10_p > kLeastLog10P
+             ? ""
+             : fmt::format("the samples do not fit the map: log10 p = {}", log10_p);
+}
 
 std::span<const SquarePoint> random_points() {
   static const std::vector<SquarePoint> points = make_points();

@@ -14,6 +14,13 @@ namespace lightproof::bench {
 /// Uniform points, 2^21, the same in every run.
 std::span<const SquarePoint> random_points();
 
+/// The points at which samples are drawn that are to fit the map.
+std::span<const SquarePoint> points_of_fit();
+
+/// An explanation if samples, drawn at points_of_fit(), do not fit the reference's bins of the
+/// benchmarks' map; empty if they do.
+std::string misfit_of(std::span<const TexelSample> samples, TargetDensity target, Extent extent);
+
 /// The largest relative difference between the probability with which a texel of the benchmarks'
 /// map is drawn and its share of the light. `pdf` is the density over the square that the sampler
 /// says it draws with. Of texels without light, which are drawn by none.

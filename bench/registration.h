@@ -3,12 +3,15 @@
 
 #include <benchmark/benchmark.h>
 
+#include <span>
 #include <string>
 
 namespace lightproof::bench {
 
 void register_sample_benchmarks();
 void register_direction_benchmarks();
+/// Those of the samplers in these shared libraries. Throws InputError if one is no plug-in.
+void register_plugin_benchmarks(std::span<const std::string> files);
 void register_build_benchmarks();
 void register_render_benchmarks();
 void register_histogram_benchmarks();

@@ -15,7 +15,11 @@ Runs with_ratios(Runs runs) {
     const bool has_times = run.run_type == benchmark::BenchmarkReporter::Run::RT_Iteration &&
                            !run.error_occurred && run.cpu_accumulated_time > 0.0;
     if (!has_times) continue;
-    const double ratio = run.real_accumulated_time / run.cpu_accumulated_time;
+    // What is timed in another process says so itself.
+    const auto own = run.counters.find("wall_per_cpu");
+    const double ratio = own != run.counters.end()
+                             ? own->second.value
+                             : run.real_accumulated_time / run.cpu_accumulated_time;
     run.counters["wall_per_cpu"] = ratio;
     if (ratio <= kBusyRatio) continue;
     run.report_label += run.report_label.empty() ? "machine busy" : ", machine busy";

@@ -7,14 +7,14 @@ get_property(modules GLOBAL PROPERTY LIGHTPROOF_MODULES)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/lightproof)
 install(TARGETS ${modules} lightproof_all EXPORT lightproof COMPONENT development)
 install(TARGETS lightproof RUNTIME COMPONENT runtime)
-# Where image/decoder_program.cpp looks for it.
-install(TARGETS lightproof-decode
+# Where core/companion_program.cpp looks for them.
+install(TARGETS lightproof-decode lightproof-plugin-host
   RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/lightproof COMPONENT runtime)
 install(EXPORT lightproof NAMESPACE lightproof:: FILE lightproofTargets.cmake
   DESTINATION ${package_folder} COMPONENT development)
 install(DIRECTORY src/lightproof DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
   FILES_MATCHING PATTERN "*.h" PATTERN "*-inl.h" EXCLUDE PATTERN "cli" EXCLUDE PATTERN "decoder" EXCLUDE
-  PATTERN "assets" EXCLUDE)
+  PATTERN "plugin_host" EXCLUDE PATTERN "skeletons" EXCLUDE PATTERN "assets" EXCLUDE)
 install(DIRECTORY reference DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lightproof
   COMPONENT development
   FILES_MATCHING PATTERN "*.h")

@@ -45,7 +45,7 @@ class Entry:
         braces = re.search(r":\{([^}]*)\}", self.value)
         if braces:
             return braces.group(1).split(",")
-        bars = re.match(r"\s*([\w.-]+(?:\|[\w.-]+)+)", self.value)
+        bars = re.match(r"\s*([\w.+-]+(?:\|[\w.+-]+)+)", self.value)
         return bars.group(1).split("|") if bars else []
 
     @property
@@ -193,7 +193,7 @@ def manual_page(command, version, date):
 
 def is_file(entry):
     return entry.word == "PATH" or (not entry.names[0].startswith("-") and not entry.choices and
-                                    entry.names[0] in {"MAP", "DUMP", "RESULT"}) or \
+                                    entry.names[0] in {"MAP", "DUMP", "RESULT", "DIR"}) or \
         entry.names[0] == "--map"
 
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <fstream>
 #include <string>
@@ -38,6 +39,25 @@ TEST(ChildConversation, PassesBytesBothWaysHoweverMany) {
   ASSERT_TRUE(end);
   EXPECT_FALSE(end->by_signal);
   EXPECT_EQ(end->code, 0) << "the end of its input is the end of cat";
+}
+
+TEST(ChildConversation, HandsOverFilesInTheirOrder) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "a") << "one";
+  std::ofstream(folder / "b") << "two";
+  const std::array files = {open((folder / "a").c_str(), O_RDONLY | O_CLOEXEC),
+                            open((folder / "b").c_str(), O_RDONLY | O_CLOEXEC)};
+  ChildConversation child("/bin/sh", {"-c", "cat <&4; cat <&3"}, files, 60s);
+  EXPECT_EQ(received(child, 6), "twoone");
+  for (const int file : files) close(file);
+}
+
+TEST(ChildConversation, SaysHowMuchMemoryWasHeld) {
+  ChildConversation child("/bin/cat", {}, -1, 60s);
+  const auto end = child.end();
+  ASSERT_TRUE(end);
+  // A program holds the pages of its own code at the least.
+  EXPECT_GT(end->peak_bytes, 4096U);
 }
 
 TEST(ChildConversation, HandsOverAFileThatThePathNoLongerNames) {

@@ -27,6 +27,13 @@ TEST(AxisMap, AfterAnotherIsBothInTurn) {
   }
 }
 
+TEST(AxisMap, AfterItsInverseIsNone) {
+  for (const AxisMap& map : AxisMap::all()) {
+    EXPECT_EQ(map.after(map.inverse()), AxisMap()) << map.text();
+    EXPECT_EQ(map.inverse().after(map), AxisMap()) << map.text();
+  }
+}
+
 TEST(AxisMap, AreFortyEightOfWhichHalfMirror) {
   std::set<std::string> texts;
   int mirrors = 0;

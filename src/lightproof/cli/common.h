@@ -94,6 +94,7 @@ bool use_color(const CommonOptions& options, int stream);
 /// line that will be parsed.
 void add_gate(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_check(CLI::App& app, const CommandLine& line, int& exit_code);
+void add_new_plugin(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_precompute(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_stability(CLI::App& app, const CommandLine& line, int& exit_code);
 void add_study(CLI::App& app, const CommandLine& line, int& exit_code);

@@ -21,6 +21,7 @@
 #include "lightproof/report/gate_summary.h"
 #include "lightproof/report/rejection_files.h"
 #include "outputs.h"
+#include "plugin_options.h"
 #include "verdict_outputs.h"
 #include "whole_number.h"
 
@@ -29,6 +30,7 @@ namespace {
 
 struct Options : CommonOptions {
   std::vector<std::string> samplers;
+  ChosenPlugins plugins;
   std::string density_space;
   VerdictOutputs outputs;
   std::string rejections;
@@ -94,14 +96,19 @@ void refuse_untested_maps(const std::vector<TestCase>& test_cases,
   }
 }
 
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) fmt::print(stderr, "{}\n", terminal_text(note));
+}
+
 int run(const Options& options) {
   const ThreadLimit threads(options.threads);
-  const ChosenSamplers chosen = choose_samplers(
-      {options.samplers, options.density_space, options.with_published, !options.maps.empty()});
+  const PluginLibraries plugins = load_plugins(options.plugins, options.seed);
+  const auto plugin_notes = std::make_shared<PluginNotes>();
+  const ChosenSamplers chosen =
+      choose_samplers({options.samplers, options.density_space, options.with_published,
+                       !options.maps.empty(), samplers_of(plugins, plugin_notes)});
   const bool stdout_is_taken = check_verdict_outputs(options.outputs);
-  if (!options.quiet) {
-    for (const std::string& note : chosen.notes) fmt::print(stderr, "{}\n", terminal_text(note));
-  }
+  if (!options.quiet) print_notes(chosen.notes);
   const std::vector<EnvironmentMap> maps = load_maps(options);
   const std::vector<TestCase> test_cases =
       test_cases_of(maps, chosen.of_maps, chosen.of_directions);
@@ -113,6 +120,8 @@ int run(const Options& options) {
   }
   Judged judged = run_on(test_cases, options);
   judged.result.left_out = std::move(left_out);
+  judged.result.foreign_samplers = foreign_samplers(plugins, options.plugins);
+  if (!options.quiet) print_notes(plugin_notes->all());
   print_verdict(options, options.outputs, judged, stdout_is_taken);
   const RunDescription description = describe_run(options, maps);
   write_verdict(options.outputs, judged, description);
@@ -196,10 +205,12 @@ void add_gate(CLI::App& app, const CommandLine& line, int& exit_code) {
   add_common_options(*command, *options);
   add_sample_options(*command, options);
   add_sampler_options(*command, *options);
+  add_plugin_options(*command, options->plugins);
   add_output_options(*command, *options);
   command->footer(
       "Without MAP the samplers are tested on every built-in map, and the warps and materials\n"
-      "as well. Exit codes: 0 none rejected, 1 rejected, 2 usage or input, 3 inconclusive,\n"
+      "as well. With --plugin its samplers alone are tested, and those named by --sampler.\n"
+      " Exit codes: 0 none rejected, 1 rejected, 2 usage or input, 3 inconclusive,\n"
       "70 internal error, 71 not enough memory, 128 + N ended by signal N.\n"
       "Samplers with known defects are tested with --with-published, and decide the exit code\n"
       "only if named by --sampler.");

@@ -107,6 +107,26 @@ void drop_repeated(std::vector<Item>& items, const Key& key) {
   std::erase_if(items, [&](const Item& item) { return !seen.insert(key(item)).second; });
 }
 
+/// Adds samplers of plug-ins, whose names nobody else may have: records tell samplers by them.
+void add_plugins(const std::vector<SamplerUnderTest>& plugins, ChosenSamplers& chosen) {
+  for (const SamplerUnderTest& plugin : plugins) {
+    if (find_named(chosen.of_maps, plugin.name) != chosen.of_maps.end()) {
+      throw InputError(fmt::format(
+          "--plugin: two samplers of this run are called {}: give the plug-in another name",
+          plugin.name));
+    }
+    chosen.of_maps.push_back(plugin);
+  }
+}
+
+/// Throws InputError if a density was asked for that no plug-in declares.
+void refuse_other_density(const SamplerChoice& choice, const ChosenSamplers& chosen) {
+  if (choice.plugins.empty() || !chosen.of_maps.empty()) return;
+  const SamplerUnderTest& first = choice.plugins.front();
+  throw InputError(fmt::format("--density: {} declares density {}, not {}", first.name,
+                               to_string(first.target.density_space), choice.density_space));
+}
+
 }  // namespace
 
 ChosenSamplers choose_samplers(const SamplerChoice& choice) {
@@ -123,7 +143,8 @@ ChosenSamplers choose_samplers(const SamplerChoice& choice) {
   });
   drop_repeated(chosen.of_directions, [](const DirectionSampler& sampler) { return sampler.name; });
   settle_named_directions(choice, names_of_directions, chosen);
-  if (choice.names.empty()) {
+  add_plugins(choice.plugins, chosen);
+  if (choice.names.empty() && choice.plugins.empty()) {
     chosen.of_maps = all_samplers_under_test();
     if (!choice.with_published) {
       std::erase_if(chosen.of_maps,
@@ -136,6 +157,7 @@ ChosenSamplers choose_samplers(const SamplerChoice& choice) {
     return !choice.density_space.empty() &&
            choice.density_space != to_string(under_test.target.density_space);
   });
+  refuse_other_density(choice, chosen);
   return chosen;
 }
 

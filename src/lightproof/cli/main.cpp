@@ -65,6 +65,7 @@ int run(int argc, char** argv) {
   add_precompute(app, line, exit_code);
   add_gate(app, line, exit_code);
   add_check(app, line, exit_code);
+  add_new_plugin(app, line, exit_code);
   add_recommend(app, line, exit_code);
   add_stability(app, line, exit_code);
   add_info(app, line, exit_code);

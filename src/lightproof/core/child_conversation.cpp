@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -30,10 +32,11 @@ using Clock = std::chrono::steady_clock;
 constexpr milliseconds kAttention{50};
 /// The time that a program has to end after its socket was closed.
 constexpr milliseconds kGrace{500};
-/// Descriptors of the child: standard ones, then the file.
-constexpr int kFile = 3;
+/// Descriptors of the child: standard ones, then the files.
+constexpr int kFirstFile = 3;
 /// The least descriptor of this process that is out of the way of those of the child.
 constexpr int kOutOfTheWay = 10;
+constexpr std::size_t kMostFiles = kOutOfTheWay - kFirstFile;
 constexpr const char* kNowhere = "/dev/null";
 constexpr int kSocketBuffer = 1 << 20;
 
@@ -46,11 +49,13 @@ constexpr int kSocketBuffer = 1 << 20;
 class Descriptor {
  public:
   explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  Descriptor(Descriptor&& other) noexcept : descriptor_(other.release()) {}
   ~Descriptor() {
     if (descriptor_ >= 0) ::close(descriptor_);
   }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor& operator=(Descriptor&&) = delete;
 
   int get() const { return descriptor_; }
   int release() { return std::exchange(descriptor_, -1); }
@@ -67,7 +72,7 @@ int moved_away(const fs::path& program, int descriptor) {
 }
 
 pid_t start(const fs::path& program, const std::vector<std::string>& arguments, int socket,
-            int file) {
+            const std::vector<Descriptor>& files) {
   Redirections redirections;
   redirections.duplicate(socket, STDIN_FILENO);
   redirections.duplicate(socket, STDOUT_FILENO);
@@ -77,7 +82,8 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments, 
   } else {
     redirections.close(STDERR_FILENO);
   }
-  if (file >= 0) redirections.duplicate(file, kFile);
+  int theirs = kFirstFile;
+  for (const Descriptor& file : files) redirections.duplicate(file.get(), theirs++);
   return spawn(program, arguments, redirections);
 }
 
@@ -86,19 +92,26 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments, 
 ChildConversation::ChildConversation(const fs::path& program,
                                      const std::vector<std::string>& arguments, int file,
                                      milliseconds patience)
+    : ChildConversation(program, arguments, std::span(&file, file < 0 ? 0 : 1), patience) {}
+
+ChildConversation::ChildConversation(const fs::path& program,
+                                     const std::vector<std::string>& arguments,
+                                     std::span<const int> files, milliseconds patience)
     : patience_(patience) {
+  if (files.size() > kMostFiles) throw std::length_error("too many files for a child");
   int ends[2] = {-1, -1};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail(program, errno);
   const Descriptor low_ours(ends[0]);
   const Descriptor low_theirs(ends[1]);
   Descriptor ours(moved_away(program, ends[0]));
   const Descriptor theirs(moved_away(program, ends[1]));
-  const Descriptor handed_over(file < 0 ? -1 : moved_away(program, file));
+  std::vector<Descriptor> handed_over;
+  for (const int file : files) handed_over.emplace_back(moved_away(program, file));
   // As much as the system allows at once: a picture passes in fewer pieces.
   for (const int end : ends) {
     ::setsockopt(end, SOL_SOCKET, SO_SNDBUF, &kSocketBuffer, sizeof kSocketBuffer);
   }
-  child_ = start(program, arguments, theirs.get(), handed_over.get());
+  child_ = start(program, arguments, theirs.get(), handed_over);
   socket_ = ours.release();
 }
 
@@ -155,15 +168,17 @@ std::optional<ChildEnd> ChildConversation::end() {
   const pid_t child = std::exchange(child_, -1);
   const auto deadline = Clock::now() + kGrace;
   int status = 0;
+  rusage used = {};
   for (milliseconds pause{1};; pause = std::min(2 * pause, kAttention)) {
-    const pid_t ended = uninterrupted([&] { return ::waitpid(child, &status, WNOHANG); });
+    const pid_t ended = uninterrupted([&] { return ::wait4(child, &status, WNOHANG, &used); });
     if (ended == child) break;
     if (ended < 0) return std::nullopt;
     if (Clock::now() > deadline) ::kill(child, SIGKILL);
     std::this_thread::sleep_for(pause);
   }
-  if (WIFSIGNALED(status)) return ChildEnd{true, WTERMSIG(status)};
-  return ChildEnd{false, WEXITSTATUS(status)};
+  const std::uint64_t peak = std::uint64_t{1024} * static_cast<std::uint64_t>(used.ru_maxrss);
+  if (WIFSIGNALED(status)) return ChildEnd{true, WTERMSIG(status), peak};
+  return ChildEnd{false, WEXITSTATUS(status), peak};
 }
 
 }  // namespace lightproof

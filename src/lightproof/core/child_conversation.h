@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -26,6 +27,7 @@ enum class Exchange {
 struct ChildEnd {
   bool by_signal = false;
   int code = 0;
+  std::uint64_t peak_bytes = 0;  ///< the most memory that it held at once, shared memory included
 };
 
 /// A program whose standard input and output are one end of a socket, of which this is the other.
@@ -37,6 +39,9 @@ class ChildConversation {
   /// be started.
   ChildConversation(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                     int file, std::chrono::milliseconds patience);
+  /// Starts `program`; `files` are its descriptors 3, 4, … .
+  ChildConversation(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                    std::span<const int> files, std::chrono::milliseconds patience);
   ~ChildConversation();
   ChildConversation(const ChildConversation&) = delete;
   ChildConversation& operator=(const ChildConversation&) = delete;
@@ -48,6 +53,8 @@ class ChildConversation {
   /// Closes this end, waits until the program has ended, and ends it where it does not within a
   /// moment. None if nobody knows how it ended.
   std::optional<ChildEnd> end();
+  /// How long the program may be silent from now on.
+  void set_patience(std::chrono::milliseconds patience) { patience_ = patience; }
   /// The process, until it was waited for.
   pid_t id() const { return child_; }
 

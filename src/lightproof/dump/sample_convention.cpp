@@ -71,6 +71,16 @@ AxisMap AxisMap::after(const AxisMap& first) const {
   return both;
 }
 
+AxisMap AxisMap::inverse() const {
+  AxisMap back;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto theirs = static_cast<std::size_t>(axis_[i]);
+    back.axis_[theirs] = static_cast<int>(i);
+    back.sign_[theirs] = sign_[i];
+  }
+  return back;
+}
+
 std::string AxisMap::text() const {
   std::string text;
   for (std::size_t i = 0; i < 3; ++i) {

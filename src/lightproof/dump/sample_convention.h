@@ -30,6 +30,9 @@ class AxisMap {
   /// The axes of what `first` gives, taken by this one.
   AxisMap after(const AxisMap& first) const;
 
+  /// What takes Lightproof's axes back to theirs.
+  AxisMap inverse() const;
+
   /// "x,-z,y".
   std::string text() const;
   /// Whether it turns right-handed axes into left-handed ones.

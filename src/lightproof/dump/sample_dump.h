@@ -4,20 +4,12 @@
 #include <cstdint>
 #include <span>
 
-#include "lightproof/core/direction.h"
-#include "lightproof/core/measure.h"
 #include "lightproof/dump/number_table.h"
 #include "lightproof/dump/sample_columns.h"
 #include "lightproof/dump/sample_convention.h"
+#include "lightproof/dump/sample_row.h"
 
 namespace lightproof {
-
-/// A sample that another program drew. What its row cannot mean is not a number: a direction that
-/// is no unit vector, coordinates outside of the image.
-struct DumpedSample {
-  Direction direction;
-  PerSteradian pdf;  ///< not a number if the dump has none
-};
 
 /// The samples of a file. Many threads may read them.
 class SampleDump {
@@ -26,9 +18,9 @@ class SampleDump {
   SampleDump(NumberTable table, SampleColumns columns, SampleConvention convention);
 
   std::uint64_t count() const { return table_.rows(); }
-  bool has_pdf() const { return columns_.pdf.has_value(); }
+  bool has_pdf() const { return rows_.columns().pdf.has_value(); }
   /// The axes by which the directions are read.
-  const AxisMap& axes() const { return convention_.axes; }
+  const AxisMap& axes() const { return rows_.convention().axes; }
   /// By how much rounding may have moved a direction, in radians.
   double rounding() const;
 
@@ -36,11 +28,8 @@ class SampleDump {
   void read(std::uint64_t first, std::span<DumpedSample> samples) const;
 
  private:
-  DumpedSample sample_of(std::span<const double> row) const;
-
   NumberTable table_;
-  SampleColumns columns_;
-  SampleConvention convention_;
+  SampleRows rows_;
 };
 
 }  // namespace lightproof

@@ -1,6 +1,7 @@
 // A sampler whose type no longer matters.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -28,9 +29,23 @@ struct BoundSampler {
   std::optional<std::uint64_t> count = {};
   /// Whether the density that comes with a sample means anything: else estimates cannot be weighed.
   bool has_weights = true;
+  /// Densities at many positions, where asking for all at once is much quicker; both spans have the
+  /// same length. Empty: pdf() is asked for each.
+  std::function<void(std::span<const SquarePoint>, std::span<PerSquare>)> pdfs = {};
+  /// By how much, relative, the rounding of its directions changes the density over the square of a
+  /// sample at a position; empty where samples are exact.
+  std::function<double(SquarePoint)> pdf_rounding = {};
+  /// Whether it runs in another process, and any call may throw SamplerFailure.
+  bool runs_elsewhere = false;
 
   bool takes_points() const { return static_cast<bool>(sample); }
   bool has_pdf() const { return static_cast<bool>(pdf); }
+
+  /// The density at each of these positions; both spans have the same length.
+  void pdf_at(std::span<const SquarePoint> positions, std::span<PerSquare> densities) const {
+    if (pdfs) return pdfs(positions, densities);
+    std::transform(positions.begin(), positions.end(), densities.begin(), pdf);
+  }
 };
 
 /// A sampler as a source of samples at given points, with pdf and weights.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lightproof/core/parallel.h"
+#include "lightproof/gate/sampler_failure.h"
 #include "lightproof/samplers/cdf_lines.h"
 #include "lightproof/warp/lat_long.h"
 #include "lightproof/warp/mapping.h"
@@ -24,14 +25,26 @@ struct Row {
   int y;  ///< of cells
 
   int texel_row() const { return y * expectation->masses.extent().height / cells.height; }
-  ComparedCell cell(int x, const BoundSampler& sampler) const {
-    ComparedCell cell;
-    cell.x = x * expectation->masses.extent().width / cells.width;
-    cell.y = texel_row();
-    cell.at = {(x + 0.5) / cells.width, (y + 0.25) / cells.height};
-    cell.pdf = sampler.pdf(cell.at).value;
-    cell.declared = declared_density(*expectation, cell.at, cell.x, cell.y);
-    return cell;
+  /// The cells of the row, in their order.
+  std::vector<ComparedCell> compared(const BoundSampler& sampler) const {
+    const auto count = static_cast<std::size_t>(cells.width);
+    std::vector<SquarePoint> positions(count);
+    std::vector<PerSquare> densities(count);
+    for (int x = 0; x < cells.width; ++x) {
+      positions[static_cast<std::size_t>(x)] = {(x + 0.5) / cells.width, (y + 0.25) / cells.height};
+    }
+    sampler.pdf_at(positions, densities);
+    std::vector<ComparedCell> compared(count);
+    for (int x = 0; x < cells.width; ++x) {
+      const auto i = static_cast<std::size_t>(x);
+      ComparedCell& cell = compared[i];
+      cell.x = x * expectation->masses.extent().width / cells.width;
+      cell.y = texel_row();
+      cell.at = positions[i];
+      cell.pdf = densities[i].value;
+      cell.declared = declared_density(*expectation, cell.at, cell.x, cell.y);
+    }
+    return compared;
   }
   /// Probability of the row of texels, or of the bilinear patches whose lower half, but for the
   /// first row, begins with an odd row of cells.
@@ -102,8 +115,7 @@ RowComparison compare_row(const Row& row, const BoundSampler& sampler,
   const std::vector<double> runs = row.runs();
   const double row_mass = row.mass();
   RowComparison result;
-  for (int x = 0; x < row.cells.width; ++x) {
-    const ComparedCell cell = row.cell(x, sampler);
+  for (const ComparedCell& cell : row.compared(sampler)) {
     // A cell of a texel is all of it, whatever the density does inside.
     const double mass =
         expectation.density ? cell.declared * area : expectation.masses(cell.x, cell.y);
@@ -175,9 +187,16 @@ DensityComparison compare_density(const BoundSampler& sampler, const Expectation
                                   const MassRounding& rounding) {
   const Extent cells = expectation.smooth_cells();
   std::vector<RowComparison> rows(static_cast<std::size_t>(cells.height));
-  parallel_for(rows.size(), [&](std::size_t y) {
+  const auto compare = [&](std::size_t y) {
     rows[y] = compare_row({&expectation, cells, static_cast<int>(y)}, sampler, rounding);
-  });
+  };
+  try {
+    parallel_for(rows.size(), compare);
+  } catch (const SamplerFailure&) {
+    // Which row failed first is chance: the first one in their order is not.
+    for (std::size_t y = 0; y < rows.size(); ++y) compare(y);
+    throw;
+  }
   DensityComparison all;
   double excess = 0.0;
   for (const RowComparison& row : rows) merge(all, excess, row);

@@ -8,6 +8,7 @@
 
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/random_batch.h"
+#include "lightproof/gate/sampler_failure.h"
 #include "lightproof/image/look_up.h"
 #include "lightproof/stats/uniformity.h"
 #include "lightproof/warp/lat_long.h"
@@ -249,6 +250,15 @@ Part draw_part(const BoundSampler& sampler, const Expectation& expectation,
   return part;
 }
 
+/// Asks for the same samples, batch after batch, and keeps none.
+void ask_in_order(const BoundSampler& sampler, const RandomStream& stream, PointRange range) {
+  Batch batch;
+  for (std::uint64_t done = 0; done < range.count; done += kBatch) {
+    batch.size = static_cast<std::size_t>(std::min(kBatch, range.count - done));
+    draw_batch(batch, sampler, stream, range.first + done);
+  }
+}
+
 /// Splits a range into tasks that depend on nothing else, makes their parts in parallel and hands
 /// them on in order.
 template <class Make, class Take>
@@ -360,14 +370,22 @@ UniformEstimates draw_uniformly(const Expectation& expectation, const RandomStre
 Draws draw_samples(const BoundSampler& sampler, const Expectation& expectation,
                    const RandomStream& stream, PointRange all_points) {
   Draws all(expectation.masses.extent(), expectation.bands.size());
-  for_each_part(
-      all_points, [&](PointRange range) { return draw_part(sampler, expectation, stream, range); },
-      [&](const Part& part) {
-        all.merge(part.draws);
-        add_counts(all.marginal, part.marginal);
-        add_counts(all.column_marginal, part.column_marginal);
-        for (const std::uint32_t texel : part.texels) ++all.texels.values()[texel];
-      });
+  const auto draw = [&](PointRange range) {
+    return draw_part(sampler, expectation, stream, range);
+  };
+  const auto add = [&](const Part& part) {
+    all.merge(part.draws);
+    add_counts(all.marginal, part.marginal);
+    add_counts(all.column_marginal, part.column_marginal);
+    for (const std::uint32_t texel : part.texels) ++all.texels.values()[texel];
+  };
+  try {
+    for_each_part(all_points, draw, add);
+  } catch (const SamplerFailure&) {
+    // Which task failed first is chance: the first failure in the order of the samples is not.
+    ask_in_order(sampler, stream, all_points);
+    throw;
+  }
   return all;
 }
 

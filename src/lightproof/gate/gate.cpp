@@ -83,8 +83,8 @@ bool is_clean(const Measured& test, double screening_level) {
 }
 
 /// The tests of the first stage.
-std::vector<Measured> screen(const TestRun& run, const SharedDraws& shared, double screening_level,
-                             RunState& state) {
+std::vector<Measured> screen_answering(const TestRun& run, const SharedDraws& shared,
+                                       double screening_level, RunState& state) {
   const Expectation& expectation = *shared.expectation;
   const BoundSampler sampler = run.instance->bind();
   const Inspection& inspection = inspected(run, sampler, expectation, state);
@@ -107,11 +107,21 @@ std::vector<Measured> screen(const TestRun& run, const SharedDraws& shared, doub
   return tests;
 }
 
+std::vector<Measured> screen(const TestRun& run, const SharedDraws& shared, double screening_level,
+                             RunState& state) {
+  try {
+    return screen_answering(run, shared, screening_level, state);
+  } catch (const SamplerFailure& failure) {
+    return test_unanswered(run, failure, shared.samples);
+  }
+}
+
 /// The tests of a run, of which those that fell below the screening level have the records of new
 /// samples in their place, and so have the tests of invalid samples, if there are any. A diagnosis
 /// counts these samples: they are more.
-std::vector<Measured> confirm(const TestRun& run, const SharedDraws& shared,
-                              const ConfirmationRange& needs_confirmation, RunState& state) {
+std::vector<Measured> confirm_answering(const TestRun& run, const SharedDraws& shared,
+                                        const ConfirmationRange& needs_confirmation,
+                                        RunState& state) {
   const Expectation& expectation = *shared.expectation;
   const BoundSampler sampler = run.instance->bind();
   const Inspection& inspection = inspected(run, sampler, expectation, state);
@@ -133,6 +143,18 @@ std::vector<Measured> confirm(const TestRun& run, const SharedDraws& shared,
   }
   state.draws = std::move(draws);
   return tests;
+}
+
+std::vector<Measured> confirm(const TestRun& run, const SharedDraws& shared,
+                              const ConfirmationRange& needs_confirmation, RunState& state) {
+  try {
+    return confirm_answering(run, shared, needs_confirmation, state);
+  } catch (const SamplerFailure& failure) {
+    std::vector<Measured> tests =
+        test_unanswered(run, failure, state.tests.front().stages.confirmation);
+    tests.front().record.stage = 2;
+    return tests;
+  }
 }
 
 /// Test cases, and what is known of their runs.
@@ -157,7 +179,8 @@ class TwoStages {
 
   GateResult judge_all(const ScreenedRuns& screened, const Progress& progress) {
     screen_all(screened, progress);
-    const std::size_t family = std::max<std::size_t>(count_p_values(), options_.family);
+    // A run that answered nothing has no p-values.
+    const std::size_t family = std::max<std::size_t>({1, count_p_values(), options_.family});
     const Judge judge(options_, family);
     states_.for_each([&](RunIndex /*at*/, RunState& state) {
       state.is_confirmed =

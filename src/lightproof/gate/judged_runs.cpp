@@ -19,9 +19,35 @@ std::vector<RunIndex> rejected_in(const JudgedRuns& runs, std::size_t test_case)
   return rejected;
 }
 
-std::vector<Rejection> diagnose_together(const JudgedRuns& runs, std::span<const RunIndex> rejected,
+/// The record of a call that was not answered; null if all were.
+const TestRecord* unanswered_in(std::span<const TestRecord> records) {
+  const auto found = std::ranges::find_if(records, [](const TestRecord& record) {
+    return record.test == TestId::answers && record.outcome == Outcome::reject;
+  });
+  return found == records.end() ? nullptr : &*found;
+}
+
+/// What needs no diagnosis: the call says what happened, and there are no samples.
+Rejection rejection_of(const TestRecord& unanswered) {
+  return {unanswered.sampler,
+          unanswered.density_space,
+          unanswered.map,
+          "no answer",
+          unanswered.detail,
+          Grid<double>(kGateBins),
+          {}};
+}
+
+std::vector<Rejection> diagnose_together(const JudgedRuns& runs, std::vector<RunIndex> rejected,
                                          Expectations& expectations) {
   const std::size_t test_case = rejected.front().test_case;
+  std::vector<Rejection> without_answer;
+  std::erase_if(rejected, [&](RunIndex at) {
+    const TestRecord* unanswered = unanswered_in(runs.records[at]);
+    if (unanswered != nullptr) without_answer.push_back(rejection_of(*unanswered));
+    return unanswered != nullptr;
+  });
+  if (rejected.empty()) return without_answer;
   return with_memory_for_gate(runs.test_cases[test_case], "", [&] {
     const std::shared_ptr<const Expectation> expectation = expectations.of(test_case);
     std::vector<DrawnRun> drawn;
@@ -30,7 +56,9 @@ std::vector<Rejection> diagnose_together(const JudgedRuns& runs, std::span<const
     for (std::size_t i = 0; i < rejected.size(); ++i) {
       evidence.push_back({runs.records[rejected[i]], &drawn[i].draws, &drawn[i].inspection});
     }
-    return diagnose(runs.test_cases[test_case], *expectation, evidence);
+    std::vector<Rejection> all = diagnose(runs.test_cases[test_case], *expectation, evidence);
+    std::ranges::move(without_answer, std::back_inserter(all));
+    return all;
   });
 }
 

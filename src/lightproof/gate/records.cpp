@@ -7,6 +7,7 @@
 #include <new>
 
 #include "lightproof/core/error.h"
+#include "lightproof/gate/sampler_failure.h"
 
 namespace lightproof {
 namespace {
@@ -28,6 +29,8 @@ std::optional<std::string> failure_of(const std::function<void()>& computation) 
   } catch (const Interrupted&) {
     throw;
   } catch (const OutOfMemory&) {
+    throw;
+  } catch (const SamplerFailure&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;

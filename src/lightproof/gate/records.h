@@ -19,7 +19,8 @@
 namespace lightproof {
 
 /// Runs a computation, and returns why it failed if a numerics library ended it with an exception.
-/// Interrupts, bad input and lack of memory are passed on: they end the run.
+/// Interrupts, bad input and lack of memory are passed on: they end the run; and so is the failure
+/// of a sampler that runs elsewhere, which is a verdict.
 std::optional<std::string> failure_of(const std::function<void()>& computation);
 
 /// Collects the records of one run, all of as many samples.

@@ -76,8 +76,8 @@ std::size_t count_runs(std::span<const TestCase> test_cases) {
 }
 
 /// Draws until the evidence reaches `enough` (log10), or to the end.
-Finding watch(const TestRun& run, const Expectation& expectation, const GateOptions& options,
-              double enough) {
+Finding watch_answering(const TestRun& run, const Expectation& expectation,
+                        const GateOptions& options, double enough) {
   const BoundSampler sampler = run.instance->bind();
   const EProcesses evidence(expectation);
   const RandomStream stream = run.stream("sequential");
@@ -126,6 +126,20 @@ Finding watch(const TestRun& run, const Expectation& expectation, const GateOpti
     for (const Measured& test : tests) finding.records.push_back(test.record);
   }
   return finding;
+}
+
+Finding watch(const TestRun& run, const Expectation& expectation, const GateOptions& options,
+              double enough) {
+  try {
+    return watch_answering(run, expectation, options, enough);
+  } catch (const SamplerFailure& failure) {
+    Finding finding{{},
+                    {Draws(expectation.masses.extent(), expectation.bands.size()), Inspection{}}};
+    for (const Measured& test : test_unanswered(run, failure, options.samples)) {
+      finding.records.push_back(test.record);
+    }
+    return finding;
+  }
 }
 
 /// Test cases, and what was kept of their runs.

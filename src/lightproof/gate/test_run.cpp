@@ -266,6 +266,13 @@ std::vector<Measured> test_validity(const TestRun& run, const Draws& draws) {
   return records.take();
 }
 
+std::vector<Measured> test_unanswered(const TestRun& run, const SamplerFailure& failure,
+                                      std::uint64_t samples) {
+  Records records(run, samples);
+  records.add_check({TestId::answers, false, 1.0, failure.what()});
+  return records.take();
+}
+
 ReferenceDraws draw_reference(BoundSampler sampler, const Expectation& expectation,
                               const RandomStream& stream, std::uint64_t samples) {
   Draws draws = draw_samples(sampler, expectation, stream, {0, samples / 4});
@@ -330,6 +337,7 @@ std::vector<Measured> test_exactly(const TestRun& run, const Expectation& expect
       records.add_not_run(test, kNoPoints);
     }
   }
+  if (sampler.runs_elsewhere) records.add_check({TestId::answers, true, 0.0, ""});
   if (run.instance->claims_reference_texels) {
     attempt(TestId::same_texel, [&] {
       return check_same_texel(sampler, *reference_implementation, expectation, stream, points);

@@ -12,6 +12,7 @@
 #include "lightproof/gate/draws.h"
 #include "lightproof/gate/exact_checks.h"
 #include "lightproof/gate/expectation.h"
+#include "lightproof/gate/sampler_failure.h"
 #include "lightproof/gate/test_case.h"
 #include "lightproof/results/test_record.h"
 
@@ -97,6 +98,10 @@ std::vector<Measured> test_against_reference(
 
 /// Tests whether any of the samples drawn is out of the domain, and whether any is of zero density.
 std::vector<Measured> test_validity(const TestRun& run, const Draws& draws);
+
+/// All that is known of a run whose sampler failed to answer: that it did, and to what.
+std::vector<Measured> test_unanswered(const TestRun& run, const SamplerFailure& failure,
+                                      std::uint64_t samples);
 
 /// The checks that need no statistics; `reference_implementation` is null if the test case has
 /// none.

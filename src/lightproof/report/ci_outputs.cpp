@@ -158,9 +158,13 @@ std::string replay_command(const GateResult& gate, const TestRecord& test) {
   if (gate.must_detect != kMustDetect)
     options += fmt::format(" --must-detect {}", gate.must_detect);
   const std::string map = shell_word(test.source.empty() ? test.map : test.source);
-  return fmt::format("lightproof gate{} --sampler {}{} --samples {} --seed {}{}",
-                     of_map ? " " + map : "", shell_word(test.sampler),
-                     of_map ? " --density " + test.density_space + gate.input_options : "",
+  const auto foreign =
+      std::ranges::find(gate.foreign_samplers, test.sampler, &ForeignSampler::name);
+  const std::string sampler = foreign != gate.foreign_samplers.end()
+                                  ? foreign->options
+                                  : "--sampler " + shell_word(test.sampler);
+  return fmt::format("lightproof gate{} {}{} --samples {} --seed {}{}", of_map ? " " + map : "",
+                     sampler, of_map ? " --density " + test.density_space + gate.input_options : "",
                      gate.samples, gate.seed, options);
 }
 

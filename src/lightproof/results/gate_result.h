@@ -40,6 +40,12 @@ struct LeftOut {
   friend bool operator==(const LeftOut&, const LeftOut&) = default;
 };
 
+/// A sampler that came from a plug-in.
+struct ForeignSampler {
+  std::string name;
+  std::string options;  ///< words of the command line that name it: "--plugin ./libmine.so"
+};
+
 /// What one run of the gate found.
 struct GateResult {
   double family_alpha = 0.0;  ///< probability that a run over correct samplers rejects anything
@@ -57,6 +63,7 @@ struct GateResult {
   std::string replay = {};
   /// Of rejected samples of another program: what would make them right, the likeliest first.
   std::vector<Recognition> recognitions = {};
+  std::vector<ForeignSampler> foreign_samplers = {};
 };
 
 }  // namespace lightproof

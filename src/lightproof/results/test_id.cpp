@@ -96,6 +96,8 @@ constexpr std::array kTests = {
                     "samples at the largest numbers below 1", false, share},
     TestDescription{edge_points, Oracle::check, "edges of u",
                     "samples at CDF entries and their neighbours", false, share},
+    TestDescription{answers, Oracle::check, "every call returns",
+                    "calls of a sampler that runs in another process", false, share},
     TestDescription{same_texel, Oracle::check, "same texel as linear_scan",
                     "texels of the reference implementation at the same points", false, share},
 };

@@ -70,6 +70,7 @@ enum class TestId : std::uint8_t {
   returned_pdf,
   next_to_one,
   edge_points,
+  answers,
   same_texel,
 };
 

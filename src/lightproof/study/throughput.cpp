@@ -132,10 +132,12 @@ std::optional<DrawOrder> draw_order(const std::string& name) {
 }
 
 /// The parts of directions/<sampler>/<map>/<W>x<H>/<density>/<order> as a record; none for
-/// benchmarks of other things, as of positions instead of directions.
+/// benchmarks of other things, as of positions instead of directions. Those of plug-ins, which are
+/// timed in their own process, have /manual_time behind it.
 std::optional<DirectionRecord> directions_of(const std::string& name,
                                              const std::vector<nlohmann::json>& runs) {
-  const std::vector<std::string> parts = split(name, '/');
+  std::vector<std::string> parts = split(name, '/');
+  if (parts.back() == "manual_time") parts.pop_back();
   if (parts.size() != 6 || parts[0] != "directions") return std::nullopt;
   const std::vector<std::string> sides = split(parts[3], 'x');
   if (sides.size() != 2 || !is_digits(sides[0]) || !is_digits(sides[1])) return std::nullopt;

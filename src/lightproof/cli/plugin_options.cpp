@@ -1,0 +1,82 @@
+#include "plugin_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <chrono>
+#include <cmath>
+
+#include "common.h"
+#include "lightproof/core/text_escapes.h"
+#include "whole_number.h"
+
+namespace lightproof::cli {
+namespace {
+
+constexpr double kLeastSeconds = 1e-3;
+constexpr double kMostSeconds = 86400.0;
+constexpr std::uint64_t kMostMemory = std::uint64_t{1} << 50U;
+
+}  // namespace
+
+void add_plugin_options(CLI::App& command, ChosenPlugins& plugins) {
+  command
+      .add_option("--plugin", plugins.files,
+                  "test the sampler in this shared library (may be repeated; see `lightproof "
+                  "new-plugin`); it runs in processes of its own")
+      ->type_name("PATH")
+      ->allow_extra_args(false);
+  command
+      .add_option("--plugin-seconds", plugins.batch_seconds,
+                  "time that a plug-in may take for a batch of at most 4096 samples, and a tenth "
+                  "of what it may take for a map")
+      ->check(CLI::Range(kLeastSeconds, kMostSeconds))
+      ->type_name("S")
+      ->capture_default_str();
+  add_number(
+      command, "--plugin-memory", plugins.memory_bytes, 0, kMostMemory,
+      fmt::format("bytes of memory that a plug-in may hold beside the map; 0: 2^30, and 64 a "
+                  "texel; {}",
+                  kWholeNumberForms));
+}
+
+PluginLibraries load_plugins(const ChosenPlugins& plugins, std::uint64_t seed) {
+  PluginOptions options;
+  options.limits.batch_time = std::chrono::milliseconds(std::llround(1e3 * plugins.batch_seconds));
+  options.limits.memory_bytes = plugins.memory_bytes;
+  options.seed = seed;
+  PluginLibraries libraries;
+  for (const std::string& file : plugins.files) {
+    libraries.push_back(std::make_shared<const PluginLibrary>(file, options));
+  }
+  return libraries;
+}
+
+std::vector<SamplerUnderTest> samplers_of(const PluginLibraries& libraries,
+                                          const std::shared_ptr<PluginNotes>& notes) {
+  std::vector<SamplerUnderTest> samplers;
+  for (const auto& library : libraries) samplers.push_back(sampler_under_test(library, notes));
+  return samplers;
+}
+
+std::vector<ForeignSampler> foreign_samplers(const PluginLibraries& libraries,
+                                             const ChosenPlugins& plugins) {
+  const ChosenPlugins usual;
+  std::string limits;
+  if (plugins.batch_seconds != usual.batch_seconds) {
+    limits += fmt::format(" --plugin-seconds {}", plugins.batch_seconds);
+  }
+  if (plugins.memory_bytes != usual.memory_bytes) {
+    limits += fmt::format(" --plugin-memory {}", plugins.memory_bytes);
+  }
+  std::vector<ForeignSampler> samplers;
+  for (const auto& library : libraries) {
+    samplers.push_back(
+        {library->name(),
+         fmt::format("--plugin {}{}", shell_word(library->file().string()), limits)});
+  }
+  return samplers;
+}
+
+}  // namespace lightproof::cli

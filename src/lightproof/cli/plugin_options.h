@@ -1,0 +1,39 @@
+// Options that name plug-ins, and what these may take.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lightproof/gate/sampler_under_test.h"
+#include "lightproof/plugin/plugin_library.h"
+#include "lightproof/results/gate_result.h"
+
+namespace lightproof::cli {
+
+/// Plug-ins by the names of their files.
+struct ChosenPlugins {
+  std::vector<std::string> files;
+  double batch_seconds = 10.0;
+  std::uint64_t memory_bytes = 0;  ///< 0: as PluginLimits has it
+};
+
+/// Adds --plugin, --plugin-seconds and --plugin-memory.
+void add_plugin_options(CLI::App& command, ChosenPlugins& plugins);
+
+using PluginLibraries = std::vector<std::shared_ptr<const PluginLibrary>>;
+
+/// The plug-ins, in the order of their files. Throws InputError if a file is none.
+PluginLibraries load_plugins(const ChosenPlugins& plugins, std::uint64_t seed);
+
+/// Their samplers.
+std::vector<SamplerUnderTest> samplers_of(const PluginLibraries& libraries,
+                                          const std::shared_ptr<PluginNotes>& notes);
+
+/// How a command line names each of them.
+std::vector<ForeignSampler> foreign_samplers(const PluginLibraries& libraries,
+                                             const ChosenPlugins& plugins);
+
+}  // namespace lightproof::cli

@@ -1,0 +1,18 @@
+# Writes OUTPUT, a C++ source that holds the files of the folder SKELETONS and the header HEADER:
+#   cmake -DSKELETONS=… -DHEADER=… -DOUTPUT=… -P write_skeletons.cmake
+set(source "#include \"lightproof/plugin/skeleton_files.h\"\n\nnamespace lightproof {\n\n")
+string(APPEND source "const std::vector<SkeletonSource>& skeleton_sources() {\n")
+string(APPEND source "  static const std::vector<SkeletonSource> all = {\n")
+function(append_file path file)
+  file(READ ${file} text)
+  string(APPEND source "      {\"${path}\", R\"skeleton(${text})skeleton\"},\n")
+  set(source "${source}" PARENT_SCOPE)
+endfunction()
+file(GLOB_RECURSE files RELATIVE ${SKELETONS} ${SKELETONS}/*)
+list(SORT files)
+foreach(file ${files})
+  append_file(${file} ${SKELETONS}/${file})
+endforeach()
+append_file(lightproof_plugin.h ${HEADER})
+string(APPEND source "  };\n  return all;\n}\n\n}  // namespace lightproof\n")
+file(WRITE ${OUTPUT} "${source}")

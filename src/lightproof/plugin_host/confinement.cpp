@@ -1,0 +1,172 @@
+#include "lightproof/plugin_host/confinement.h"
+
+#include <fcntl.h>
+#include <linux/audit.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <poll.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <cstdio>
+#include <thread>
+#include <vector>
+
+#include "lightproof/core/failure.h"
+#include "lightproof/core/system_call.h"
+#include "lightproof/plugin/plugin_messages.h"
+
+namespace lightproof {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+/// Sanitizers reserve terabytes of addresses.
+constexpr bool kLimitsMemory = false;
+#else
+constexpr bool kLimitsMemory = true;
+#endif
+
+constexpr int kSocket = 10;
+/// What the plug-in has to free what is its own, once nobody asks any more.
+constexpr std::chrono::milliseconds kGrace{400};
+
+#if defined(__x86_64__)
+constexpr unsigned kArchitecture = AUDIT_ARCH_X86_64;
+/// Calls with this bit belong to another convention (x32).
+constexpr unsigned kOtherConvention = 0x40000000U;
+#elif defined(__aarch64__)
+constexpr unsigned kArchitecture = AUDIT_ARCH_AARCH64;
+constexpr unsigned kOtherConvention = 0xffffffffU;
+#else
+constexpr unsigned kArchitecture = 0;
+constexpr unsigned kOtherConvention = 0xffffffffU;
+#endif
+
+/// Calls that start a process or another program. Threads are clone() with CLONE_THREAD.
+constexpr long kEnding[] = {
+#ifdef SYS_fork
+    SYS_fork,
+#endif
+#ifdef SYS_vfork
+    SYS_vfork,
+#endif
+    SYS_execve,
+    SYS_execveat,
+};
+
+sock_filter statement(unsigned code, unsigned value) {
+  return {static_cast<unsigned short>(code), 0, 0, value};
+}
+
+sock_filter jump(unsigned code, unsigned value, unsigned if_true, unsigned if_false) {
+  return {static_cast<unsigned short>(code), static_cast<unsigned char>(if_true),
+          static_cast<unsigned char>(if_false), value};
+}
+
+constexpr unsigned kLoad = BPF_LD | BPF_W | BPF_ABS;
+constexpr unsigned kIfEqual = BPF_JMP | BPF_JEQ | BPF_K;
+constexpr unsigned kIfAny = BPF_JMP | BPF_JSET | BPF_K;
+constexpr unsigned kReturn = BPF_RET | BPF_K;
+
+/// Everything is allowed but new processes and programs. The flags of clone3() cannot be seen:
+/// where it is said not to exist, libraries take clone().
+std::vector<sock_filter> filter() {
+  std::vector<sock_filter> program = {
+      statement(kLoad, offsetof(seccomp_data, arch)),
+      jump(kIfEqual, kArchitecture, 1, 0),
+      statement(kReturn, SECCOMP_RET_KILL_PROCESS),
+      statement(kLoad, offsetof(seccomp_data, nr)),
+      jump(kIfEqual, SYS_clone3, 0, 1),
+      statement(kReturn, SECCOMP_RET_ERRNO | ENOSYS),
+  };
+  if (kOtherConvention != 0xffffffffU) {
+    program.push_back(jump(kIfAny, kOtherConvention, 0, 1));
+    program.push_back(statement(kReturn, SECCOMP_RET_KILL_PROCESS));
+  }
+  for (const long call : kEnding) {
+    program.push_back(jump(kIfEqual, static_cast<unsigned>(call), 0, 1));
+    program.push_back(statement(kReturn, SECCOMP_RET_KILL_PROCESS));
+  }
+  program.push_back(jump(kIfEqual, SYS_clone, 0, 3));
+  // The flags are the first argument; its lower half comes first.
+  program.push_back(statement(kLoad, offsetof(seccomp_data, args)));
+  program.push_back(jump(kIfAny, CLONE_THREAD, 1, 0));
+  program.push_back(statement(kReturn, SECCOMP_RET_KILL_PROCESS));
+  program.push_back(statement(kReturn, SECCOMP_RET_ALLOW));
+  return program;
+}
+
+void forbid_processes() {
+  if (kArchitecture == 0) return;
+  std::vector<sock_filter> program = filter();
+  const sock_fprog whole = {static_cast<unsigned short>(program.size()), program.data()};
+  // Where the system has no filters, has_children() sees the process afterwards.
+  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &whole);
+}
+
+void set_limit(__rlimit_resource resource, rlim_t value) {
+  rlimit now = {};
+  if (::getrlimit(resource, &now) != 0) return;
+  now.rlim_cur = std::min(value, now.rlim_max);
+  ::setrlimit(resource, &now);
+}
+
+}  // namespace
+
+int confine_plugin() {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+  const int socket = ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, kSocket);
+  ::close(STDIN_FILENO);
+  ::open("/dev/null", O_RDONLY);  // takes the number of the standard input
+  ::dup2(kPluginLogFile, STDOUT_FILENO);
+  ::dup2(kPluginLogFile, STDERR_FILENO);
+  // A crash must not take with it what was printed before.
+  std::setvbuf(stdout, nullptr, _IONBF, 0);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) ::signal(signal, SIG_IGN);
+  // Whoever asks sees how it crashes: nobody else catches that here, no sanitizer either.
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) ::signal(signal, SIG_DFL);
+  set_limit(RLIMIT_CORE, 0);
+  return socket;
+}
+
+void end_with(int socket) {
+  std::thread([socket] {
+    pollfd end = {.fd = socket, .events = POLLRDHUP, .revents = 0};
+    while (uninterrupted([&] { return ::poll(&end, 1, -1); }) <= 0) {
+    }
+    std::this_thread::sleep_for(kGrace);
+    ::_exit(kInputFailed);
+  }).detach();
+  forbid_processes();
+}
+
+void limit_memory(std::uint64_t bytes) {
+  if (kLimitsMemory && bytes > 0) set_limit(RLIMIT_DATA, bytes);
+}
+
+std::uint64_t held_memory() {
+  static const int statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  static const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  char text[128] = {};
+  unsigned long size = 0;
+  unsigned long resident = 0;
+  unsigned long shared = 0;
+  if (statm < 0 || ::pread(statm, text, sizeof text - 1, 0) <= 0) return 0;
+  if (std::sscanf(text, "%lu %lu %lu", &size, &resident, &shared) != 3) return 0;
+  return page * (resident - std::min(resident, shared));
+}
+
+bool has_children() { return ::waitpid(-1, nullptr, WNOHANG | __WALL) >= 0; }
+
+}  // namespace lightproof

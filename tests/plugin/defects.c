@@ -1,0 +1,190 @@
+/* Plug-ins that are right in their own ways, or have one defect each: the sampler that `lightproof
+ * new-plugin c` writes, changed as LIGHTPROOF_DEFECT says. */
+#define _GNU_SOURCE
+
+#define lightproof_plugin_describe sound_plugin
+#include "lightproof/plugin/skeletons/c/sampler.c"
+#undef lightproof_plugin_describe
+
+#include <string.h>
+#include <unistd.h>
+
+LIGHTPROOF_PLUGIN_EXPORT const lightproof_plugin* lightproof_plugin_describe(void);
+
+static int is(const char* defect) { return strcmp(LIGHTPROOF_DEFECT, defect) == 0; }
+
+/* Whether a random number is one of the few at which something happens. */
+static int is_struck(const double* u) { return u[0] > 0.7 && u[0] < 0.7005 && u[1] > 0.5; }
+
+static void strike(void) {
+  if (is("crash")) *(volatile int*)NULL = 0;
+  if (is("hang")) {
+    for (;;) pause();
+  }
+  if (is("spin")) {
+    for (volatile int i = 0;; ++i) {
+    }
+  }
+  if (is("exit")) exit(3);
+  if (is("fork")) fork();
+  if (is("program")) execl("/bin/true", "true", (char*)NULL);
+}
+
+static void turn(double* row, double angle) {
+  const double x = row[0], y = row[1];
+  row[0] = cos(angle) * x - sin(angle) * y;
+  row[1] = sin(angle) * x + cos(angle) * y;
+}
+
+/* Draws with the sound sampler, and changes what comes out. */
+static void changed_sample(void* pointer, size_t count, const double* u, double* rows) {
+  const Sampler* self = (const Sampler*)pointer;
+  sample(pointer, is("silent") ? count / 2 : count, u, rows);
+  for (size_t i = 0; i < count; ++i) {
+    double* row = rows + 4 * i;
+    if (is_struck(u + 2 * i)) strike();
+    if (is("nan") && is_struck(u + 2 * i)) row[0] = NAN;
+    if (is("no-jacobian")) row[3] *= hypot(row[0], row[1]);
+    if (is("flipped-t")) row[2] = -row[2];
+    if (is("off-by-one")) turn(row, 2.0 * kPi / self->width);
+    if (is("leak")) memset(malloc(4096), 1, 4096);
+    if (is("floats")) {
+      for (int k = 0; k < 4; ++k) row[k] = (double)(float)row[k];
+    }
+    if (is("y-up")) {
+      const double y = row[1];
+      row[1] = row[2];
+      row[2] = -y;
+    }
+  }
+  if (is("prints")) {
+    printf("drew %zu samples\n", count);
+    fprintf(stderr, "%01000d\n", 7);
+  }
+  if (is("once") && count > 1) {
+    static int batches = 0;
+    if (++batches == 20) abort();
+  }
+  if (is("closes")) {
+    for (int descriptor = 0; descriptor < 64; ++descriptor) close(descriptor);
+  }
+}
+
+static void changed_pdf(void* pointer, size_t count, const double* positions, double* densities) {
+  for (size_t i = 0; i < count; ++i) {
+    double at[3] = {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
+    if (is("y-up")) {
+      at[1] = -positions[3 * i + 2];
+      at[2] = positions[3 * i + 1];
+    }
+    if (is("crash-in-pdf") && at[2] > 0.9) *(volatile int*)NULL = 0;
+    pdf(pointer, 1, at, densities + i);
+    if (is("no-jacobian")) densities[i] *= hypot(at[0], at[1]);
+    if (is("other-pdf")) densities[i] = 1.0 / (4.0 * kPi);
+  }
+}
+
+/* Positions in the picture, with their density over it. */
+static void picture_sample(void* pointer, size_t count, const double* u, double* rows) {
+  for (size_t i = 0; i < count; ++i) {
+    double row[4];
+    sample(pointer, 1, u + 2 * i, row);
+    const double sine = hypot(row[0], row[1]);
+    rows[3 * i] = 0.5 - atan2(row[1], row[0]) / (2.0 * kPi);
+    rows[3 * i + 1] = atan2(sine, row[2]) / kPi;
+    rows[3 * i + 2] = row[3] * 2.0 * kPi * kPi * sine;
+  }
+}
+
+static void picture_pdf(void* pointer, size_t count, const double* positions, double* densities) {
+  for (size_t i = 0; i < count; ++i) {
+    const double phi = kPi - 2.0 * kPi * positions[2 * i], theta = kPi * positions[2 * i + 1];
+    const double at[3] = {sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta)};
+    pdf(pointer, 1, at, densities + i);
+    densities[i] *= 2.0 * kPi * kPi * sin(theta);
+  }
+}
+
+/* The generator of Steele, Lea and Flood (2014), SplitMix64. */
+static double next_number(uint64_t* state) {
+  uint64_t z = (*state += 0x9e3779b97f4a7c15u);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+static void draw(void* pointer, uint64_t seed, uint64_t first, size_t count, double* rows) {
+  uint64_t state = seed * 0xd1342543de82ef95u + first * 0x9e3779b97f4a7c15u * 4096u;
+  for (size_t i = 0; i < count; ++i) {
+    double u[2], row[4];
+    u[0] = next_number(&state);
+    u[1] = next_number(&state);
+    if (is("in-order-crash") && first + i == 5000) abort();
+    sample(pointer, 1, u, row);
+    memcpy(rows + 3 * i, row, 3 * sizeof *row);
+  }
+}
+
+/* Luminance alone, without the solid angles of rows. */
+static void* changed_create(const lightproof_map* map, char* error, size_t error_bytes) {
+  if (is("refuses")) {
+    snprintf(error, error_bytes, "only %s will do", "square maps");
+    return NULL;
+  }
+  if (!is("no-sine")) return create(map, error, error_bytes);
+  const size_t line = 3 * (size_t)map->width;
+  float* texels = (float*)malloc(line * map->height * sizeof *texels);
+  for (uint32_t row = 0; row < map->height; ++row) {
+    const double sine = sin(kPi * (row + 0.5) / map->height);
+    for (size_t i = 0; i < line; ++i) {
+      texels[row * line + i] = (float)(map->texels[row * line + i] / sine);
+    }
+  }
+  lightproof_map changed = *map;
+  changed.texels = texels;
+  void* sampler = create(&changed, error, error_bytes);
+  free(texels);
+  return sampler;
+}
+
+static void changed_destroy(void* pointer) {
+  destroy(pointer);
+  if (is("crash-at-the-end")) abort();
+}
+
+__attribute__((constructor)) static void at_load(void) {
+  if (is("crash-at-load")) abort();
+}
+
+const lightproof_plugin* lightproof_plugin_describe(void) {
+  static lightproof_plugin plugin;
+  plugin = *sound_plugin();
+  plugin.name = LIGHTPROOF_DEFECT;
+  plugin.create = changed_create;
+  plugin.sample = changed_sample;
+  plugin.pdf = changed_pdf;
+  plugin.destroy = changed_destroy;
+  if (is("nothing")) return NULL;
+  if (is("other-version")) plugin.abi = LIGHTPROOF_PLUGIN_ABI + 1;
+  if (is("short")) plugin.size = 16;
+  if (is("no-create")) plugin.create = NULL;
+  if (is("no-samples")) plugin.sample = NULL;
+  if (is("other-words")) plugin.density = "D";
+  if (is("other-columns")) plugin.columns = "x,y";
+  if (is("strange-name")) plugin.name = "a/b";
+  if (is("y-up")) plugin.axes = "x,-z,y";
+  if (is("picture")) {
+    plugin.columns = "u,v,pdf";
+    plugin.preset = "exr-area";
+    plugin.measure = "square";
+    plugin.sample = picture_sample;
+    plugin.pdf = picture_pdf;
+  }
+  if (is("in-order") || is("in-order-crash")) {
+    plugin.columns = "x,y,z";
+    plugin.sample = NULL;
+    plugin.draw = draw;
+    plugin.pdf = NULL;
+  }
+  return &plugin;
+}
