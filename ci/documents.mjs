@@ -24,6 +24,7 @@ function furnish() {
     writeFileSync(join(folder, name), exr([width, height], pixel));
   }
   mkdirSync(join(folder, "maps"));
+  mkdirSync(join(folder, "lightproof-report"));
   copyFileSync(join(folder, "studio.exr"), join(folder, "maps", "studio.exr"));
   mkdirSync(join(folder, "build", "release"), { recursive: true });
   for (const program of ["lightproof", "lightproof_bench", "lightproof-decode"]) {
@@ -62,12 +63,12 @@ function furnishSamples() {
   const python = pythonWithNumpy();
   execFileSync(python, ["-c", densityC, join(root, "examples", "python")], { cwd: folder });
   const rows = readFileSync(join(folder, "samples.npy"));
-  writeFileSync(join(folder, "samples.f32"), rows.subarray(rows.length - 16 * (1 << 20)));
+  writeFileSync(join(folder, "renderer.f32"), rows.subarray(rows.length - 16 * (1 << 20)));
   const program = (name, text) => {
     writeFileSync(join(folder, "bin", name), `#!/bin/sh\n${text}\n`);
     chmodSync(join(folder, "bin", name), 0o755);
   };
-  program("my_renderer", "exec cat samples.f32");
+  program("my_renderer", "exec cat renderer.f32");
   program("python3", `exec ${python} "$@"`);
 }
 
@@ -161,6 +162,7 @@ function faultsOf(words) {
   if (["node", "python3"].includes(name)) {
     return existsSync(join(folder, words[1])) ? [] : [`there is no ${words[1]}`];
   }
+  if (existsSync(join(root, "examples", `${program}.cpp`))) return []; // what examples/ builds
   return installers.has(name) || ["cd", "my_renderer", "cat"].includes(name) ? [] : [`nobody says how to look up ${name}`];
 }
 

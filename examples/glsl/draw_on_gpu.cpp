@@ -142,9 +142,8 @@ void require_ok(GLuint object, GLenum what, decltype(glGetProgramiv)* ask,
 }
 
 GLuint compute_program(const std::string& defines) {
-  const std::string text =
-      "#version 310 es\nprecision highp float;\nprecision highp int;\n" + defines +
-      text_of("linear_scan.glsl") + text_of("draw.comp");
+  const std::string text = "#version 310 es\nprecision highp float;\nprecision highp int;\n" +
+                           defines + text_of("linear_scan.glsl") + text_of("draw.comp");
   const char* const source = text.c_str();
   const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
   glShaderSource(shader, 1, &source, nullptr);

@@ -20,8 +20,7 @@ std::string text_of(GLenum name) {
 }  // namespace
 
 HeadlessContext::HeadlessContext()
-    : display_(
-          eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)) {
+    : display_(eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)) {
   require(display_ != EGL_NO_DISPLAY, "the driver has no surfaceless platform");
   require(eglInitialize(display_, nullptr, nullptr) == EGL_TRUE, "no display could be opened");
   require(eglBindAPI(EGL_OPENGL_ES_API) == EGL_TRUE, "the driver has no OpenGL ES");

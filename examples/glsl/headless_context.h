@@ -1,5 +1,6 @@
-// OpenGL ES 3.1 without a window or a display server: EGL on Mesa's surfaceless platform. Where there is no
-// graphics processor, Mesa's llvmpipe computes on the processor; LIBGL_ALWAYS_SOFTWARE=1 asks for it.
+// OpenGL ES 3.1 without a window or a display server: EGL on Mesa's surfaceless platform. Where
+// there is no graphics processor, Mesa's llvmpipe computes on the processor;
+// LIBGL_ALWAYS_SOFTWARE=1 asks for it.
 #pragma once
 
 #include <string>

@@ -137,8 +137,7 @@ TEST_F(Info, TakesNoMemoryForWhatAHeaderOnlyClaims) {
 
 TEST_F(Info, DrawsAMapInTheConventionOfItsFileOrOfTheOption) {
   write_map(path("a.exr"));
-  const Finished of_file =
-      info({path("a.exr"), "--preset", "mitsuba", "--drawing", path("a.svg")});
+  const Finished of_file = info({path("a.exr"), "--preset", "mitsuba", "--drawing", path("a.svg")});
   EXPECT_EQ(of_file.exit_code, 0) << of_file.err;
   EXPECT_THAT(of_file.out, HasSubstr("a.exr"));
   EXPECT_THAT(text_in(path("a.svg")),

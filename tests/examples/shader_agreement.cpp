@@ -240,8 +240,7 @@ class Comparison {
     const double t = static_cast<double>(shaders.t);
     counts_.same_position += ours.at.s == s && ours.at.t == t;
     const Sums& columns = sums_.columns[static_cast<std::size_t>(ours.y)];
-    const double of_s =
-        std::abs(ours.at.s - s) * extent_.width / columns.position_error(ours.x);
+    const double of_s = std::abs(ours.at.s - s) * extent_.width / columns.position_error(ours.x);
     const double of_t =
         std::abs(ours.at.t - t) * extent_.height / sums_.rows.position_error(ours.y);
     if (!(ours.x == 0 && columns.mass(0) == 0.0)) {
@@ -282,9 +281,8 @@ int compare(const EnvironmentMap& map, std::span<const float> random,
   }
   Comparison comparison(map);
   for (std::size_t i = 0; 2 * i < random.size(); ++i) {
-    comparison.add(
-        {static_cast<double>(random[2 * i]), static_cast<double>(random[2 * i + 1])},
-        Shaders(samples.subspan(4 * i).first<4>(), map.radiance.extent().width));
+    comparison.add({static_cast<double>(random[2 * i]), static_cast<double>(random[2 * i + 1])},
+                   Shaders(samples.subspan(4 * i).first<4>(), map.radiance.extent().width));
   }
   print(comparison.counts());
   return comparison.counts().wrong == 0 && comparison.counts().worst_position <= 1.0 ? 0 : 1;

@@ -44,8 +44,9 @@ EnvironmentMap inspect_input(const std::string& input, Extent size, const ReadOp
 /// What Lightproof's axes are called by a preset's renderers, in capitals: "-X".
 std::array<std::string, 3> axis_names(Preset preset) {
   std::string text = axes_of(preset).text();
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+  std::ranges::transform(text, text.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::toupper(letter));
+  });
   const std::size_t first = text.find(',');
   const std::size_t second = text.find(',', first + 1);
   return {text.substr(0, first), text.substr(first + 1, second - first - 1),

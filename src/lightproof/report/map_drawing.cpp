@@ -115,7 +115,8 @@ std::string axis_marks(Preset preset, const std::array<std::string, 3>& their_ax
       Direction direction(0.0);
       direction[axis] = sign;
       const Place place = place_of(preset, direction);
-      const std::string_view own = std::string_view("xyz").substr(static_cast<std::size_t>(axis), 1);
+      const std::string_view own =
+          std::string_view("xyz").substr(static_cast<std::size_t>(axis), 1);
       const bool is_at_right = place.x > kLeft + kWidth - 90.0;
       const Place beside = {place.x + (is_at_right ? -8.0 : 8.0),
                             std::clamp(place.y + 5.0, kTop + 14.0, bottom - 5.0)};
@@ -123,11 +124,10 @@ std::string axis_marks(Preset preset, const std::array<std::string, 3>& their_ax
           "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"#d62728\" stroke=\"#fff\" "
           "stroke-width=\"1.5\"/>\n",
           place.x, place.y);
-      marks += text_at(
-          beside,
-          fmt::format("{} = {}", signed_name(own, sign),
-                      signed_name(their_axes[static_cast<std::size_t>(axis)], sign)),
-          is_at_right ? "text-anchor=\"end\"" : "text-anchor=\"start\"");
+      marks += text_at(beside,
+                       fmt::format("{} = {}", signed_name(own, sign),
+                                   signed_name(their_axes[static_cast<std::size_t>(axis)], sign)),
+                       is_at_right ? "text-anchor=\"end\"" : "text-anchor=\"start\"");
     }
   }
   return marks + "</g>\n";

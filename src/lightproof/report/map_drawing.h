@@ -17,8 +17,8 @@ Grid<Rgb> picture_in_convention(const EnvironmentMap& map, Preset preset, Extent
 
 /// An SVG document: the picture that picture_in_convention() makes, tone-mapped; image coordinates
 /// u from the left and v from the top along its edges; parallels (theta from +z) and meridians (phi
-/// from +x) every 30 degrees; Lightproof's axes, each where it points, with what it is called in the
-/// frame of the preset's renderers: `their_axes` names Lightproof's +x, +y, +z there ("-X").
+/// from +x) every 30 degrees; Lightproof's axes, each where it points, with what it is called in
+/// the frame of the preset's renderers: `their_axes` names Lightproof's +x, +y, +z there ("-X").
 std::string map_drawing(const EnvironmentMap& map, Preset preset,
                         const std::array<std::string, 3>& their_axes);
 
