@@ -35,8 +35,8 @@ class MySampler {
     const auto above = std::upper_bound(sums_.begin(), sums_.end() - 1, target);
     const int texel = static_cast<int>(above - sums_.begin()) - 1;
     const double inside = (target - sums_[texel]) / mass(texel);
-    const double s = (texel % width_ + std::min(inside, 1.0 - 1e-9)) / width_;
-    const double t = (texel / width_ + u.t) / height_;
+    const double s = (texel % width_ + std::min(inside, kBelowOne)) / width_;
+    const double t = (texel / width_ + std::min(u.t, kBelowOne)) / height_;
     const double phi = kPi * (1.0 - 2.0 * s);
     const double theta = kPi * (1.0 - t);
     return {{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)},
@@ -53,6 +53,8 @@ class MySampler {
 
  private:
   static constexpr double kPi = 3.14159265358979323846;
+  /// Positions in a texel end before its edge, which rounding would give to the neighbour.
+  static constexpr double kBelowOne = 1.0 - 1e-9;
 
   double row_weight(int y) const {
 #ifdef FORGET_SINE

@@ -1,5 +1,6 @@
 // Samples of an environment map that a compute shader draws, as a dump for `lightproof check`.
-// Usage: draw_on_gpu MAP DUMP.f32 [--size WxH] [--count N] [--random FILE] [--half-texel]
+// Usage: draw_on_gpu MAP DUMP.f32 [--size WxH] [--count N] [--random FILE] [--published]
+//        [--half-texel]
 //
 //   draw_on_gpu sun-sky samples.f32 --size 128x64
 //   lightproof check samples.f32 --map sun-sky --size 128x64
@@ -7,7 +8,7 @@
 // MAP is a file or a map that Lightproof has built in. A row of the dump is s, t, the density per
 // unit square, and the texel, as floats; what they mean stands in DUMP.f32.json, which `check`
 // reads. The random numbers, two a sample, come from a generator, or as floats from a file.
-// --half-texel is a defect, to see it found.
+// --published draws as the lecture's shader does, --half-texel is a defect, to see it found.
 #include <GLES3/gl31.h>
 
 #include <cstdint>
@@ -52,7 +53,9 @@ Options parse(std::span<char*> arguments) {
       if (i + 1 == arguments.size()) throw std::invalid_argument(word + " needs a value");
       return arguments[++i];
     };
-    if (word == "--half-texel") {
+    if (word == "--published") {
+      options.defines += "#define PUBLISHED\n";
+    } else if (word == "--half-texel") {
       options.defines += "#define HALF_TEXEL\n";
     } else if (word == "--random") {
       options.random = value();
@@ -69,7 +72,8 @@ Options parse(std::span<char*> arguments) {
   }
   if (names.size() != 2) {
     throw std::invalid_argument(
-        "usage: draw_on_gpu MAP DUMP.f32 [--size WxH] [--count N] [--random FILE] [--half-texel]");
+        "usage: draw_on_gpu MAP DUMP.f32 [--size WxH] [--count N] [--random FILE] [--published] "
+        "[--half-texel]");
   }
   options.map = names[0];
   options.dump = names[1];
@@ -80,7 +84,7 @@ EnvironmentMap map_of(const Options& options) {
   for (const lightproof::SyntheticMap& known : lightproof::synthetic_maps()) {
     if (known.name == options.map) return known.make(options.size);
   }
-  return lightproof::read_environment_map(options.map);
+  return lightproof::read_environment_map(options.map, {.repair = lightproof::Repair::zero});
 }
 
 std::vector<char> bytes_of(const std::string& file) {

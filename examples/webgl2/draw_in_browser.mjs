@@ -1,5 +1,6 @@
 // Opens the page in headless Chromium, and writes the samples that its shader draws as a dump.
-// Usage: node draw_in_browser.mjs DUMP.f32 [--map FILE --size WxH] [--random FILE] [--flip]
+// Usage: node draw_in_browser.mjs DUMP.f32 [--map FILE --size WxH] [--random FILE]
+//        [--published] [--flip]
 //        node draw_in_browser.mjs --serve PORT
 //
 //   npm install
@@ -8,8 +9,8 @@
 //
 // A row of the dump is s, t, the density per unit square, and the texel, as floats; DUMP.f32.json
 // says so. --map is a file of three floats a texel, row by row from the bottom; without, the map is
-// `sun-sky`. --random is a file of floats, two a sample. --flip is a defect, to see it found. With
-// --serve the page can be seen in any browser, at http://127.0.0.1:PORT/.
+// `sun-sky`. --random is a file of floats, two a sample. --published draws as the lecture's
+// shader does, --flip is a defect, to see it found. With --serve the page can be seen in any browser, at http://127.0.0.1:PORT/.
 import { createCipheriv } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
@@ -106,6 +107,7 @@ const { values: options, positionals } = parseArgs({
     map: { type: "string" },
     size: { type: "string", default: "128x64" },
     random: { type: "string" },
+    published: { type: "boolean", default: false },
     flip: { type: "boolean", default: false },
     serve: { type: "string" },
   },
@@ -114,13 +116,14 @@ if (options.serve) {
   console.log((await serve(Number(options.serve))).address);
 } else if (positionals.length === 1) {
   const random = options.random ? floatsOf(readFileSync(options.random)) : randomNumbers(2 << 20);
-  const drawn = await samplesInBrowser(mapOf(options), random, options.flip ? "#define FLIPPED\n" : "");
+  const defines = (options.published ? "#define PUBLISHED\n" : "") + (options.flip ? "#define FLIPPED\n" : "");
+  const drawn = await samplesInBrowser(mapOf(options), random, defines);
   console.log(drawn.driver);
   writeFileSync(positionals[0], drawn.samples);
   writeFileSync(`${positionals[0]}.json`, JSON.stringify(
     { columns: ["s", "t", "pdf", "-"], measure: "square", density: "A", luminance: "published" }) + "\n");
 } else {
-  console.error("usage: node draw_in_browser.mjs DUMP.f32 [--map FILE --size WxH] [--random FILE] [--flip]\n" +
+  console.error("usage: node draw_in_browser.mjs DUMP.f32 [--map FILE --size WxH] [--random FILE] [--published] [--flip]\n" +
     "       node draw_in_browser.mjs --serve PORT");
   process.exit(2);
 }

@@ -16,20 +16,24 @@
 namespace lightproof {
 namespace {
 
-constexpr int kLookUps = 4;     // along a side of a pixel
-constexpr int kPixels = 256;    // along the longer side of the picture
-constexpr double kWidth = 640;  // of the picture, in units of the drawing
+constexpr int kLookUps = 4;   // along a side of a pixel
+constexpr int kPixels = 256;  // along the longer side of the picture
 constexpr double kLeft = 60;
-constexpr double kTop = 70;
+constexpr double kTop = 85;
 constexpr double kRight = 30;
 constexpr double kBottom = 50;
-constexpr std::size_t kLetters = 100;  // of a line of the heading
+constexpr std::size_t kLetters = 75;  // of a line of the heading
 constexpr int kLineDegrees = 30;
-/// A line is broken where a step of half a degree leads farther across the picture than it does
+/// A line is broken where a step of two degrees leads farther across the picture than it does
 /// inside of one piece.
 constexpr double kLongestStep = 0.02;
 
-double height_of(Preset preset) { return kWidth / info(preset).aspect; }
+/// Of the picture, in units of the drawing.
+double width_of(Preset preset) {
+  const double aspect = info(preset).aspect;
+  return aspect == 1.0 ? 480.0 : aspect == 2.0 ? 640.0 : 1080.0;
+}
+double height_of(Preset preset) { return width_of(preset) / info(preset).aspect; }
 
 struct Place {
   double x;
@@ -38,7 +42,7 @@ struct Place {
 
 Place place_of(Preset preset, Direction direction) {
   const SquarePoint at = image_from_direction(preset, direction);
-  return {kLeft + at.s * kWidth, kTop + (1.0 - at.t) * height_of(preset)};
+  return {kLeft + at.s * width_of(preset), kTop + (1.0 - at.t) * height_of(preset)};
 }
 
 Direction direction_of(double theta_degrees, double phi_degrees) {
@@ -53,8 +57,9 @@ std::string path_of(Preset preset, const std::vector<Direction>& directions) {
   Place before = {};
   for (const Direction& direction : directions) {
     const Place place = place_of(preset, direction);
-    const bool goes_on = !path.empty() && std::abs(place.x - before.x) < kLongestStep * kWidth &&
-                         std::abs(place.y - before.y) < kLongestStep * kWidth;
+    const bool goes_on = !path.empty() &&
+                         std::abs(place.x - before.x) < kLongestStep * width_of(preset) &&
+                         std::abs(place.y - before.y) < kLongestStep * width_of(preset);
     path += fmt::format("{}{:.1f} {:.1f}", goes_on ? "L" : "M", place.x, place.y);
     before = place;
   }
@@ -66,12 +71,12 @@ std::string grid_lines(Preset preset) {
       "<g fill=\"none\" stroke=\"#fff\" stroke-opacity=\".55\" stroke-width=\".8\">\n";
   for (int theta = kLineDegrees; theta < 180; theta += kLineDegrees) {
     std::vector<Direction> parallel;
-    for (int i = 0; i <= 720; ++i) parallel.push_back(direction_of(theta, 0.5 * i - 179.99));
+    for (int i = 0; i <= 180; ++i) parallel.push_back(direction_of(theta, 2.0 * i - 179.99));
     lines += path_of(preset, parallel);
   }
   for (int phi = -180; phi < 180; phi += kLineDegrees) {
     std::vector<Direction> meridian;
-    for (int i = 1; i < 360; ++i) meridian.push_back(direction_of(0.5 * i, phi + 0.01));
+    for (int i = 0; i <= 90; ++i) meridian.push_back(direction_of(1.9998 * i + 0.009, phi + 0.01));
     lines += path_of(preset, meridian);
   }
   return lines + "</g>\n";
@@ -82,17 +87,18 @@ std::string text_at(Place place, std::string_view text, std::string_view attribu
                      escaped(text));
 }
 
+/// Below the lines, because axes are named above them.
 std::string angle_labels(Preset preset) {
   std::string labels = "<g font-size=\"10\" text-anchor=\"middle\" class=\"on-picture\">\n";
   for (const int phi : {-150, -120, -60, -30, 30, 60, 120, 150}) {
     Place place = place_of(preset, direction_of(90.0, phi));
-    place.y -= 3.0;
+    place.y += 11.0;
     labels += text_at(place, fmt::format("φ {}°", phi), "");
   }
   for (const int theta : {30, 60, 120, 150}) {
     for (const int phi : {-45, 135}) {
       Place place = place_of(preset, direction_of(theta, phi));
-      place.y -= 3.0;
+      place.y += 11.0;
       labels += text_at(place, fmt::format("θ {}°", theta), "");
     }
   }
@@ -117,9 +123,9 @@ std::string axis_marks(Preset preset, const std::array<std::string, 3>& their_ax
       const Place place = place_of(preset, direction);
       const std::string_view own =
           std::string_view("xyz").substr(static_cast<std::size_t>(axis), 1);
-      const bool is_at_right = place.x > kLeft + kWidth - 90.0;
+      const bool is_at_right = place.x > kLeft + width_of(preset) - 90.0;
       const Place beside = {place.x + (is_at_right ? -8.0 : 8.0),
-                            std::clamp(place.y + 5.0, kTop + 14.0, bottom - 5.0)};
+                            std::clamp(place.y - 5.0, kTop + 14.0, bottom - 5.0)};
       marks += fmt::format(
           "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"#d62728\" stroke=\"#fff\" "
           "stroke-width=\"1.5\"/>\n",
@@ -134,23 +140,25 @@ std::string axis_marks(Preset preset, const std::array<std::string, 3>& their_ax
 }
 
 std::string tick_labels(Preset preset) {
+  const double width = width_of(preset);
   const double height = height_of(preset);
   const int columns = preset == Preset::cube ? 6 : 4;
   const int rows = preset == Preset::cube ? 1 : 4;
   std::string ticks = "<g font-size=\"12\" stroke=\"none\">\n";
   for (int i = 0; i <= columns; ++i) {
-    const double x = kLeft + kWidth * i / columns;
+    const double x = kLeft + width * i / columns;
     ticks += fmt::format("<path d=\"M{0:.1f} {1:.1f}v5\" stroke=\"#333\"/>\n", x, kTop + height);
-    ticks += text_at({x, kTop + height + 18.0}, fmt::format("{:.3g}", double(i) / columns),
-                     "text-anchor=\"middle\"");
+    ticks +=
+        text_at({x, kTop + height + 18.0}, fmt::format("{:.3g}", static_cast<double>(i) / columns),
+                "text-anchor=\"middle\"");
   }
   for (int i = 0; i <= rows; ++i) {
     const double y = kTop + height * i / rows;
     ticks += fmt::format("<path d=\"M{0:.1f} {1:.1f}h-5\" stroke=\"#333\"/>\n", kLeft, y);
-    ticks += text_at({kLeft - 8.0, y + 4.0}, fmt::format("{:.3g}", double(i) / rows),
+    ticks += text_at({kLeft - 8.0, y + 4.0}, fmt::format("{:.3g}", static_cast<double>(i) / rows),
                      "text-anchor=\"end\"");
   }
-  ticks += text_at({kLeft + 0.5 * kWidth, kTop + height + 38.0}, "u, from the left",
+  ticks += text_at({kLeft + 0.5 * width, kTop + height + 38.0}, "u, from the left",
                    "text-anchor=\"middle\"");
   ticks += fmt::format(
       "<text transform=\"translate(18 {:.1f}) rotate(-90)\" text-anchor=\"middle\">v, from the "
@@ -180,7 +188,7 @@ std::string image(const EnvironmentMap& map, Preset preset) {
   return fmt::format(
       "<image x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
       "preserveAspectRatio=\"none\" href=\"{}\"/>\n",
-      kLeft, kTop, kWidth, height_of(preset), data_uri("image/png", bytes));
+      kLeft, kTop, width_of(preset), height_of(preset), data_uri("image/png", bytes));
 }
 
 }  // namespace
@@ -190,7 +198,8 @@ Grid<Rgb> picture_in_convention(const EnvironmentMap& map, Preset preset, Extent
   const auto look_up = [&](double u, double v) {
     const Direction direction = direction_from_image(preset, {u, 1.0 - v});
     const SquarePoint at = square_point_of(map.mapping, direction);
-    return map.radiance(cell_of(at.s, texels.width), cell_of(at.t, texels.height));
+    return map.radiance(std::min(static_cast<int>(at.s * texels.width), texels.width - 1),
+                        std::min(static_cast<int>(at.t * texels.height), texels.height - 1));
   };
   Grid<Rgb> picture(pixels);
   parallel_for(static_cast<std::size_t>(pixels.height), [&](std::size_t row) {
@@ -210,7 +219,7 @@ Grid<Rgb> picture_in_convention(const EnvironmentMap& map, Preset preset, Extent
 
 std::string map_drawing(const EnvironmentMap& map, Preset preset,
                         const std::array<std::string, 3>& their_axes) {
-  const double width = kLeft + kWidth + kRight;
+  const double width = kLeft + width_of(preset) + kRight;
   const double height = kTop + height_of(preset) + kBottom;
   const std::string head = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
