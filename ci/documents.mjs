@@ -19,7 +19,9 @@ const longest = 600_000; // milliseconds of a command
 function furnish() {
   const [width, height] = [128, 64];
   const map = sunSky(width, height);
-  const pixel = (x, y) => map.rgb.subarray(3 * ((height - 1 - y) * width + x)).subarray(0, 3);
+  // Darker, so that half floats hold it.
+  const rgb = map.rgb.map((value) => value / 100);
+  const pixel = (x, y) => rgb.subarray(3 * ((height - 1 - y) * width + x)).subarray(0, 3);
   for (const name of ["studio.exr", "sky.exr"]) {
     writeFileSync(join(folder, name), exr([width, height], pixel));
   }

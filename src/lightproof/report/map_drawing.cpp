@@ -22,7 +22,7 @@ constexpr double kLeft = 60;
 constexpr double kTop = 85;
 constexpr double kRight = 30;
 constexpr double kBottom = 50;
-constexpr std::size_t kLetters = 75;  // of a line of the heading
+constexpr double kLetter = 6.4;  // width, in the heading
 constexpr int kLineDegrees = 30;
 /// A line is broken where a step of two degrees leads farther across the picture than it does
 /// inside of one piece.
@@ -170,9 +170,10 @@ std::string tick_labels(Preset preset) {
 std::string heading(const EnvironmentMap& map, Preset preset) {
   std::string text = text_at({kLeft, 20.0}, fmt::format("{} in `{}`", map.name, info(preset).name),
                              "font-size=\"15\" font-weight=\"bold\"");
+  const auto letters = static_cast<std::size_t>(width_of(preset) / kLetter);
   std::string_view rest = info(preset).description;
   for (double y = 38.0; !rest.empty(); y += 15.0) {
-    std::size_t end = rest.size() <= kLetters ? rest.size() : rest.rfind(' ', kLetters);
+    std::size_t end = rest.size() <= letters ? rest.size() : rest.rfind(' ', letters);
     if (end == std::string_view::npos) end = rest.size();
     text += text_at({kLeft, y}, rest.substr(0, end), "font-size=\"12\"");
     rest.remove_prefix(std::min(rest.size(), end + 1));
