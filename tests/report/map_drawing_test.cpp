@@ -15,9 +15,9 @@
 namespace lightproof {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::array<std::string, 3> kOwnAxes = {"X", "Y", "Z"};
 
@@ -25,7 +25,7 @@ const std::array<std::string, 3> kOwnAxes = {"X", "Y", "Z"};
 constexpr double kLeft = 60.0;
 constexpr double kTop = 85.0;
 
-class EveryPreset : public testing::TestWithParam<PresetInfo> {
+class EveryPreset : public ::testing::TestWithParam<PresetInfo> {
  protected:
   Preset preset() const { return GetParam().preset; }
   double width() const {
@@ -102,7 +102,7 @@ TEST_P(EveryPreset, ShowsTheLightInItsPlace) {
 }
 
 INSTANTIATE_TEST_SUITE_P(MapDrawing, EveryPreset,
-                         testing::ValuesIn(presets().begin(), presets().end()),
+                         ::testing::ValuesIn(presets().begin(), presets().end()),
                          [](const auto& row) {
                            std::string name(row.param.name);
                            std::ranges::replace(name, '-', '_');
