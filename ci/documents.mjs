@@ -29,7 +29,7 @@ function furnish() {
   mkdirSync(join(folder, "lightproof-report"));
   copyFileSync(join(folder, "studio.exr"), join(folder, "maps", "studio.exr"));
   mkdirSync(join(folder, "build", "release"), { recursive: true });
-  for (const program of ["lightproof", "lightproof_bench", "lightproof-decode"]) {
+  for (const program of ["lightproof", "lightproof_bench", "lightproof-decode", "lightproof-plugin-host"]) {
     symlinkSync(join(build, program), join(folder, "build", "release", program));
   }
   cpSync(join(root, "examples"), join(folder, "examples"), { recursive: true });
@@ -97,7 +97,7 @@ function simpleCommands(line) {
   const commands = [[]];
   for (const word of words) {
     if (["&&", "||", "|", ";"].includes(word)) commands.push([]);
-    else commands.at(-1).push(word.replace(/^["']|["']$/g, ""));
+    else commands.at(-1).push(word.replace(/^["'(]+|["')]+$/g, ""));
   }
   return commands.filter((command) => command.length > 0);
 }
