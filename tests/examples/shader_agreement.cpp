@@ -35,6 +35,8 @@ namespace {
 constexpr TargetDensity kPublished = {DensitySpace::texture, kPublishedLuminance};
 /// The largest relative error of one rounding that GLSL ES allows to sums and products.
 constexpr double kRounding = 0x1p-23;
+const glm::vec3 kWeights(kPublishedLuminance.red, kPublishedLuminance.green,
+                         kPublishedLuminance.blue);
 /// Roundings of a term: two quotients of two and a half each, three of the luminance.
 constexpr double kRoundingsOfTerm = 8.0;
 
@@ -100,24 +102,21 @@ class Sums {
 struct MapSums {
   explicit MapSums(const EnvironmentMap& map) : rows({}) {
     const Extent extent = map.radiance.extent();
-    const glm::vec3 weights(kPublishedLuminance.red, kPublishedLuminance.green,
-                            kPublishedLuminance.blue);
-    std::vector<float> averages;
     float total = 0.0F;
     for (int y = 0; y < extent.height; ++y) {
       float sum = 0.0F;
-      for (const Rgb& rgb : map.radiance.row(y)) sum += glm::dot(weights, rgb);
-      averages.push_back(sum / static_cast<float>(extent.width));
-      total += averages.back();
+      for (const Rgb& rgb : map.radiance.row(y)) sum += glm::dot(kWeights, rgb);
+      row_averages.push_back(sum / static_cast<float>(extent.width));
+      total += row_averages.back();
     }
-    const float average = total / static_cast<float>(extent.height);
+    average = total / static_cast<float>(extent.height);
     std::vector<double> masses;
     for (int y = 0; y < extent.height; ++y) {
-      const double row_average = static_cast<double>(averages[static_cast<std::size_t>(y)]);
+      const double row_average = static_cast<double>(row_averages[static_cast<std::size_t>(y)]);
       masses.push_back(row_average / static_cast<double>(average) / extent.height);
       std::vector<double> in_row;
       for (const Rgb& rgb : map.radiance.row(y)) {
-        in_row.push_back(glm::dot(glm::dvec3(weights), glm::dvec3(rgb)) / row_average /
+        in_row.push_back(glm::dot(glm::dvec3(kWeights), glm::dvec3(rgb)) / row_average /
                          extent.width);
       }
       columns.emplace_back(in_row);
@@ -125,9 +124,38 @@ struct MapSums {
     rows = Sums(masses);
   }
 
+  std::vector<float> row_averages;
+  float average = 0.0F;
   Sums rows;
   std::vector<Sums> columns;  ///< those of a row without light are not numbers
 };
+
+/// The index at which a published scan over these terms stops.
+template <class Term>
+int stop_of(int count, float u, const Term& term) {
+  float sum = 0.0F;
+  for (int i = 0; i < count; ++i) {
+    sum += term(i) / static_cast<float>(count);
+    if (sum >= u) return i;
+  }
+  return count;
+}
+
+/// The texel of a published scan whose luminances are summed from blue to red, as some drivers do.
+Extent texel_from_blue(const EnvironmentMap& map, const MapSums& sums, SquarePoint u) {
+  const Extent extent = map.radiance.extent();
+  const int y = stop_of(extent.height, static_cast<float>(u.t), [&](int row) {
+    return sums.row_averages[static_cast<std::size_t>(row)] / sums.average;
+  });
+  const int held = std::min(y, extent.height - 1);
+  const float row_average = sums.row_averages[static_cast<std::size_t>(held)];
+  const int x = stop_of(extent.width, static_cast<float>(u.s), [&](int column) {
+    if (y == extent.height) return 0.0F;
+    const Rgb& rgb = map.radiance(column, y);
+    return (kWeights.b * rgb.b + kWeights.g * rgb.g + kWeights.r * rgb.r) / row_average;
+  });
+  return {x, y};
+}
 
 float on_grid(double u) {
   const double below_one = std::clamp(u, 0.0, 1.0 - 0x1p-24);
@@ -174,8 +202,9 @@ struct Counts {
   std::size_t ours_not_numbers = 0;
   std::size_t shaders_not_numbers = 0;
   std::size_t same_texel = 0;
-  std::size_t same_position = 0;  ///< to the last bit
-  std::size_t other_texel = 0;    ///< where roundings may choose either
+  std::size_t same_from_blue = 0;  ///< that of texel_from_blue()
+  std::size_t same_position = 0;   ///< to the last bit
+  std::size_t other_texel = 0;     ///< where roundings may choose either
   std::size_t wrong = 0;
   double worst_position = 0.0;  ///< over what roundings allow
 };
@@ -196,7 +225,7 @@ bool is_number(double s, double t) { return !std::isnan(s) && !std::isnan(t); }
 class Comparison {
  public:
   explicit Comparison(const EnvironmentMap& map)
-      : extent_(map.radiance.extent()), sampler_(map, kPublished), sums_(map) {}
+      : map_(map), extent_(map.radiance.extent()), sampler_(map, kPublished), sums_(map) {}
 
   void add(SquarePoint u, const Shaders& shaders) {
     const TexelSample ours = sampler_.sample(u);
@@ -209,6 +238,7 @@ class Comparison {
     counts_.ours_not_numbers += !is_number(ours.at.s, ours.at.t);
     counts_.shaders_not_numbers += !is_number(shaders.s, shaders.t);
     counts_.same_texel += ours.x == shaders.x && ours.y == shaders.y;
+    counts_.same_from_blue += texel_from_blue(map_, sums_, u) == Extent{shaders.x, shaders.y};
     counts_.other_texel += ours.x != shaders.x || ours.y != shaders.y;
     if (!is_right(u, shaders.x, shaders.y) || !is_right(u, ours.x, ours.y)) {
       if (++counts_.wrong <= 10) {
@@ -248,6 +278,7 @@ class Comparison {
     }
   }
 
+  const EnvironmentMap& map_;
   Extent extent_;
   LinearScanPublished sampler_;
   MapSums sums_;
@@ -258,12 +289,13 @@ void print(const Counts& counts) {
   fmt::print(
       "samples {}: same texel {} (of these the same position to the last bit {}), another texel {} "
       "as roundings allow\n"
+      "with luminances summed from blue to red: same texel {}\n"
       "beside the map: ours {}, the shader's {}, both {}; not numbers: ours {}, the shader's {}\n"
       "largest difference of positions inside a texel, over what roundings allow: {:.3g}; wrong: "
       "{}\n",
       counts.samples, counts.same_texel, counts.same_position, counts.other_texel,
-      counts.ours_beside, counts.shaders_beside, counts.both_beside, counts.ours_not_numbers,
-      counts.shaders_not_numbers, counts.worst_position, counts.wrong);
+      counts.same_from_blue, counts.ours_beside, counts.shaders_beside, counts.both_beside,
+      counts.ours_not_numbers, counts.shaders_not_numbers, counts.worst_position, counts.wrong);
 }
 
 int write_inputs(const EnvironmentMap& map, std::size_t count, const std::string& folder) {
