@@ -59,10 +59,10 @@ void write_picture(const EnvironmentMap& map, Preset preset, std::span<std::byte
   const std::span<float> picture(reinterpret_cast<float*>(bytes.data()), 3 * extent.count());
   for (int y = 0; y < extent.height; ++y) {
     for (int x = 0; x < extent.width; ++x) {
-      const PicturePlace place = place_in_picture(preset, extent, x, y);
+      const PicturePixel pixel = pixel_in_picture(preset, extent, x, y);
       const std::size_t at =
-          3 * (static_cast<std::size_t>(place.row) * static_cast<std::size_t>(extent.width) +
-               static_cast<std::size_t>(place.column));
+          3 * (static_cast<std::size_t>(pixel.row) * static_cast<std::size_t>(extent.width) +
+               static_cast<std::size_t>(pixel.column));
       const Rgb rgb = map.radiance(x, y);
       picture[at] = rgb.r;
       picture[at + 1] = rgb.g;
