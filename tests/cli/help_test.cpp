@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "--json", "--html", "Exit codes"}},
         HelpCase{"info",
                  {"MAP", "--preset", "--repair", "--any-aspect", "--channels", "--layer", "--part",
-                  "--luminance", "--json", "Exit codes"}},
+                  "--luminance", "--json", "--drawing", "Exit codes"}},
         HelpCase{"history", {"add", "compare", "trend"}},
         HelpCase{"list",
                  {"samplers", "maps", "presets", "materials", "receivers", "estimators", "points",

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include "tests/cli/program.h"
@@ -16,6 +18,11 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
+
+std::string text_in(const std::string& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 class Info : public testing::Test {
  protected:
@@ -126,6 +133,28 @@ TEST_F(Info, TakesNoMemoryForWhatAHeaderOnlyClaims) {
     exr.replace(corner, 8, std::string("\xff\x3f\0\0\xff\x1f\0\0", 8));
   }
   expect_small("claim.exr", exr);
+}
+
+TEST_F(Info, DrawsAMapInTheConventionOfItsFileOrOfTheOption) {
+  write_map(path("a.exr"));
+  const Finished of_file = info({path("a.exr"), "--preset", "mitsuba", "--drawing", path("a.svg")});
+  EXPECT_EQ(of_file.exit_code, 0) << of_file.err;
+  EXPECT_THAT(of_file.out, HasSubstr("a.exr"));
+  EXPECT_THAT(text_in(path("a.svg")),
+              AllOf(StartsWith("<svg"), HasSubstr("a in `mitsuba`"), HasSubstr("+z = +Y")));
+  const Finished built_in = info({"sun-sky", "--preset", "pbrt-v4", "--drawing", "-"});
+  EXPECT_EQ(built_in.exit_code, 0) << built_in.err;
+  EXPECT_THAT(built_in.out, AllOf(StartsWith("<svg"), HasSubstr("sun-sky in `pbrt-v4`")));
+}
+
+TEST_F(Info, RefusesADrawingOfSeveralMapsOrBesideOtherText) {
+  const Finished several = info({"constant", "sun-sky", "--drawing", path("a.svg")});
+  EXPECT_EQ(several.exit_code, 2);
+  EXPECT_THAT(several.err, HasSubstr("--drawing is of one map, and 2 are given"));
+  const Finished twice = info({"constant", "--json", "--drawing", "-"});
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_THAT(twice.err, HasSubstr("only one output can be the standard output"));
+  EXPECT_EQ(info({"constant", "--drawing", path("no/such/folder.svg")}).exit_code, 2);
 }
 
 }  // namespace

@@ -12,10 +12,11 @@ namespace lightproof {
 /// in XML. What XML cannot hold becomes U+FFFD.
 std::string escaped(std::string_view text);
 
-/// JSON for a <script type="application/json">: no "<" is left that could end the element.
+/// JSON for a `<script type="application/json">`: no `<` is left that could end the element.
 std::string script_safe_json(std::string_view json);
 
-/// JavaScript for a <script>: "</script" and "<!--" broken up inside strings, source maps dropped.
+/// JavaScript for a `<script>`: `</script` and `<!--` broken up inside strings, source maps
+/// dropped.
 std::string script_safe_code(std::string_view code);
 
 /// Bytes in base 64.
@@ -23,7 +24,7 @@ std::string base64(std::string_view bytes);
 /// Bytes as a data: URI of this media type.
 std::string data_uri(std::string_view media_type, std::string_view bytes);
 
-/// A paragraph, <p class=…>text</p>.
+/// A paragraph, `<p class=…>text</p>`.
 std::string paragraph(std::string_view text, std::string_view css_class = "");
 
 /// A closed block that opens on a click.

@@ -13,7 +13,7 @@ namespace lightproof {
 struct SkeletonLanguage {
   std::string_view name;     ///< "c++"
   std::string_view build;    ///< the command that builds it, in its folder
-  std::string_view library;  ///< what that makes, seen from the folder, with @NAME@ in it
+  std::string_view library;  ///< what that makes, seen from the folder, with `@NAME@` in it
 };
 
 /// All languages.
@@ -32,7 +32,7 @@ std::string sampler_name_of(std::string_view folder);
 /// The files of a skeleton for a sampler of this name.
 std::vector<SkeletonFile> skeleton(const SkeletonLanguage& language, const std::string& name);
 
-/// The text with the sampler's name for @NAME@.
+/// The text with the sampler's name for `@NAME@`.
 std::string with_name(std::string_view text, std::string_view name);
 
 }  // namespace lightproof

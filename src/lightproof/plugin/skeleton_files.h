@@ -8,7 +8,7 @@ namespace lightproof {
 
 struct SkeletonSource {
   std::string_view path;  ///< "c/sampler.c", or "lightproof_plugin.h"
-  std::string_view text;  ///< with @NAME@ in place of the sampler's name
+  std::string_view text;  ///< with `@NAME@` in place of the sampler's name
 };
 
 const std::vector<SkeletonSource>& skeleton_sources();

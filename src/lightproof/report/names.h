@@ -17,13 +17,13 @@ std::string machine_words(double wall_per_cpu);
 /// replaced by '_', and without leading dots: safe in any folder and in a URL. Never empty.
 std::string file_name_part(std::string_view text);
 
-/// The stems of the renders' file names, "<map>-<receiver>-<material>-<estimator>", all different:
+/// The stems of the renders' file names, "MAP-RECEIVER-MATERIAL-ESTIMATOR", all different:
 /// a repeated one gets "-2", "-3", …
 std::vector<std::string> render_stems(const std::vector<RenderRecord>& renders);
 
 /// The renders of one receiver on one map with one material; they share the reference.
 struct RenderScene {
-  std::string stem;                  ///< "<map>-<receiver>-<material>", unique
+  std::string stem;                  ///< "MAP-RECEIVER-MATERIAL", unique
   std::vector<std::size_t> members;  ///< positions in the list of renders; never empty
 };
 

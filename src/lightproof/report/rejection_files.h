@@ -10,7 +10,7 @@
 
 namespace lightproof {
 
-/// Writes for every rejection three files named <sampler>-<density>-<map>:
+/// Writes for every rejection three files named SAMPLER-DENSITY-MAP:
 ///   …-residual.exr  (O - E) / sqrt(E) of the 32 x 16 bins over (phi, theta), zenith at the top
 ///   …-residual.png  the same in colours: red too many, blue too few, full at ten; 16 pixels a bin
 ///   ….json          diagnosis, worst 20 bins, divergence of the rows added up from t = 0, command

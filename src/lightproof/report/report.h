@@ -19,8 +19,8 @@ std::set<std::string> report_file_names();
 ///   gate.csv, convergence.csv, variance.csv, throughput.csv, growth.csv, build.csv, tables.csv,
 ///   directions.csv, renders.csv, maps.csv, published.csv, frames.csv, points.csv, discrepancy.csv,
 ///   decay.csv, levels.csv, thread-gains.csv, mutants.csv, stability.csv, breaking-points.csv
-///   <map>-<receiver>-<material>-<estimator>.exr, …-error.exr (signed, relative to the reference's
-///   mean, the same in R, G and B), <map>-<receiver>-<material>-reference.exr; the pictures and
+///   MAP-RECEIVER-MATERIAL-ESTIMATOR.exr, …-error.exr (signed, relative to the reference's
+///   mean, the same in R, G and B), MAP-RECEIVER-MATERIAL-reference.exr; the pictures and
 ///   the reference as .png too, at one exposure a scene
 ///   manifest.json  the list of these (report/result_folder.h)
 /// Nothing appears before all of it is written. Throws InputError if one cannot be written, or if a

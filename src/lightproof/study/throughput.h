@@ -43,7 +43,7 @@ struct ThroughputSource {
 /// interrupted.
 Throughput measure_throughput(const ThroughputSource& source);
 
-/// Reads a file of Google Benchmark: the rows named sample/<sampler>/<map>/<W>x<H>/random, as
+/// Reads a file of Google Benchmark: the rows named `sample/SAMPLER/MAP/WxH/random`, as
 /// medians over repetitions, and those of the order `fused` that say what a texel's error is; the
 /// caches are those of the machine that wrote the file. Throws InputError naming the file if it is
 /// not Google Benchmark's JSON, or has none of the first.

@@ -13,7 +13,7 @@
 
 #include "lightproof/testing/sampler_verdict.h"
 
-/// Defines the test Lightproof.<Sampler>: it fails if the gate does not accept the sampler, with
+/// Defines the test Lightproof.Sampler: it fails if the gate does not accept the sampler, with
 /// the gate's table. What follows the type is a lightproof::SamplerTestOptions.
 #define LIGHTPROOF_TEST_SAMPLER(Sampler, ...)                               \
   TEST(Lightproof, Sampler) {                                               \
