@@ -11,6 +11,7 @@
 #include "bench/registration.h"
 #include "bench/reporter.h"
 #include "lightproof/core/failure.h"
+#include "lightproof/core/spawn.h"
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -60,6 +61,7 @@ bool writes_file(std::span<char*> arguments) {
 
 int main(int argc, char** argv) {
   keep_no_freed_memory();
+  lightproof::end_with_parent();
   try {
     lightproof::bench::register_sample_benchmarks();
     lightproof::bench::register_direction_benchmarks();

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
+#include <random>
 #include <thread>
 
 #include "lightproof/history/store.h"
@@ -219,6 +221,19 @@ TEST_F(HistoryCommand, WritesTheTrendAsOnePage) {
   EXPECT_EQ(history({"trend", "-o", "none/t.html"}).exit_code, 2);
 }
 
+/// Milliseconds at which a writer is killed: some that are known to matter, and random ones, as
+/// many as LIGHTPROOF_FAULTS says (ci/faults).
+std::vector<int> moments_of_death() {
+  std::vector<int> moments = {0, 5, 20, 50, 100, 200};
+  const char* more = std::getenv("LIGHTPROOF_FAULTS");
+  const char* seed = std::getenv("LIGHTPROOF_FAULT_SEED");
+  std::mt19937_64 engine(seed == nullptr ? 1 : std::stoull(seed));
+  for (int i = more == nullptr ? 0 : std::stoi(more); i > 0; --i) {
+    moments.push_back(std::uniform_int_distribution<int>(0, 400)(engine));
+  }
+  return moments;
+}
+
 /// Each at another moment of the writing.
 class KilledWriter : public HistoryCommand, public testing::WithParamInterface<int> {};
 
@@ -242,7 +257,26 @@ TEST_P(KilledWriter, LosesNothingThatItReportedAndLeavesNothingHalf) {
   EXPECT_EQ(runs().size(), files.size());
 }
 
-INSTANTIATE_TEST_SUITE_P(Milliseconds, KilledWriter, testing::Values(0, 5, 20, 50, 100, 200));
+INSTANTIATE_TEST_SUITE_P(Milliseconds, KilledWriter, testing::ValuesIn(moments_of_death()));
+
+TEST_F(HistoryCommand, OnAFullDiskKeepsWhatWasThere) {
+  write("a.json", {"abc"});
+  ASSERT_EQ(history({"add", "a.json"}).exit_code, 0);
+  const Words files = write_large("commit", 20);
+  Command command = lightproof_command({"history", "add", "--db", "h.db"}, path());
+  command.words.insert(command.words.end(), files.begin(), files.end());
+  command.words.insert(command.words.begin(), {"bash", "-c", "ulimit -f 100; exec \"$@\"", "bash"});
+  const Finished full = run(command);
+  EXPECT_EQ(full.exit_code, 2) << full.err;
+  EXPECT_THAT(full.err, AllOf(StartsWith("lightproof: h.db: "), HasSubstr("cannot write")));
+  const auto reported =
+      static_cast<std::size_t>(std::count(full.out.begin(), full.out.end(), '\n'));
+  EXPECT_EQ(runs().size(), 1 + reported);
+  Words again = {"add", "-q"};
+  again.insert(again.end(), files.begin(), files.end());
+  EXPECT_EQ(history(again).exit_code, 0);
+  EXPECT_EQ(runs().size(), 21U);
+}
 
 TEST_F(HistoryCommand, LetsSeveralWritersAndReadersMeet) {
   std::vector<std::unique_ptr<Process>> writers;

@@ -53,6 +53,7 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
+  pid_t id() const { return id_; }
   /// To the program alone, not to its children.
   void send(int signal) const;
   /// Waits until the program handles the signal itself. False if it ended or the time was over.

@@ -107,6 +107,33 @@ TEST_F(AtomicFiles, TemporaryStandsBesideTheTargetWithItsExtension) {
   EXPECT_NE(pending.temporary(), in_folder("image.exr"));
 }
 
+TEST_F(AtomicFiles, PartsAreToldFromFilesOfTheUser) {
+  for (const char* part : {".77.part", ".g.77.part.json", ".a.b.77.part.exr", ".h.db.77.part"}) {
+    EXPECT_TRUE(is_part(part)) << part;
+  }
+  for (const char* other : {"77.part", ".part", "..part", ".x.part", ".77.parts", ".77.part7",
+                            "film.77.part", ".77", ""}) {
+    EXPECT_FALSE(is_part(other)) << other;
+  }
+  const AtomicFile file(in_folder("g.json"));
+  EXPECT_TRUE(is_part(file.temporary().filename().string()));
+  const AtomicFolder folder(in_folder("made"));
+  EXPECT_TRUE(is_part(folder.temporary().filename().string()));
+}
+
+TEST_F(AtomicFiles, FolderLosesThePartsOfProcessesThatWereKilled) {
+  fs::create_directories(in_folder("made/.77.part"));
+  put(in_folder("made/.77.part/half.exr"), "ha");
+  put(in_folder("made/.manifest.77.part.json"), "{");
+  put(in_folder("made/mine.part"), "mine");
+  {
+    const AtomicFolder folder(in_folder("made"));
+    EXPECT_THROW(AtomicFolder(in_folder("made")), InputError) << "it is not alone";
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(in_folder("made")), fs::directory_iterator()), 1);
+  EXPECT_EQ(content_of(in_folder("made/mine.part")), "mine");
+}
+
 TEST_F(AtomicFiles, AbandonedFileLeavesTheOldOne) {
   put(in_folder("a.txt"), "old");
   {

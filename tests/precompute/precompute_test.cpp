@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "lightproof/core/kept_file.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/temporary_folder.h"
 #include "lightproof/image/synthetic.h"
+#include "lightproof/precompute/inputs.h"
 #include "lightproof/precompute/levels.h"
 
 namespace lightproof {
@@ -27,11 +29,15 @@ PrecomputeRequest everything(Projection projection, PrefilterMethod method) {
 class Precompute : public testing::Test {
  protected:
   Precomputation make(const PrecomputeRequest& request, std::size_t texels = 0) {
-    const PartialLevels partial(folder_ / "partial", fingerprint_of(map_, request));
-    return precompute(map_, request, partial, {texels, 1});
+    return precompute(map_, request, {}, {texels, 1});
+  }
+  /// Goes on with what is kept.
+  Precomputation resume(const PrecomputeRequest& request) {
+    return precompute(map_, request,
+                      {folder_ / "", inputs_of(map_, request), Unfinished::continued}, {});
   }
   std::filesystem::path kept(const std::string& name) const {
-    return folder_ / "partial" / (name + ".levels");
+    return path_of({folder_ / std::string(kUnfinishedName), name, name});
   }
   EnvironmentMap map_ = make_synthetic_map("sun-sky", {32, 16});
 
@@ -94,9 +100,10 @@ TEST_F(Precompute, MeasuresItsErrorsOnRequest) {
 TEST_F(Precompute, GoesOnWithKeptLevelsAndMakesTheSame) {
   const PrecomputeRequest request = everything(Projection::cube, PrefilterMethod::fast);
   const Precomputation whole = make(request);
-  std::filesystem::remove(kept("specular-1"));
+  resume(request);
+  ASSERT_TRUE(std::filesystem::remove(kept("specular-1")));
   const auto before = std::filesystem::last_write_time(kept("specular-2"));
-  const Precomputation resumed = make(request);
+  const Precomputation resumed = resume(request);
   EXPECT_TRUE(std::filesystem::exists(kept("specular-1")));
   EXPECT_EQ(std::filesystem::last_write_time(kept("specular-2")), before) << "made again";
   for (std::size_t i = 0; i < whole.maps.size(); ++i) {

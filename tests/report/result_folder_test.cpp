@@ -154,6 +154,24 @@ TEST_F(Results, OfARunThatWasStoppedWhileItMovedThemCanBeReplaced) {
   EXPECT_THAT(names(), ElementsAre("manifest.json", "report.html"));
 }
 
+// What a run that was killed leaves: parts of files, its unfinished work, a manifest that says so.
+TEST_F(Results, GoWhereAKilledRunLeftNoResults) {
+  fs::create_directories(file(".77.part"));
+  put(file(".77.part") / "report.html", "half");
+  put(file(".manifest.77.part.json"), "{");
+  fs::create_directories(file("unfinished"));
+  EXPECT_EQ(refusal(Overwriting::refused), "");
+  EXPECT_THAT(names(), ElementsAre("unfinished"));
+  put(file("unfinished") / "novel.txt", "mine");
+  EXPECT_THAT(refusal(Overwriting::refused), HasSubstr("holds files already"));
+}
+
+TEST_F(Results, OfTwoRunsAtOnceAreThoseOfTheFirst) {
+  const ResultFolder first(folder(), Overwriting::refused);
+  EXPECT_THAT(refusal(Overwriting::refused), HasSubstr("another run"));
+  EXPECT_THROW(ResultFolder(folder(), Overwriting::refused), InputError);
+}
+
 TEST_F(Results, GoNowhereIfTheFolderIsAFile) {
   put(folder(), "mine");
   EXPECT_THAT(refusal(Overwriting::of_listed_files), HasSubstr("not a folder"));

@@ -320,7 +320,8 @@ class Charts {
       }
     }
     const CellResults<Round> rounds = gather(
-        compute_cells<Round>(cells, communicator.share, progress, "estimators"), communicator);
+        compute_cells<Round>(cells, communicator.share, progress, "estimators", communicator.kept),
+        communicator);
     std::size_t course = 0;
     for (std::size_t i = 0; i < lit_.size(); ++i) {
       for (std::size_t k = 0; k < contenders[i].size(); ++k, ++course) {

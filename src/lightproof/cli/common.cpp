@@ -18,6 +18,7 @@
 #include "lightproof/core/text_escapes.h"
 #include "lightproof/image/reader.h"
 #include "lightproof/image/synthetic.h"
+#include "messages.h"
 #include "progress_display.h"
 #include "whole_number.h"
 
@@ -225,7 +226,7 @@ std::vector<EnvironmentMap> load_maps(const CommonOptions& options, TexelsOfMaps
     maps.back().source = input;
     if (options.quiet) continue;
     for (const std::string& note : maps.back().notes) {
-      fmt::print(stderr, "{}\n", terminal_text(fmt::format("{}: {}", input, note)));
+      tell("{}\n", terminal_text(fmt::format("{}: {}", input, note)));
     }
   }
   make_names_unique(maps);

@@ -20,6 +20,7 @@
 #include "lightproof/gate/sequential_gate.h"
 #include "lightproof/report/gate_summary.h"
 #include "lightproof/report/rejection_files.h"
+#include "messages.h"
 #include "outputs.h"
 #include "plugin_options.h"
 #include "verdict_outputs.h"
@@ -97,7 +98,7 @@ void refuse_untested_maps(const std::vector<TestCase>& test_cases,
 }
 
 void print_notes(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) fmt::print(stderr, "{}\n", terminal_text(note));
+  for (const std::string& note : notes) tell("{}\n", terminal_text(note));
 }
 
 int run(const Options& options) {

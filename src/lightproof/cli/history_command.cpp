@@ -16,6 +16,7 @@
 #include "lightproof/history/google_benchmark.h"
 #include "lightproof/history/store.h"
 #include "lightproof/history/trend_page.h"
+#include "messages.h"
 #include "outputs.h"
 
 namespace lightproof::cli {
@@ -87,8 +88,8 @@ int compare_commits(const CompareOptions& options) {
   const std::vector<BenchmarkRun> runs = HistoryStore::open_to_read(options.database).runs();
   const Comparison comparison = compare(runs, options.base, options.head);
   std::FILE* const for_people = stdout_is_taken ? stderr : stdout;
-  if (!options.quiet) fmt::print(for_people, "{}", comparison_table(comparison));
-  if (options.github) fmt::print(for_people, "{}", comparison_annotations(comparison));
+  if (!options.quiet) show(for_people, comparison_table(comparison));
+  if (options.github) show(for_people, comparison_annotations(comparison));
   write_output(options.json, comparison_json(comparison, describe_run(options.command_line)));
   write_output(options.markdown, comparison_markdown(comparison));
   return count_of(comparison, RowVerdict::regressed) > 0 ? kRejected : kPassed;

@@ -18,6 +18,7 @@
 #include "lightproof/image/map_description.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/report/map_drawing.h"
+#include "messages.h"
 #include "outputs.h"
 
 namespace lightproof::cli {
@@ -86,7 +87,7 @@ int run(const Options& options) {
       if (!options.json && prints) fmt::print("{}", text_of(maps.back()));
       draw(map, read, options.drawing);
     } catch (const InputError& error) {
-      fmt::print(stderr, "lightproof: {}\n", terminal_text(error.what()));
+      tell("lightproof: {}\n", terminal_text(error.what()));
       exit_code = kBadInput;
     }
   }

@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "lightproof/core/running_program.h"
+
 namespace lightproof::cli {
 
 std::filesystem::path cache_folder() {
@@ -18,7 +20,7 @@ std::filesystem::path cache_folder() {
 }
 
 MeasurementCache kept_measurements(std::string commit, bool measure_again) {
-  return {cache_folder(), kThisProgram, std::move(commit), measure_again};
+  return {cache_folder(), running_program_file(), std::move(commit), measure_again};
 }
 
 }  // namespace lightproof::cli

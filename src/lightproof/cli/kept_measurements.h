@@ -8,9 +8,6 @@
 
 namespace lightproof::cli {
 
-/// This program, as the system knows it.
-inline constexpr const char* kThisProgram = "/proc/self/exe";
-
 /// Where measurements are kept, as in ci/lib.sh; empty if there is no place for them.
 std::filesystem::path cache_folder();
 

@@ -1,11 +1,15 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <sstream>
 #include <system_error>
 
 #include "common.h"
@@ -13,18 +17,24 @@
 #include "lightproof/core/failure.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/text_escapes.h"
+#include "messages.h"
 #include "usage_errors.h"
 
 namespace {
 
 volatile std::sig_atomic_t caught_signal = 0;
 
-/// The first Ctrl-C stops in good order; the second one at once.
+/// What asks the program to end: Ctrl-C, the system, a terminal that is closed, a reader of what it
+/// prints who is gone.
+constexpr std::array kEndings = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
+
+/// The first signal stops in good order; the second one at once.
 void on_interrupt(int signal) {
   caught_signal = signal;
   lightproof::request_interrupt();
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int ending : kEndings) std::signal(ending, SIG_DFL);
+  // More may be printed to a reader who is gone.
+  if (signal == SIGPIPE) std::signal(SIGPIPE, SIG_IGN);
 }
 
 /// What the standard output could not hold is no result.
@@ -34,12 +44,12 @@ bool is_stdout_written() {
 }
 
 void print_error(const lightproof::InputError& error) {
-  fmt::print(stderr, "lightproof: {}\n", lightproof::terminal_text(error.what()));
+  lightproof::cli::tell("lightproof: {}\n", lightproof::terminal_text(error.what()));
 }
 
 int refuse_stdout(int error) {
-  fmt::print(stderr, "lightproof: cannot write to the standard output: {}\n",
-             std::generic_category().message(error));
+  lightproof::cli::tell("lightproof: cannot write to the standard output: {}\n",
+                        std::generic_category().message(error));
   return lightproof::cli::kBadInput;
 }
 
@@ -47,9 +57,8 @@ int fail(const std::exception_ptr& error) {
   const lightproof::Failure failure = lightproof::failure_of(error);
   // The request for a report has lines of its own; names in other messages must not start any.
   const bool has_lines = failure.code == lightproof::kProgramFailed;
-  fmt::print(stderr, "lightproof: {}\n",
-             has_lines ? lightproof::terminal_lines(failure.message)
-                       : lightproof::terminal_text(failure.message));
+  lightproof::cli::tell("lightproof: {}\n", has_lines ? lightproof::terminal_lines(failure.message)
+                                                      : lightproof::terminal_text(failure.message));
   return failure.code;
 }
 
@@ -74,22 +83,26 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
-    return app.exit(help);
+    std::ostringstream text;
+    app.exit(help, text, text);
+    show(stdout, text.str());
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "{}", usage_error(app, line, error));
+    tell("{}", usage_error(app, line, error));
     return kBadInput;
   } catch (const lightproof::Interrupted&) {
-    fmt::print(stderr, "lightproof: interrupted; nothing half-written was left\n");
+    if (caught_signal != SIGPIPE) tell("lightproof: interrupted; nothing half-written was left\n");
     return kInterrupted + caught_signal;
   } catch (const Refusal& refusal) {
     print_error(refusal);
-    fmt::print(stderr, "This would go on: {}\n", refusal.command());
+    tell("This would go on: {}\n", refusal.command());
     return kBadInput;
   } catch (const lightproof::InputError& error) {
     print_error(error);
     return kBadInput;
   }
-  if (!is_stdout_written()) return refuse_stdout(errno);
+  if (!is_stdout_written()) {
+    return caught_signal == SIGPIPE ? kInterrupted + SIGPIPE : refuse_stdout(errno);
+  }
   return exit_code;
 }
 
@@ -99,18 +112,40 @@ void catch_signal(int signal) {
   if (std::signal(signal, on_interrupt) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
-}  // namespace
+/// Descriptors 0, 1 and 2, where whoever started the program has closed them, become ones that can
+/// neither be read nor written: else the next file to be opened would be taken for the standard
+/// output.
+void take_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0) continue;
+    // The lowest free number, which is this one.
+    const int taken = ::open("/", O_PATH);
+    if (taken >= 0 && taken != stream) ::close(taken);
+  }
+}
 
-int main(int argc, char** argv) {
-  catch_signal(SIGINT);
-  catch_signal(SIGTERM);
+int guarded_run(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::system_error& error) {
     // What is printed says so at once if it is much, and not before the end if it is little.
-    return std::ferror(stdout) != 0 ? refuse_stdout(error.code().value())
-                                    : fail(std::current_exception());
+    if (std::ferror(stdout) == 0) return fail(std::current_exception());
+    return caught_signal == SIGPIPE ? lightproof::cli::kInterrupted + SIGPIPE
+                                    : refuse_stdout(error.code().value());
   } catch (...) {
     return fail(std::current_exception());
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  take_closed_streams();
+  for (const int ending : kEndings) catch_signal(ending);
+  // A file that grows beyond a limit is a write that fails, with a message that names it.
+  std::signal(SIGXFSZ, SIG_IGN);
+  const int exit_code = guarded_run(argc, argv);
+  const std::string& words = lightproof::cli::last_words();
+  if (exit_code != lightproof::cli::kPassed && !words.empty()) lightproof::cli::tell("{}\n", words);
+  return exit_code;
 }

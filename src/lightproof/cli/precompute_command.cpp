@@ -16,14 +16,16 @@
 #include "lightproof/core/text_escapes.h"
 #include "lightproof/image/map_files.h"
 #include "lightproof/precompute/chain_choice.h"
-#include "lightproof/precompute/partial_levels.h"
+#include "lightproof/precompute/inputs.h"
 #include "lightproof/precompute/precompute.h"
 #include "lightproof/precompute/snapshots.h"
 #include "lightproof/report/contact_sheet.h"
 #include "lightproof/report/precompute_json.h"
 #include "lightproof/report/precompute_table.h"
 #include "lightproof/report/result_folder.h"
+#include "messages.h"
 #include "outputs.h"
+#include "unfinished_run.h"
 #include "whole_number.h"
 
 namespace lightproof::cli {
@@ -85,11 +87,11 @@ void choose_sizes(const EnvironmentMap& map, const Options& options, PrecomputeR
     product.extent = choice.extent;
     product.levels = choice.levels;
     if (options.quiet) continue;
-    fmt::print(stderr,
-               "{}: {}x{} with {} level{}: looked up anywhere, the worst level errs by {:.2g}, the "
-               "worst roughness between two levels by {:.2g}\n",
-               name_of(product.product), choice.extent.width, choice.extent.height, choice.levels,
-               choice.levels == 1 ? "" : "s", choice.look_up_error, choice.roughness_error);
+    tell(
+        "{}: {}x{} with {} level{}: looked up anywhere, the worst level errs by {:.2g}, the "
+        "worst roughness between two levels by {:.2g}\n",
+        name_of(product.product), choice.extent.width, choice.extent.height, choice.levels,
+        choice.levels == 1 ? "" : "s", choice.look_up_error, choice.roughness_error);
   }
 }
 
@@ -124,7 +126,7 @@ void write_maps(Precomputation& made, const Options& options, MapFormat format,
                       with_flags(options.command_line, {"--clamp", "--resume"}));
       }
       map.notes.push_back(lost);
-      if (!options.quiet) fmt::print(stderr, "{}: {}\n", map.name, terminal_text(lost));
+      if (!options.quiet) tell("{}: {}\n", map.name, terminal_text(lost));
     }
     write_map(folder, map.name, map.map, format, out_of_range);
   }
@@ -144,17 +146,35 @@ std::vector<PrecomputedMap> snapshots_of(const EnvironmentMap& map,
   return make_snapshots(map, request, snapshots, progress);
 }
 
-void refuse_interrupted_work(const fs::path& partial, const Options& options) {
-  std::error_code error;
-  if (options.resume || !fs::exists(partial, error)) return;
-  if (options.force) {
-    fs::remove_all(partial, error);
-    return;
+std::vector<RunInput> all_inputs(const EnvironmentMap& map, const PrecomputeRequest& request) {
+  std::vector<RunInput> inputs = program_inputs();
+  for (RunInput& input : inputs_of(map, request)) inputs.push_back(std::move(input));
+  return inputs;
+}
+
+/// All maps with their errors, as far as these are asked for.
+Precomputation make_maps(const EnvironmentMap& map, const PrecomputeRequest& request,
+                         const Options& options, const UnfinishedWork& unfinished) {
+  const Progress progress = progress_of(options);
+  return precompute(map, request, unfinished,
+                    {options.check ? options.check_texels : 0, options.seed}, progress);
+}
+
+void add_snapshots(const EnvironmentMap& map, const PrecomputeRequest& request,
+                   const Options& options, Precomputation& made) {
+  const Progress progress = progress_of(options);
+  for (PrecomputedMap& snapshot : snapshots_of(map, request, options, progress)) {
+    made.maps.push_back(std::move(snapshot));
   }
-  throw Refusal(fmt::format("{}: here lies work that was interrupted; --resume goes on with it, "
-                            "--force begins anew",
-                            partial.string()),
-                with_flags(options.command_line, {"--resume"}));
+}
+
+void write_results(Precomputation& made, const Options& options, MapFormat format,
+                   const RunDescription& description, Overwriting overwriting) {
+  ResultFolder folder(options.output, overwriting);
+  write_maps(made, options, format, folder.temporary());
+  write_file(folder.temporary() / kPreviewName, contact_sheet(made));
+  write_file(folder.temporary() / kResultsName, precompute_json(made, description));
+  folder.commit(description);
 }
 
 int run(const Options& options) {
@@ -164,33 +184,24 @@ int run(const Options& options) {
   const std::vector<EnvironmentMap> maps = load_maps(options, TexelsOfMaps::lat_long);
   const EnvironmentMap& map = maps.front();
   choose_sizes(map, options, request);
-  check_folder(options.output, options.force, file_names(request, format), options.command_line);
-  const fs::path partial_folder = partial_folder_of(options.output);
-  refuse_interrupted_work(partial_folder, options);
-  const PartialLevels partial(partial_folder, fingerprint_of(map, request));
+  const RunFolder folder = {options.output, options.force, options.resume};
+  const bool replaces = check_run_folder(folder, file_names(request, format), options.command_line);
+  UnfinishedWork unfinished = begin_work(folder, all_inputs(map, request), options.command_line);
+  const RunDescription description = describe_run(options, maps);
   Precomputation made;
   std::optional<double> worst;
-  {
-    const Progress progress = progress_of(options);
-    made = precompute(map, request, partial,
-                      {options.check ? options.check_texels : 0, options.seed}, progress);
+  keeping_parts(unfinished, folder, [&] {
+    made = make_maps(map, request, options, unfinished);
+    made.version = description.version;
     worst = largest_error(made);
-    for (PrecomputedMap& snapshot : snapshots_of(map, request, options, progress)) {
-      made.maps.push_back(std::move(snapshot));
-    }
-  }
-  const RunDescription description = describe_run(options, maps);
-  made.version = description.version;
-  ResultFolder folder(options.output, overwriting(options.force));
-  write_maps(made, options, format, folder.temporary());
-  write_file(folder.temporary() / kPreviewName, contact_sheet(made));
-  write_file(folder.temporary() / kResultsName, precompute_json(made, description));
-  folder.commit(description);
-  partial.remove();
+    add_snapshots(map, request, options, made);
+    write_results(made, options, format, description, overwriting(replaces));
+  });
+  unfinished.remove();
   if (!options.quiet) fmt::print("{}", precompute_table(made));
   if (!options.max_error || !worst || *worst <= *options.max_error) return kPassed;
-  fmt::print(stderr, "lightproof: the largest error, {:.3g}, is above --max-error {:.3g}\n", *worst,
-             *options.max_error);
+  tell("lightproof: the largest error, {:.3g}, is above --max-error {:.3g}\n", *worst,
+       *options.max_error);
   return kRejected;
 }
 
@@ -276,7 +287,7 @@ void add_precompute(CLI::App& app, const CommandLine& line, int& exit_code) {
            "folder of the maps, which must be new or empty unless --force is given")
       ->required();
   add_force(*command, options->force);
-  command->add_flag("--resume", options->resume, "go on with work that was interrupted");
+  add_resume(*command, options->resume);
   add_products(*command, *options);
   add_shape(*command, *options);
   add_methods(*command, *options);

@@ -13,6 +13,8 @@
 #include <string>
 #include <thread>
 
+#include "messages.h"
+
 namespace lightproof::cli {
 namespace {
 
@@ -46,9 +48,8 @@ class Bar {
     shown_ = now;
     constexpr int kWidth = 30;
     const int full = std::clamp(static_cast<int>(fraction * kWidth), 0, kWidth);
-    fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {}{}", "", full, "", kWidth - full,
-               100.0 * fraction, step, time_left(start_, fraction));
-    std::fflush(stderr);
+    tell("\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {}{}", "", full, "", kWidth - full, 100.0 * fraction,
+         step, time_left(start_, fraction));
   }
 
  private:
@@ -86,8 +87,7 @@ class Lines {
   void end_step() const {
     const std::chrono::duration<double> spent = Clock::now() - step_start_;
     if (step_.empty() || spent.count() < 1.0) return;
-    fmt::print(stderr, "{}: done in {:.1f} s\n", step_, spent.count());
-    std::fflush(stderr);
+    tell("{}: done in {:.1f} s\n", step_, spent.count());
   }
 
   void print_every(std::chrono::seconds interval, const std::stop_token& stop) {
@@ -95,9 +95,8 @@ class Lines {
     while (!stop.stop_requested()) {
       ended_.wait_for(lock, stop, interval, [] { return false; });
       if (stop.stop_requested()) return;
-      fmt::print(stderr, "{}: {:.0f} %{}\n", step_.empty() ? "starting" : step_, 100.0 * fraction_,
-                 time_left(start_, fraction_));
-      std::fflush(stderr);
+      tell("{}: {:.0f} %{}\n", step_.empty() ? "starting" : step_, 100.0 * fraction_,
+           time_left(start_, fraction_));
     }
   }
 

@@ -11,7 +11,9 @@
 #include "describe_run.h"
 #include "kept_measurements.h"
 #include "lightproof/core/error.h"
+#include "lightproof/core/kept_file.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/core/running_program.h"
 #include "lightproof/core/text_escapes.h"
 #include "lightproof/recommend/survey.h"
 #include "lightproof/report/report.h"
@@ -24,6 +26,7 @@
 #include "lightproof/study/study.h"
 #include "lightproof/systems/comparisons.h"
 #include "outputs.h"
+#include "unfinished_run.h"
 #include "whole_number.h"
 
 namespace lightproof::cli {
@@ -34,6 +37,7 @@ struct Options : CommonOptions {
   std::string output = "out";
   std::string throughput;
   bool force = false;
+  bool resume = false;
   bool no_throughput = false;
   bool no_self_test = false;
   bool no_stability = false;
@@ -56,8 +60,8 @@ std::string path_text(const fs::path& path) {
 std::optional<fs::path> benchmark_program(const Options& options) {
   if (options.no_throughput || !options.throughput.empty()) return std::nullopt;
   std::error_code error;
-  const fs::path program = fs::read_symlink(kThisProgram, error).parent_path() / "lightproof_bench";
-  if (!error && fs::exists(program)) return program;
+  const fs::path program = running_program().parent_path() / "lightproof_bench";
+  if (fs::exists(program, error)) return program;
   throw InputError(fmt::format(
       "{}: the benchmark program is not there; give its results with --throughput FILE or leave "
       "them out with --no-throughput",
@@ -76,35 +80,70 @@ std::vector<AccuracyScene> accuracy_scenes(const Options& options) {
   return scenes;
 }
 
-/// All that goes into the report. Progress is shown until it returns.
-StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options) {
-  const Progress progress = progress_of(options);
-  StudyResult result = run_study(std::move(maps), options.study, progress);
-  result.gate.input_options = input_options(options);
-  result.published_forms = system_comparisons();
+/// What no map of a study changes, and what levels cost on its maps; each is kept as it ends.
+void add_kept_measurements(const Options& options, const UnfinishedWork& unfinished,
+                           const Progress& progress, StudyResult& result) {
   const MeasurementCache& cache = options.study.cache;
-  result.frames = study_frames();
-  if (!options.no_accuracy) result.recommendation_survey = kept_survey(cache.folder);
   if (!options.no_accuracy && !options.no_regimes) {
-    result.method_regimes = kept_method_regimes(options.seed, cache, progress);
+    result.method_regimes =
+        unfinished.stage<MethodRegimes>("method-regimes", [&](const Communicator& /*alone*/) {
+          return kept_method_regimes(options.seed, cache, progress);
+        });
   }
-  result.points = kept_points(options.seed, cache, progress);
+  result.points = unfinished.stage<PointStudy>("points", [&](const Communicator& /*alone*/) {
+    return kept_points(options.seed, cache, progress);
+  });
   if (!options.no_throughput) {
     result.level_costs =
-        kept_level_costs(result.maps, {.threads = thread_count(options.threads)}, cache, progress);
+        unfinished.stage<LevelCosts>("level-costs", [&](const Communicator& /*alone*/) {
+          return kept_level_costs(result.maps, {.threads = thread_count(options.threads)}, cache,
+                                  progress);
+        });
   }
   result.published_pictures = system_pictures(progress);
   if (!options.no_stability) {
-    result.stability = kept_stability(options.seed, cache, progress);
+    result.stability =
+        unfinished.stage<StabilityResult>("stability", [&](const Communicator& /*alone*/) {
+          return kept_stability(options.seed, cache, progress);
+        });
   }
   if (!options.no_self_test) {
     result.self_test =
-        kept_self_test(result.maps, self_test_options(options.seed), cache, progress);
+        unfinished.stage<SelfTestResult>("self-test", [&](const Communicator& /*alone*/) {
+          return kept_self_test(result.maps, self_test_options(options.seed), cache, progress);
+        });
   }
+}
+
+/// All that goes into the report. Progress is shown until it returns.
+StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options,
+                   const UnfinishedWork& unfinished) {
+  const Progress progress = progress_of(options);
+  StudyResult result = run_study(std::move(maps), options.study, progress, unfinished);
+  result.gate.input_options = input_options(options);
+  result.published_forms = system_comparisons();
+  result.frames = study_frames();
+  if (!options.no_accuracy) {
+    result.recommendation_survey = kept_survey(options.study.cache.folder);
+  }
+  add_kept_measurements(options, unfinished, progress, result);
   return result;
 }
 
-int run(Options options) {
+/// What the results depend on, but for times.
+std::vector<RunInput> inputs_of(const Options& options, std::span<const EnvironmentMap> maps,
+                                std::vector<RunInput> from_options) {
+  std::vector<RunInput> inputs = program_inputs();
+  for (RunInput& map : map_inputs(maps)) inputs.push_back(std::move(map));
+  for (RunInput& option : from_options) inputs.push_back(std::move(option));
+  if (!options.throughput.empty()) {
+    const auto hash = hash_of_file(options.throughput);
+    inputs.push_back({"the content of --throughput", fmt::format("{:016x}", hash.value_or(0))});
+  }
+  return inputs;
+}
+
+int run(Options options, std::vector<RunInput> from_options) {
   const ThreadLimit threads(options.threads);
   if (const auto program = benchmark_program(options)) {
     options.study.throughput = {*program, options.largest_width, cache_folder(),
@@ -117,12 +156,18 @@ int run(Options options) {
   Throughput throughput;
   if (!options.throughput.empty()) throughput = read_throughput(options.throughput);
   std::vector<EnvironmentMap> maps = load_maps(options);
-  check_folder(options.output, options.force, report_file_names(), options.command_line);
+  const RunFolder folder = {options.output, options.force, options.resume};
+  const bool replaces = check_run_folder(folder, report_file_names(), options.command_line);
+  UnfinishedWork unfinished =
+      begin_work(folder, inputs_of(options, maps, std::move(from_options)), options.command_line);
   const RunDescription description = describe_run(options, maps);
   options.study.cache = kept_measurements(description.commit, options.measure_again);
-  StudyResult result = run_on(std::move(maps), options);
-  if (!throughput.samplers.empty()) set_throughput(result, std::move(throughput));
-  write_report(result, options.output, description, overwriting(options.force));
+  keeping_parts(unfinished, folder, [&] {
+    StudyResult result = run_on(std::move(maps), options, unfinished);
+    if (!throughput.samplers.empty()) set_throughput(result, std::move(throughput));
+    write_report(result, options.output, description, overwriting(replaces));
+  });
+  unfinished.remove();
   if (!options.quiet) fmt::print("{}\n", path_text(fs::path(options.output) / "report.html"));
   return kPassed;
 }
@@ -139,6 +184,7 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
            "folder of the report, which must be new or empty unless --force is given")
       ->capture_default_str();
   add_force(*command, options->force);
+  add_resume(*command, options->resume);
   add_number(*command, "-n,--samples", options->study.gate.samples, 1024, kMostSamples,
              fmt::format("samples of each gate test; {}", kWholeNumberForms));
   auto* file = add_path(*command, "--throughput", options->throughput,
@@ -189,7 +235,9 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
       "them.\n"
       "Exit codes: 0 done, 2 usage or input,\n"
       "70 internal error, 71 not enough memory, 128 + N ended by signal N.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, command, &exit_code] {
+    exit_code = run(*options, option_inputs(*command, {"--measure-again"}));
+  });
 }
 
 }  // namespace lightproof::cli

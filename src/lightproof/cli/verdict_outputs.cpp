@@ -43,10 +43,9 @@ void print_verdict(const CommonOptions& options, const VerdictOutputs& outputs,
   const bool counts = judged.verdict.count_known_defects;
   if (!options.quiet) {
     const bool colours = use_color(options, stdout_is_taken ? STDERR_FILENO : STDOUT_FILENO);
-    fmt::print(stream, "{}",
-               gate_table(judged.result, counts, colours ? Colour::ansi : Colour::off));
+    show(stream, gate_table(judged.result, counts, colours ? Colour::ansi : Colour::off));
   }
-  if (outputs.github) fmt::print(stream, "{}", gate_annotations(judged.result, counts));
+  if (outputs.github) show(stream, gate_annotations(judged.result, counts));
 }
 
 void write_verdict(const VerdictOutputs& outputs, const Judged& judged, const RunDescription& run) {

@@ -59,9 +59,33 @@ void write_bytes(const fs::path& path, const fs::path& target, std::string_view 
 
 }  // namespace
 
+bool is_part(std::string_view name) {
+  const std::size_t mark = name.rfind(".part");
+  if (!name.starts_with('.') || mark == std::string_view::npos) return false;
+  const std::string_view extension = name.substr(mark + std::string_view(".part").size());
+  if (!extension.empty() && extension.front() != '.') return false;
+  const std::string_view before = name.substr(0, mark);
+  const std::string_view process = before.substr(before.rfind('.') + 1);
+  return !process.empty() && process.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+fs::path part_of(const fs::path& target) {
+  return target.parent_path() / fmt::format(".{}.{}.part{}", target.stem().string(), ::getpid(),
+                                            target.extension().string());
+}
+
+void remove_abandoned_parts(const fs::path& folder) {
+  std::vector<fs::path> parts;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (is_part(entry->path().filename().string())) parts.push_back(entry->path());
+  }
+  for (const fs::path& part : parts) fs::remove_all(part, error);
+}
+
 AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)) {
-  temporary_ = target_.parent_path() / fmt::format(".{}.{}.part{}", target_.stem().string(),
-                                                   ::getpid(), target_.extension().string());
+  temporary_ = part_of(target_);
   errno = 0;
   std::ofstream probe(temporary_, std::ios::binary);
   probe.close();
@@ -88,6 +112,8 @@ AtomicFolder::AtomicFolder(fs::path target) : target_(std::move(target)) {
     throw InputError(
         fmt::format("{}: cannot create the folder: {}", target_.string(), error.message()));
   }
+  lock_ = FolderLock(target_);
+  if (lock_.holds()) remove_abandoned_parts(target_);
   temporary_ = target_ / fmt::format(".{}.part", ::getpid());
   fs::create_directory(temporary_, error);
   if (error) fail(target_, error.value());

@@ -4,7 +4,21 @@
 #include <filesystem>
 #include <string_view>
 
+#include "lightproof/core/folder_lock.h"
+
 namespace lightproof {
+
+/// Whether a file or folder of this name is what AtomicFile or AtomicFolder write to:
+/// ".g.123.part.json",
+/// ".123.part".
+bool is_part(std::string_view name);
+
+/// The name beside `target` under which this process writes what will be `target`.
+std::filesystem::path part_of(const std::filesystem::path& target);
+
+/// Removes what processes that were killed left of unfinished files. Not while any of them may
+/// still run: behind a FolderLock.
+void remove_abandoned_parts(const std::filesystem::path& folder);
 
 /// A file being written. Write to temporary(), then commit(); without commit the temporary file
 /// is removed and whatever stood under the final name is untouched.
@@ -34,7 +48,8 @@ class AtomicFile {
 /// temporary folder is removed and the target untouched.
 class AtomicFolder {
  public:
-  /// Makes the target if it is not there. Throws InputError if it cannot be made or written.
+  /// Makes the target if it is not there, and removes what was left in it by processes that were
+  /// killed. Throws InputError if it cannot be made or written, or if another process is at it.
   explicit AtomicFolder(std::filesystem::path target);
   ~AtomicFolder();
   AtomicFolder(const AtomicFolder&) = delete;
@@ -47,6 +62,7 @@ class AtomicFolder {
 
  private:
   std::filesystem::path target_;
+  FolderLock lock_;
   std::filesystem::path temporary_;
 };
 

@@ -3,27 +3,18 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdlib>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/running_program.h"
 
 namespace lightproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The running program; empty if the system does not say.
-fs::path running_program() {
-  std::error_code error;
-  if (fs::path program = fs::read_symlink("/proc/self/exe", error); !error) return program;
-  // Without /proc there is the name by which it was started, if that is a path.
-  const fs::path name = program_invocation_name;
-  return name.has_parent_path() ? fs::absolute(name, error) : fs::path();
-}
 
 std::vector<fs::path> places_of(const std::string& name) {
   std::vector<fs::path> found;

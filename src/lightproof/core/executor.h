@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -53,12 +54,21 @@ struct WorkShare {
   }
 };
 
+/// What cells have given before, as bytes by their keys. Empty functions keep nothing.
+struct KeptCells {
+  std::function<std::optional<std::string>(const std::string& key)> find = {};
+  /// Called from any thread.
+  std::function<void(const std::string& key, std::string_view bytes)> keep = {};
+};
+
 /// The processes among which cells are shared out, as one of them sees it. By default it is alone.
 struct Communicator {
   WorkShare share = {};
   /// Gives these bytes to all processes and returns those of each, its own among them. All
   /// processes call it equally often and outside of parallel loops. Empty for one that is alone.
   std::function<std::vector<std::string>(std::string bytes)> all_gather = {};
+  /// Of the share of this process.
+  KeptCells kept = {};
 };
 
 /// By key, and so in the order in which they are folded.
@@ -80,12 +90,27 @@ inline std::set<std::string_view> keys_of_share(std::vector<std::string_view> ke
   return mine;
 }
 
-/// Computes a share of the cells of all groups, in parallel. Throws std::logic_error if two have
-/// one key. `progress` is told the step and the fraction of the share that is done.
+/// What is kept of a cell; none if nothing is, or nothing that is a Result.
+template <class Result>
+std::optional<Result> kept_result(const KeptCells& kept, const std::string& key) {
+  const std::optional<std::string> bytes = kept.find ? kept.find(key) : std::nullopt;
+  if (!bytes) return std::nullopt;
+  try {
+    ValueReader reader(*bytes);
+    auto result = reader.value<Result>();
+    return reader.is_at_end() ? std::optional(std::move(result)) : std::nullopt;
+  } catch (const std::out_of_range&) {
+    return std::nullopt;
+  }
+}
+
+/// Computes a share of the cells of all groups, in parallel, but for those that are kept; the
+/// others are kept as they end. Throws std::logic_error if two have one key. `progress` is told the
+/// step and the fraction of the share that is done.
 template <class Shared, class Result>
 CellResults<Result> compute_groups(std::span<const WorkGroup<Shared, Result>> groups,
                                    WorkShare share = {}, const Progress& progress = {},
-                                   std::string_view step = {}) {
+                                   std::string_view step = {}, const KeptCells& kept = {}) {
   std::vector<std::string_view> keys;
   for (const auto& group : groups) {
     for (const auto& cell : group.cells) keys.emplace_back(cell.key);
@@ -96,12 +121,23 @@ CellResults<Result> compute_groups(std::span<const WorkGroup<Shared, Result>> gr
   parallel_for(groups.size(), [&](std::size_t g) {
     std::vector<const typename WorkGroup<Shared, Result>::Cell*> cells;
     for (const auto& cell : groups[g].cells) {
-      if (mine.contains(cell.key)) cells.push_back(&cell);
+      if (!mine.contains(cell.key)) continue;
+      if (std::optional<Result> known = kept_result<Result>(kept, cell.key)) {
+        const std::lock_guard lock(mutex);
+        results.emplace(cell.key, *std::move(known));
+      } else {
+        cells.push_back(&cell);
+      }
     }
     if (cells.empty()) return;
     const Shared shared = groups[g].prepare();
     parallel_for(cells.size(), [&](std::size_t i) {
       Result result = cells[i]->compute(shared);
+      if (kept.keep) {
+        ValueWriter writer;
+        writer.add(result);
+        kept.keep(cells[i]->key, writer.take());
+      }
       const std::lock_guard lock(mutex);
       results.emplace(cells[i]->key, std::move(result));
       if (progress) {
@@ -112,18 +148,18 @@ CellResults<Result> compute_groups(std::span<const WorkGroup<Shared, Result>> gr
   return results;
 }
 
-/// Computes a share of cells that share nothing, in parallel. Throws std::logic_error if two have
-/// one key. `progress` is told the step and the fraction of the share that is done.
+/// compute_groups() of cells that share nothing.
 template <class Result>
 CellResults<Result> compute_cells(std::span<const WorkCell<Result>> cells, WorkShare share = {},
-                                  const Progress& progress = {}, std::string_view step = {}) {
+                                  const Progress& progress = {}, std::string_view step = {},
+                                  const KeptCells& kept = {}) {
   struct Nothing {};
   std::vector<WorkGroup<Nothing, Result>> groups;
   for (const WorkCell<Result>& cell : cells) {
     groups.push_back({[] { return Nothing(); },
                       {{cell.key, [&cell](const Nothing&) { return cell.compute(); }}}});
   }
-  return compute_groups<Nothing, Result>(groups, share, progress, step);
+  return compute_groups<Nothing, Result>(groups, share, progress, step, kept);
 }
 
 /// Adds the results of another share. Throws std::logic_error if a key is in both.

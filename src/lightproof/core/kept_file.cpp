@@ -27,11 +27,11 @@ std::optional<std::string> content_of(const fs::path& file) {
   }
 }
 
+}  // namespace
+
 fs::path path_of(const KeptFile& file) {
   return file.folder / fmt::format("{}-{:016x}.bin", file.name, hash_text(file.identity));
 }
-
-}  // namespace
 
 std::optional<std::string> read_kept(const KeptFile& file) {
   if (file.folder.empty()) return std::nullopt;
@@ -49,16 +49,20 @@ std::optional<std::string> read_kept(const KeptFile& file) {
   }
 }
 
-bool keep(const KeptFile& file, std::string_view content) {
-  if (file.folder.empty()) return false;
+void write_kept(const KeptFile& file, std::string_view content) {
   ValueWriter writer;
   writer.add(kMark);
-  writer.add(file.identity);
+  writer.add(std::string_view(file.identity));
   writer.add(hash_text(content));
   writer.add(content);
+  write_file(path_of(file), writer.take());
+}
+
+bool keep(const KeptFile& file, std::string_view content) {
+  if (file.folder.empty()) return false;
   try {
     fs::create_directories(file.folder);
-    write_file(path_of(file), writer.take());
+    write_kept(file, content);
     return true;
   } catch (const std::exception&) {
     return false;

@@ -20,6 +20,13 @@ struct KeptFile {
 /// wrote.
 std::optional<std::string> read_kept(const KeptFile& file);
 
+/// Where it is kept: "folder/self-test-0123456789abcdef.bin".
+std::filesystem::path path_of(const KeptFile& file);
+
+/// Keeps this content in place of what was there, in a folder that is there. Throws InputError if
+/// it cannot.
+void write_kept(const KeptFile& file, std::string_view content);
+
 /// Keeps this content in place of what was there. Returns whether it could: a folder that cannot be
 /// written to is no reason to lose what was found out.
 bool keep(const KeptFile& file, std::string_view content);

@@ -69,6 +69,16 @@ class ValueWriter {
     add(value.index());
     std::visit([this](const auto& chosen) { this->add(chosen); }, value);
   }
+  /// Of glm.
+  template <class Vector>
+  requires requires(const Vector& vector) {
+    typename Vector::value_type;
+    Vector::length();
+    vector[0];
+  }
+  void add(const Vector& vector) {
+    for (int i = 0; i < Vector::length(); ++i) add(vector[i]);
+  }
   template <class Grid>
   requires requires(const Grid& grid) { grid.extent().width; }
   void add(const Grid& grid) {
@@ -170,6 +180,17 @@ class ValueReader {
     const bool found = ((alternative++ == index && (chosen = value<Values>(), true)) || ...);
     require(found);
     return chosen;
+  }
+  template <class Vector>
+  requires requires(const Vector& vector) {
+    typename Vector::value_type;
+    Vector::length();
+    vector[0];
+  }
+  Vector read(std::type_identity<Vector> /*type*/) {
+    Vector vector{};
+    for (int i = 0; i < Vector::length(); ++i) vector[i] = value<typename Vector::value_type>();
+    return vector;
   }
   template <class Grid>
   requires requires(const Grid& grid) { grid.extent().width; }

@@ -31,9 +31,15 @@ class Redirections {
   posix_spawn_file_actions_t actions_{};
 };
 
-/// Starts a program with these words behind its name and this process's environment. Throws
-/// InputError naming the program if it cannot be started.
+/// Starts a program with these words behind its name and this process's environment, in which
+/// LIGHTPROOF_PARENT is the number of this process. Throws InputError naming the program if it
+/// cannot be started.
 pid_t spawn(const std::filesystem::path& program, std::vector<std::string> arguments,
             const Redirections& redirections);
+
+/// In a program that spawn() started: lets it end (SIGTERM) with the process that started it, even
+/// if that is killed. Else, and where the system cannot do that, does nothing. The thread that
+/// called spawn() must last as long as the program is wanted.
+void end_with_parent();
 
 }  // namespace lightproof

@@ -7,10 +7,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
+#include <functional>
+#include <string>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/failure.h"
+#include "lightproof/core/text_escapes.h"
 
 namespace lightproof {
 namespace {
@@ -36,6 +43,45 @@ class OpenFile {
   throw InputError(fmt::format("{}: {}", file.string(), reason));
 }
 
+/// What is mapped now, for a signal handler: a file that became shorter while it is read ends the
+/// program (SIGBUS), with a message of the file instead of none.
+struct Mapped {
+  std::atomic<const std::byte*> begin = nullptr;
+  std::atomic<std::size_t> size = 0;
+  std::array<char, 4096> message = {};
+  std::atomic<std::size_t> length = 0;
+};
+Mapped mapped_now;
+
+void on_missing_page(int signal, siginfo_t* info, void* /*context*/) {
+  const auto* const at = static_cast<const std::byte*>(info->si_addr);
+  const std::byte* const begin = mapped_now.begin;
+  if (begin != nullptr && std::greater_equal<>()(at, begin) &&
+      std::less<>()(at, begin + mapped_now.size)) {
+    const ssize_t written = ::write(STDERR_FILENO, mapped_now.message.data(), mapped_now.length);
+    static_cast<void>(written);
+    ::_exit(kInputFailed);
+  }
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+void name_missing_pages_of(const std::filesystem::path& file, const std::byte* data,
+                           std::size_t size) {
+  const std::string text =
+      terminal_text(
+          fmt::format("lightproof: {}: has become shorter while it was read", file.string())) +
+      "\n";
+  mapped_now.begin = nullptr;
+  mapped_now.length = text.copy(mapped_now.message.data(), mapped_now.message.size());
+  mapped_now.size = size;
+  mapped_now.begin = data;
+  struct sigaction action = {};
+  action.sa_sigaction = on_missing_page;
+  action.sa_flags = SA_SIGINFO;
+  ::sigaction(SIGBUS, &action, nullptr);
+}
+
 }  // namespace
 
 MappedFile::MappedFile(const std::filesystem::path& file) {
@@ -53,10 +99,13 @@ MappedFile::MappedFile(const std::filesystem::path& file) {
   void* const mapped = ::mmap(nullptr, size_, PROT_READ, MAP_SHARED, open.number(), 0);
   if (mapped == MAP_FAILED) refuse_to_read(file, std::strerror(errno));
   data_ = static_cast<const std::byte*>(mapped);
+  name_missing_pages_of(file, data_, size_);
 }
 
 MappedFile::~MappedFile() {
-  if (data_ != nullptr) ::munmap(const_cast<std::byte*>(data_), size_);
+  if (data_ == nullptr) return;
+  if (mapped_now.begin == data_) mapped_now.begin = nullptr;
+  ::munmap(const_cast<std::byte*>(data_), size_);
 }
 
 void MappedFile::forget(std::size_t first, std::size_t count) const {

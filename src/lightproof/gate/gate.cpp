@@ -269,9 +269,9 @@ class TwoStages {
     for (std::size_t i = 0; i < test_cases_.size(); ++i) {
       groups.push_back(group_of(i, stage, is_concerned, compute));
     }
-    auto results =
-        gather(compute_groups<SharedDraws, Tests>(groups, communicator_.share, progress, "gate"),
-               communicator_);
+    auto results = gather(compute_groups<SharedDraws, Tests>(groups, communicator_.share, progress,
+                                                             "gate", communicator_.kept),
+                          communicator_);
     states_.for_each([&](RunIndex at, RunState& state) {
       if (!is_concerned(state)) return;
       state.tests = std::move(results.at(key_of(at, stage.name)));

@@ -81,8 +81,9 @@ void add_judged(GateResult& result, const JudgedRuns& runs, Expectations& expect
                        return diagnose_together(runs, rejected, expectations);
                      }});
   }
-  auto rejections =
-      gather(compute_cells<std::vector<Rejection>>(cells, communicator.share), communicator);
+  auto rejections = gather(
+      compute_cells<std::vector<Rejection>>(cells, communicator.share, {}, {}, communicator.kept),
+      communicator);
   for (const std::string& key : keys) {
     std::move(rejections.at(key).begin(), rejections.at(key).end(),
               std::back_inserter(result.rejections));

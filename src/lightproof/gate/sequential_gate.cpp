@@ -189,9 +189,9 @@ class Watches {
              });
            }});
     });
-    auto results =
-        gather(compute_groups<Shared, OfRun>(groups, communicator_.share, progress, "gate"),
-               communicator_);
+    auto results = gather(compute_groups<Shared, OfRun>(groups, communicator_.share, progress,
+                                                        "gate", communicator_.kept),
+                          communicator_);
     ByRun<OfRun> records(test_cases_);
     records.for_each([&](RunIndex at, OfRun& of_run) {
       of_run = std::move(results.at(run_at(at).key("sequential")));

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "lightproof/core/direction.h"
@@ -41,6 +42,8 @@ struct MapLevel {
   /// One picture, or six in the order of kCubeFaces. Row 0 is at the top, as in all pictures and
   /// unlike in an EnvironmentMap.
   std::vector<Grid<Rgb>> faces;
+
+  static auto fields(auto& level) { return std::tie(level.roughness, level.faces); }
 };
 
 /// A level of one latitude-longitude picture, from a map whose row 0 lies at t = 0.

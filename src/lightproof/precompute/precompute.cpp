@@ -51,14 +51,20 @@ std::string name_of_unit(std::span<const LevelPlan> unit) {
 }
 
 PrecomputedBrdfMap make_brdf_map(const PrecomputeRequest& request, const ProductRequest& product,
-                                 const CheckOptions& check) {
+                                 const UnfinishedWork& unfinished, const CheckOptions& check) {
   const Extent extent =
       product.extent.value_or(default_extent(Product::brdf_map, request.projection));
-  PrecomputedBrdfMap made{std::string(name_of(Product::brdf_map)), {Grid<glm::vec2>(extent)}};
-  const Grid<ScaleBias> values = brdf_map(extent, request.masking);
-  for (std::size_t i = 0; i < extent.count(); ++i) {
-    made.map.values.values()[i] = {values.values()[i].scale, values.values()[i].bias};
-  }
+  PrecomputedBrdfMap made{std::string(name_of(Product::brdf_map)), {}};
+  const std::string name =
+      fmt::format("brdf-map-{}x{}-{}", extent.width, extent.height, name_of(request.masking));
+  made.map.values = unfinished.stage<Grid<glm::vec2>>(name, [&](const Communicator& /*alone*/) {
+    Grid<glm::vec2> pairs(extent);
+    const Grid<ScaleBias> values = brdf_map(extent, request.masking);
+    for (std::size_t i = 0; i < extent.count(); ++i) {
+      pairs.values()[i] = {values.values()[i].scale, values.values()[i].bias};
+    }
+    return pairs;
+  });
   made.map.attributes = {{"product", "brdf-map: scale and bias of the split sum"},
                          {"method", "quadrature"},
                          {"masking", std::string(name_of(request.masking))}};
@@ -90,12 +96,10 @@ class Work {
 };
 
 std::vector<MapLevel> levels_of(const EnvironmentMap& map, const PrecomputeRequest& request,
-                                std::span<const LevelPlan> unit, const PartialLevels& partial) {
-  const std::string name = name_of_unit(unit);
-  if (auto kept = partial.find(name); kept && kept->size() == unit.size()) return std::move(*kept);
-  std::vector<MapLevel> made = make_levels(map, request, unit);
-  partial.keep(name, made);
-  return made;
+                                std::span<const LevelPlan> unit, const UnfinishedWork& unfinished) {
+  return unfinished.stage<std::vector<MapLevel>>(
+      name_of_unit(unit),
+      [&](const Communicator& /*alone*/) { return make_levels(map, request, unit); });
 }
 
 void check_levels(const EnvironmentMap& map, Projection projection,
@@ -112,7 +116,7 @@ void check_levels(const EnvironmentMap& map, Projection projection,
 }  // namespace
 
 Precomputation precompute(const EnvironmentMap& map, const PrecomputeRequest& request,
-                          const PartialLevels& partial, const CheckOptions& check,
+                          const UnfinishedWork& unfinished, const CheckOptions& check,
                           const Progress& progress) {
   require_lat_long(map, "a map for real-time rendering");
   Precomputation result{map.source.empty() ? map.name : map.source, {}};
@@ -127,14 +131,14 @@ Precomputation precompute(const EnvironmentMap& map, const PrecomputeRequest& re
       result.maps.back().map.attributes = attributes_of(map, request, unit.front().product);
     }
     std::vector<MapLevel>& levels = result.maps.back().map.levels;
-    for (MapLevel& level : levels_of(map, request, unit, partial)) {
+    for (MapLevel& level : levels_of(map, request, unit, unfinished)) {
       levels.push_back(std::move(level));
     }
     for (const LevelPlan& plan : unit) work.add(plan);
   }
   for (const ProductRequest& product : request.products) {
     if (product.product == Product::brdf_map) {
-      result.brdf_map = make_brdf_map(request, product, check);
+      result.brdf_map = make_brdf_map(request, product, unfinished, check);
       continue;
     }
     const auto made =

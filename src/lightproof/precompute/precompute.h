@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "lightproof/core/progress.h"
+#include "lightproof/core/unfinished_work.h"
 #include "lightproof/image/environment_map.h"
-#include "lightproof/precompute/partial_levels.h"
 #include "lightproof/precompute/request.h"
 #include "lightproof/results/precomputed_map.h"
 
@@ -17,10 +17,11 @@ struct CheckOptions {
   std::uint64_t seed = 1;
 };
 
-/// Makes what is asked for. Levels that `partial` has are taken from there, and new ones kept
-/// there. Throws InputError for sizes and numbers of levels that no map may have.
+/// Makes what is asked for. Levels and BRDF maps that `unfinished` has are taken from there, and
+/// new ones kept there: it must be of these inputs_of(). Throws InputError for sizes and numbers of
+/// levels that no map may have.
 Precomputation precompute(const EnvironmentMap& map, const PrecomputeRequest& request,
-                          const PartialLevels& partial, const CheckOptions& check,
+                          const UnfinishedWork& unfinished, const CheckOptions& check,
                           const Progress& progress = {});
 
 /// The largest error of all levels and of the BRDF map; none if nothing was measured.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/unfinished_work.h"
 
 namespace lightproof {
 namespace fs = std::filesystem;
@@ -91,11 +92,17 @@ void remove_file(const fs::path& file) {
   }
 }
 
+/// Something beside what runs that were ended left there.
 bool holds_something(const fs::path& folder) {
   std::error_code error;  // what cannot be looked at is reported when it is written to
-  if (!fs::is_directory(folder, error)) return false;
-  const bool empty = fs::is_empty(folder, error);
-  return !error && !empty;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path name = entry->path().filename();
+    const bool is_left =
+        is_part(name.string()) || (name == kUnfinishedName && is_unfinished_work(entry->path()));
+    if (!is_left) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -133,6 +140,8 @@ void check_result_folder(const fs::path& folder, Overwriting overwriting,
   if (error) {
     throw InputError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
   }
+  const FolderLock alone(folder);
+  if (alone.holds()) remove_abandoned_parts(folder);
   check_writable(folder / kManifestName);
 }
 

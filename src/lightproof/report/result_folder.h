@@ -27,10 +27,11 @@ enum class Overwriting {
 /// manifest is not one of ours or lists something that is no plain file name: a path, "..".
 std::set<std::string> listed_files(const std::filesystem::path& folder);
 
-/// Makes the folder of results. Throws InputError, before minutes are spent, if the results cannot
-/// go to `folder`: it is a file, cannot be made or written; or it holds something and overwriting
-/// is refused; or it holds one of `names`, which will be written, and the manifest does not list
-/// it.
+/// Makes the folder of results. Unfinished work, and what killed runs left of their files, is
+/// nothing that stands in the way. Throws InputError, before minutes are spent, if the results
+/// cannot go to `folder`: it is a file, cannot be made or written, or another run is at it; or it
+/// holds something and overwriting is refused; or it holds one of `names`, which will be written,
+/// and the manifest does not list it.
 void check_result_folder(const std::filesystem::path& folder, Overwriting overwriting,
                          const std::set<std::string>& names);
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace lightproof {
@@ -13,6 +14,10 @@ struct ConvergencePoint {
   double rmse = 0.0;        ///< root mean square error over pixels and replicates / mean value
   double rmse_error = 0.0;  ///< standard error of rmse, from the exact fourth moment
   double predicted = 0.0;   ///< the rmse that follows from the exact variance
+
+  static auto fields(auto& point) {
+    return std::tie(point.samples, point.rmse, point.rmse_error, point.predicted);
+  }
 };
 
 /// The error of one estimator on one map, receiver and material against the number of samples.
@@ -32,6 +37,13 @@ struct ConvergenceRecord {
   double measured_variance = 0.0;     ///< per sample, averaged over pixels, relative to mean^2
   double predicted_variance = 0.0;    ///< the exact one, averaged and relative in the same way
   double variance_ratio_error = 0.0;  ///< standard error of measured / predicted
+
+  static auto fields(auto& record) {
+    return std::tie(record.map, record.receiver, record.material, record.estimator, record.pixels,
+                    record.replicates, record.points, record.slope, record.slope_error,
+                    record.measured_variance, record.predicted_variance,
+                    record.variance_ratio_error);
+  }
 };
 
 }  // namespace lightproof

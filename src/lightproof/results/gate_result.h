@@ -37,6 +37,10 @@ struct LeftOut {
   std::string density_space;
   std::string map;
   std::string reason;  ///< what of the map's mapping does not allow it, in words
+
+  static auto fields(auto& left_out) {
+    return std::tie(left_out.sampler, left_out.density_space, left_out.map, left_out.reason);
+  }
   friend bool operator==(const LeftOut&, const LeftOut&) = default;
 };
 
@@ -44,6 +48,8 @@ struct LeftOut {
 struct ForeignSampler {
   std::string name;
   std::string options;  ///< words of the command line that name it: "--plugin ./libmine.so"
+
+  static auto fields(auto& sampler) { return std::tie(sampler.name, sampler.options); }
 };
 
 /// What one run of the gate found.
@@ -64,6 +70,12 @@ struct GateResult {
   /// Of rejected samples of another program: what would make them right, the likeliest first.
   std::vector<Recognition> recognitions = {};
   std::vector<ForeignSampler> foreign_samplers = {};
+
+  static auto fields(auto& gate) {
+    return std::tie(gate.family_alpha, gate.samples, gate.seed, gate.tests, gate.rejections,
+                    gate.input_options, gate.family, gate.sequential, gate.left_out,
+                    gate.must_detect, gate.replay, gate.recognitions, gate.foreign_samplers);
+  }
 };
 
 }  // namespace lightproof

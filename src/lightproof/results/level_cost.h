@@ -58,6 +58,8 @@ struct LevelCosts {
   std::vector<LevelCost> levels;
   std::vector<ThreadGain> gains;
   std::string origin;
+
+  static auto fields(auto& costs) { return std::tie(costs.levels, costs.gains, costs.origin); }
 };
 
 }  // namespace lightproof

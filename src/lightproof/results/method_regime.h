@@ -29,6 +29,8 @@ struct MethodRegimes {
   double error = 0.0;  ///< that is reached: root mean square over the mean
   std::vector<MethodRegime> regimes;
   std::string origin;  ///< when, where and of what it was measured
+
+  static auto fields(auto& all) { return std::tie(all.error, all.regimes, all.origin); }
 };
 
 }  // namespace lightproof

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "lightproof/core/grid.h"
@@ -22,6 +23,8 @@ struct MethodTime {
   double with_set_up(std::uint64_t shading_points) const {
     return point + set_up / static_cast<double>(shading_points);
   }
+
+  static auto fields(auto& time) { return std::tie(time.point, time.set_up); }
 };
 
 /// An estimator with a number of samples, what it is expected to do, and what it did.
@@ -46,18 +49,29 @@ struct RecommendedMethod {
   const MethodTime& known_time() const {
     return measured_time.point > 0.0 ? measured_time : predicted_time;
   }
+
+  static auto fields(auto& method) {
+    return std::tie(method.estimator, method.samples, method.has_samples, method.bytes,
+                    method.table.width, method.table.height, method.predicted_error,
+                    method.is_upper_bound, method.measured_error, method.measured_error_error,
+                    method.predicted_time, method.measured_time);
+  }
 };
 
 /// A family of methods none of which reaches the error, and what stops it.
 struct UnreachedFamily {
   std::string family;
   std::string reason;  ///< "the floor of sh-9 is 3.1 %, above 2 %"
+
+  static auto fields(auto& family) { return std::tie(family.family, family.reason); }
 };
 
 /// A method of which nothing is predicted, and why.
 struct UnpredictedMethod {
   std::string estimator;
   std::string reason;
+
+  static auto fields(auto& method) { return std::tie(method.estimator, method.reason); }
 };
 
 /// What was asked.
@@ -67,6 +81,11 @@ struct RecommendationQuestion {
   std::string material;
   double error = 0.0;
   std::uint64_t shading_points = 0;  ///< over which set-ups are shared out
+
+  static auto fields(auto& question) {
+    return std::tie(question.map, question.receiver, question.material, question.error,
+                    question.shading_points);
+  }
 };
 
 /// The answer to: what is the least that this scene needs?
@@ -81,12 +100,19 @@ struct Recommendation {
   std::vector<UnreachedFamily> unreached;
   /// What was neither predicted nor tried.
   std::vector<UnpredictedMethod> unpredicted;
+
+  static auto fields(auto& answer) {
+    return std::tie(answer.question, answer.choice, answer.runner_up, answer.reason, answer.warning,
+                    answer.unreached, answer.unpredicted);
+  }
 };
 
 /// The answer that no method reaches the error.
 struct RefusedRecommendation {
   RecommendationQuestion question;
   std::vector<UnreachedFamily> unreached;
+
+  static auto fields(auto& refused) { return std::tie(refused.question, refused.unreached); }
 };
 
 }  // namespace lightproof

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 
 #include "lightproof/core/grid.h"
 #include "lightproof/image/environment_map.h"
@@ -25,6 +26,12 @@ struct RenderRecord {
   std::uint64_t reference_samples = 0;  ///< per pixel of the reference; 0 if it is not sampled
   /// Processor time of one shading point with so many samples; 0 if it was not measured.
   double point_seconds = 0.0;
+
+  static auto fields(auto& record) {
+    return std::tie(record.map, record.receiver, record.material, record.estimator, record.samples,
+                    record.picture, record.reference, record.error, record.rmse, record.seconds,
+                    record.reference_samples, record.point_seconds);
+  }
 };
 
 }  // namespace lightproof

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <tuple>
 
 namespace lightproof {
 
@@ -16,6 +17,11 @@ struct SplitSumRecord {
   double rmse = 0.0;
   double left_out =
       0.0;  ///< what details finer than the harmonics would add in quadrature, at most
+
+  static auto fields(auto& record) {
+    return std::tie(record.map, record.roughness, record.view_angle, record.normal_reflectance,
+                    record.rmse, record.left_out);
+  }
 };
 
 }  // namespace lightproof

@@ -6,7 +6,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 
+#include "lightproof/core/enumeration.h"
 #include "lightproof/core/grid.h"
 
 namespace lightproof {
@@ -22,6 +24,11 @@ struct ThroughputRecord {
   double table_bytes = 0.0;
   double build_ms = 0.0;      ///< median of some builds, on all threads
   double wall_per_cpu = 1.0;  ///< wall time over processor time, median over repetitions
+
+  static auto fields(auto& row) {
+    return std::tie(row.sampler, row.map, row.extent.width, row.extent.height, row.ns_per_sample,
+                    row.ns_low, row.ns_high, row.table_bytes, row.build_ms, row.wall_per_cpu);
+  }
 };
 
 /// What a sampler's table costs and how well it keeps the map: a row of the benchmark of batches
@@ -36,10 +43,19 @@ struct TableRecord {
   double times_baseline = 0.0;     ///< speed over that of std::upper_bound; 0 if it is that itself
   double share_of_limit = 0.0;     ///< speed over that of a bare gather; 0 if it is that itself
   double wall_per_cpu = 1.0;       ///< wall time over processor time, median over repetitions
+
+  static auto fields(auto& row) {
+    return std::tie(row.sampler, row.map, row.extent.width, row.extent.height, row.ns_per_sample,
+                    row.bytes_per_texel, row.worst_texel_error, row.times_baseline,
+                    row.share_of_limit, row.wall_per_cpu);
+  }
 };
 
 /// In which order directions are asked for.
 enum class DrawOrder { scalar, ahead, batch, fused };
+
+template <>
+inline constexpr std::size_t kValuesOf<DrawOrder> = 4;
 
 struct DrawOrderInfo {
   std::string_view name;   ///< in the names of benchmarks, and in JSON
@@ -73,6 +89,12 @@ struct DirectionRecord {
   /// itself, or of another order than `fused`.
   double share_of_limit = 0.0;
   double wall_per_cpu = 1.0;  ///< wall time over processor time, median over repetitions
+
+  static auto fields(auto& row) {
+    return std::tie(row.sampler, row.map, row.extent.width, row.extent.height, row.density,
+                    row.order, row.ns_per_sample, row.times_baseline, row.share_of_limit,
+                    row.wall_per_cpu);
+  }
 };
 
 /// Sizes in bytes of the caches that a core of the measured machine reads through, as its system
@@ -80,6 +102,8 @@ struct DirectionRecord {
 struct CacheSizes {
   std::optional<double> l2;
   std::optional<double> l3;
+
+  static auto fields(auto& caches) { return std::tie(caches.l2, caches.l3); }
 };
 
 }  // namespace lightproof

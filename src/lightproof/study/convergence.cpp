@@ -292,8 +292,10 @@ std::vector<ConvergenceRecord> measure_lines(std::span<const Line> lines,
   for (const Line& line : lines) {
     cells.push_back({line.key(), [&] { return measure_line(line, counts, options.seed); }});
   }
-  const CellResults<LineErrors> results = gather(
-      compute_cells<LineErrors>(cells, communicator.share, progress, "convergence"), communicator);
+  const CellResults<LineErrors> results =
+      gather(compute_cells<LineErrors>(cells, communicator.share, progress, "convergence",
+                                       communicator.kept),
+             communicator);
   std::vector<ConvergenceRecord> records;
   for (const Line& line : lines) {
     records.push_back(record_of(line, results.at(line.key()), counts));

@@ -11,6 +11,7 @@ namespace lightproof {
 /// and this number of samples and seed, or what is found now, which is kept.
 KeptMeasurement<ScreenedRuns> kept_directions(const GateOptions& options,
                                               const MeasurementCache& cache,
-                                              const Progress& progress = {});
+                                              const Progress& progress = {},
+                                              const Communicator& communicator = {});
 
 }  // namespace lightproof

@@ -38,8 +38,9 @@ CellResults<Kernels> kernels_of(const SplitSumOptions& options, std::span<const 
                        }});
     }
   }
-  return gather(compute_cells<Kernels>(cells, communicator.share, progress, "split sum"),
-                communicator);
+  return gather(
+      compute_cells<Kernels>(cells, communicator.share, progress, "split sum", communicator.kept),
+      communicator);
 }
 
 /// A cell of work for every map.
@@ -49,7 +50,8 @@ CellResults<AngularPower> powers_of(std::span<const EnvironmentMap> maps, const 
   for (const EnvironmentMap& map : maps) {
     cells.push_back({map_key(map), [&map] { return luminance_power(map); }});
   }
-  return gather(compute_cells<AngularPower>(cells, communicator.share, progress, "split sum"),
+  return gather(compute_cells<AngularPower>(cells, communicator.share, progress, "split sum",
+                                            communicator.kept),
                 communicator);
 }
 

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "lightproof/accuracy/method_costs.h"
@@ -47,8 +48,6 @@ MapRecord describe_map(EnvironmentMap own, std::uint64_t seed) {
   return record;
 }
 
-namespace {}  // namespace
-
 void recommend_methods(const EnvironmentMap& map, const StudyOptions& options,
                        const Progress& progress, StudyResult& result) {
   for (const AccuracyScene& scene : options.accuracy_scenes) {
@@ -69,8 +68,22 @@ void recommend_methods(const EnvironmentMap& map, const StudyOptions& options,
 
 namespace {
 
+/// What is recommended on a map, and where nothing is.
+struct RecommendedOnMap {
+  std::vector<Recommendation> recommended;
+  std::vector<RefusedRecommendation> refused;
+
+  static auto fields(auto& all) { return std::tie(all.recommended, all.refused); }
+};
+
+template <class Value>
+void append(std::vector<Value>& values, std::vector<Value> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(values));
+}
+
 void study_accuracy(std::span<const EnvironmentMap> maps, const StudyOptions& options,
-                    const Progress& progress, StudyResult& result) {
+                    const Progress& progress, const UnfinishedWork& unfinished,
+                    StudyResult& result) {
   if (options.accuracy_scenes.empty()) return;
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const auto part = [&](double from, double to) {
@@ -78,13 +91,40 @@ void study_accuracy(std::span<const EnvironmentMap> maps, const StudyOptions& op
       const auto first = static_cast<double>(i);
       return part_of(progress, (first + from) / count, (first + to) / count);
     };
-    auto charts =
-        measure_accuracy(maps[i], options.accuracy_scenes, options.accuracy, part(0.0, 0.7));
-    std::move(charts.begin(), charts.end(), std::back_inserter(result.accuracy));
-    if (options.recommended_error) {
-      recommend_methods(maps[i], options, part(0.7, 1.0), result);
-    }
+    append(result.accuracy, unfinished.stage<std::vector<AccuracyChart>>(
+                                "accuracy/" + maps[i].name, [&](const Communicator& communicator) {
+                                  return measure_accuracy(maps[i], options.accuracy_scenes,
+                                                          options.accuracy, part(0.0, 0.7),
+                                                          communicator);
+                                }));
+    if (!options.recommended_error) continue;
+    auto on_map = unfinished.stage<RecommendedOnMap>(
+        "recommendations/" + maps[i].name, [&](const Communicator& /*communicator*/) {
+          StudyResult of_map;
+          recommend_methods(maps[i], options, part(0.7, 1.0), of_map);
+          return RecommendedOnMap{std::move(of_map.recommendations),
+                                  std::move(of_map.refused_recommendations)};
+        });
+    append(result.recommendations, std::move(on_map.recommended));
+    append(result.refused_recommendations, std::move(on_map.refused));
   }
+}
+
+std::vector<RenderRecord> study_pictures(std::span<const EnvironmentMap> maps,
+                                         const StudyOptions& options, const Progress& progress,
+                                         const UnfinishedWork& unfinished) {
+  std::vector<RenderRecord> records;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const auto count = static_cast<double>(maps.size());
+    const auto first = static_cast<double>(i);
+    append(records, unfinished.stage<std::vector<RenderRecord>>(
+                        "renders/" + maps[i].name, [&](const Communicator& /*communicator*/) {
+                          return study_renders(
+                              maps.subspan(i, 1), options.renders,
+                              part_of(progress, first / count, (first + 1.0) / count));
+                        }));
+  }
+  return records;
 }
 
 }  // namespace
@@ -99,7 +139,7 @@ void set_throughput(StudyResult& study, Throughput measured) {
 }
 
 StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& options,
-                      const Progress& progress) {
+                      const Progress& progress, const UnfinishedWork& unfinished) {
   StudyResult result;
   result.version = LIGHTPROOF_VERSION;
   result.machine = machine_name();
@@ -109,23 +149,38 @@ StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& opti
   const double gate_start = options.throughput ? 0.1 : 0.0;
   if (options.throughput) {
     if (progress) progress("throughput", 0.0);
-    set_throughput(result, measure_throughput(*options.throughput));
+    set_throughput(result,
+                   unfinished.stage<Throughput>("throughput", [&](const Communicator& /*alone*/) {
+                     return measure_throughput(*options.throughput);
+                   }));
   }
   for (const EnvironmentMap& map : maps) {
     result.maps.push_back(describe_map(map, options.gate.seed));
   }
-  const KeptMeasurement<ScreenedRuns> directions =
-      kept_directions(options.gate, options.cache, part_of(progress, gate_start, 0.2));
+  const auto directions = unfinished.stage<KeptMeasurement<ScreenedRuns>>(
+      "directions", [&](const Communicator& communicator) {
+        return kept_directions(options.gate, options.cache, part_of(progress, gate_start, 0.2),
+                               communicator);
+      });
   result.directions_origin = directions.origin;
-  result.gate = run_gate(test_cases_of(maps, all_samplers_under_test(), direction_samplers()),
-                         options.gate, part_of(progress, 0.2, 0.5), {}, directions.value);
+  result.gate = unfinished.stage<GateResult>("gate", [&](const Communicator& communicator) {
+    return run_gate(test_cases_of(maps, all_samplers_under_test(), direction_samplers()),
+                    options.gate, part_of(progress, 0.2, 0.5), communicator, directions.value);
+  });
   result.gate.left_out = left_out_on(maps, all_samplers_under_test());
   for (EnvironmentMap& map : maps) map = resampled_to_lat_long(std::move(map));
-  result.convergence = study_convergence(maps, options.convergence, part_of(progress, 0.5, 0.75));
-  study_accuracy(maps, options, part_of(progress, 0.75, 0.93), result);
+  result.convergence = unfinished.stage<std::vector<ConvergenceRecord>>(
+      "convergence", [&](const Communicator& communicator) {
+        return study_convergence(maps, options.convergence, part_of(progress, 0.5, 0.75),
+                                 communicator);
+      });
+  study_accuracy(maps, options, part_of(progress, 0.75, 0.93), unfinished, result);
   result.warps = study_warp_grids(maps);
-  result.renders = study_renders(maps, options.renders, part_of(progress, 0.93, 0.98));
-  result.split_sum = study_split_sum(maps, {}, part_of(progress, 0.98, 1.0));
+  result.renders = study_pictures(maps, options, part_of(progress, 0.93, 0.98), unfinished);
+  result.split_sum = unfinished.stage<std::vector<SplitSumRecord>>(
+      "split-sum", [&](const Communicator& communicator) {
+        return study_split_sum(maps, {}, part_of(progress, 0.98, 1.0), communicator);
+      });
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "lightproof/accuracy/measurement.h"
 #include "lightproof/core/kept_measurement.h"
+#include "lightproof/core/unfinished_work.h"
 #include "lightproof/gate/gate.h"
 #include "lightproof/results/study_result.h"
 #include "lightproof/study/convergence.h"
@@ -45,8 +46,10 @@ void set_throughput(StudyResult& study, Throughput measured);
 
 /// Runs the gate, measures convergence, speed against accuracy, renders, the error of the split sum
 /// and, if it is asked for, throughput. The gate judges samplers in the maps' own texels; all else
-/// takes maps that are resampled to latitude and longitude, and results say which.
+/// takes maps that are resampled to latitude and longitude, and results say which. What ends is
+/// kept in `unfinished`, map by map and stage by stage, the tests of the gate and the lines of
+/// convergence one by one; what it holds is not measured again.
 StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& options,
-                      const Progress& progress = {});
+                      const Progress& progress = {}, const UnfinishedWork& unfinished = {});
 
 }  // namespace lightproof

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "lightproof/results/throughput_record.h"
@@ -21,6 +22,11 @@ struct Throughput {
   std::string origin;
   std::size_t busy_rows = 0;  ///< benchmarks whose wall time is over kBusyRatio of processor time
   double wall_per_cpu = 1.0;  ///< the largest such ratio of all benchmarks
+
+  static auto fields(auto& measured) {
+    return std::tie(measured.samplers, measured.tables, measured.directions, measured.caches,
+                    measured.origin, measured.busy_rows, measured.wall_per_cpu);
+  }
 };
 
 /// The benchmarks of a study, as a pattern of names: one sample at a time on maps from 256x128 to
