@@ -77,13 +77,13 @@ bool check_run_folder(const RunFolder& folder, const std::set<std::string>& name
   return replaces;
 }
 
-UnfinishedWork begin_work(const RunFolder& folder, std::vector<RunInput> inputs,
+UnfinishedWork begin_work(const RunFolder& folder, const std::vector<RunInput>& inputs,
                           const CommandLine& line) {
   const Unfinished earlier = folder.resume  ? Unfinished::continued
                              : folder.force ? Unfinished::discarded
                                             : Unfinished::refused;
   try {
-    return {folder.output, std::move(inputs), earlier};
+    return {folder.output, inputs, earlier};
   } catch (const InputError& error) {
     if (std::string_view(error.what()).find("--resume goes on") == std::string_view::npos) throw;
     throw Refusal(error.what(), with_flags(line, {"--resume"}));

@@ -44,7 +44,7 @@ bool check_run_folder(const RunFolder& folder, const std::set<std::string>& name
 /// The work that lies unfinished in the folder, or none. Throws a Refusal with the command line
 /// that would go on if there is some and neither --resume nor --force was given, InputError if it
 /// is of other inputs.
-UnfinishedWork begin_work(const RunFolder& folder, std::vector<RunInput> inputs,
+UnfinishedWork begin_work(const RunFolder& folder, const std::vector<RunInput>& inputs,
                           const CommandLine& line);
 
 /// work(); if it fails with parts kept, the program's last words say where they are.

@@ -145,7 +145,7 @@ struct UnfinishedWork::Store {
 
 UnfinishedWork::UnfinishedWork() = default;
 
-UnfinishedWork::UnfinishedWork(const fs::path& results, std::vector<RunInput> inputs,
+UnfinishedWork::UnfinishedWork(const fs::path& results, const std::vector<RunInput>& inputs,
                                Unfinished earlier)
     : store_(std::make_unique<Store>()) {
   store_->folder = results / kUnfinishedName;
@@ -158,21 +158,23 @@ UnfinishedWork::UnfinishedWork(const fs::path& results, std::vector<RunInput> in
         "{}: is no unfinished work of this program: move it away, or name another folder",
         store_->folder.string()));
   }
-  if (!holds_parts(store_->folder) || earlier == Unfinished::discarded) {
-    try {
-      return store_->begin(inputs);
-    } catch (const InputError&) {
-      remove();
-      throw;
-    }
-  }
-  if (earlier == Unfinished::refused) {
+  const bool begins = !holds_parts(store_->folder) || earlier == Unfinished::discarded;
+  if (!begins && earlier == Unfinished::refused) {
     throw InputError(
         fmt::format("{}: here lies work of a run that did not end; --resume goes on with it, "
                     "--force begins anew",
                     store_->folder.string()));
   }
-  store_->refuse_other_inputs(inputs);
+  if (!begins) {
+    store_->refuse_other_inputs(inputs);
+    return;
+  }
+  try {
+    store_->begin(inputs);
+  } catch (const InputError&) {
+    remove();
+    throw;
+  }
 }
 
 UnfinishedWork::UnfinishedWork(UnfinishedWork&& other) noexcept = default;

@@ -51,7 +51,7 @@ class UnfinishedWork {
   UnfinishedWork();
   /// Keeps parts in `results`, which exists. Throws InputError if it cannot be written, if another
   /// run is at work there, if the user has something of that name, or as `earlier` says.
-  UnfinishedWork(const std::filesystem::path& results, std::vector<RunInput> inputs,
+  UnfinishedWork(const std::filesystem::path& results, const std::vector<RunInput>& inputs,
                  Unfinished earlier);
   ~UnfinishedWork();
   UnfinishedWork(UnfinishedWork&& other) noexcept;
