@@ -24,9 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using std::chrono::duration;
 using std::chrono::microseconds;
-using std::chrono::seconds;
 using testing::AllOf;
 using testing::AnyOf;
 using testing::Contains;
@@ -48,9 +46,9 @@ class Moments {
  public:
   explicit Moments(std::string_view purpose)
       : engine_(number_of("LIGHTPROOF_FAULT_SEED", 1) ^ hash_text(purpose)) {}
-  microseconds within(double seconds) {
-    return microseconds(
-        static_cast<long>(std::uniform_real_distribution<double>(0.0, 1e6 * seconds)(engine_)));
+  microseconds within(double most_seconds) {
+    std::uniform_real_distribution<double> moment(0.0, 1e6 * most_seconds);
+    return microseconds(static_cast<long>(moment(engine_)));
   }
 
  private:
@@ -174,12 +172,12 @@ Words tiny_study(const std::string& output) {
   Words words = {
       "study",          "sun-sky",      "--size",         "16x8", "-n", "1024", "--no-throughput",
       "--no-self-test", "--no-regimes", "--no-stability", "-q",   "-o", output};
-  // Charts take most of the time; they are a part of the thorough form.
-  if (number_of("LIGHTPROOF_FAULTS", 0) == 0) words.emplace_back("--no-accuracy");
   return words;
 }
 
+// The quick form, a study in the test's own process, is in tests/study.
 TEST(Killed, StudyLeavesNothingHalfAndGoesOnToTheSameBits) {
+  if (number_of("LIGHTPROOF_FAULTS", 0) == 0) GTEST_SKIP() << "takes minutes: ci/faults";
   const TemporaryFolder folder;
   const Finished whole = lightproof(tiny_study("whole"), folder / "");
   ASSERT_EQ(whole.exit_code, 0) << whole.err;
@@ -340,7 +338,9 @@ class Surroundings : public testing::Test {
 TEST_F(Surroundings, WithoutAReaderOfThePrintedTableFilesAreWhole) {
   const Finished gone = shell(R"("$@" | true; exit ${PIPESTATUS[0]})", kGate);
   EXPECT_THAT(gone.exit_code, AnyOf(0, 128 + SIGPIPE)) << gone.err;
-  if (fs::exists(path("g.json"))) EXPECT_EQ(json_of(path("g.json")).at("outcome"), "accept");
+  if (fs::exists(path("g.json"))) {
+    EXPECT_EQ(json_of(path("g.json")).at("outcome"), "accept");
+  }
   EXPECT_THAT(parts_in(path()), IsEmpty());
 }
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <random>
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/temporary_folder.h"
@@ -60,6 +62,62 @@ TEST(RecommendMethods, DoesNotTakeOtherErrorsForRefusals) {
   EXPECT_THROW(recommend_methods({"black", Grid<Rgb>({16, 8})}, on_a_sphere(), {}, result),
                InputError);
   EXPECT_TRUE(result.refused_recommendations.empty());
+}
+
+/// All of what a study found that no clock had a part in, as bytes.
+std::string untimed_bytes(const StudyResult& study) {
+  ValueWriter writer;
+  writer.add(study.gate);
+  writer.add(study.convergence);
+  writer.add(study.split_sum);
+  writer.add(study.renders.size());
+  for (const AccuracyChart& chart : study.accuracy) {
+    for (const AccuracyLine& line : chart.lines) {
+      writer.add(std::string_view(line.estimator));
+      for (const AccuracyPoint& point : line.points) writer.add(point.rmse);
+    }
+  }
+  return writer.take();
+}
+
+/// A study of some seconds.
+StudyOptions small_study() {
+  StudyOptions options = on_a_sphere();
+  options.gate.samples = 1024;
+  options.convergence.most_samples = 4;
+  options.convergence.estimates = 8;
+  options.convergence.picture = {2, 2};
+  options.renders.picture = {8, 6};
+  options.renders.reference_samples = 1;
+  options.recommended_error.reset();
+  options.accuracy.select = [](const EstimatorInfo& info) { return info.name == "uniform"; };
+  return options;
+}
+
+// Ended again and again, each time at a moment of its own, and gone on with each time.
+TEST(RunStudy, GoesOnToTheSameBitsWhereverItIsEnded) {
+  const std::vector<EnvironmentMap> maps = {make_synthetic_map("sun-sky", {16, 8}),
+                                            make_synthetic_map("gradient", {16, 8})};
+  const StudyOptions options = small_study();
+  const std::string whole = untimed_bytes(run_study(maps, options));
+  const TemporaryFolder folder;
+  std::mt19937_64 moments(7);
+  for (int ends = 0;; ++ends) {
+    ASSERT_LT(ends, 100) << "it never ends";
+    // Of calls of the progress: the further it is, the more has to be left over.
+    std::atomic<long> left = std::uniform_int_distribution<long>(1, 200 * (ends + 1))(moments);
+    const Progress ending = [&left](std::string_view /*step*/, double /*fraction*/) {
+      if (--left <= 0) throw Interrupted();
+    };
+    const UnfinishedWork unfinished(folder / "", {{"--seed", "1"}}, Unfinished::continued);
+    try {
+      const std::string resumed = untimed_bytes(run_study(maps, options, ending, unfinished));
+      EXPECT_GT(ends, 1) << "it was never ended";
+      EXPECT_TRUE(resumed == whole);
+      break;
+    } catch (const Interrupted&) {
+    }
+  }
 }
 
 }  // namespace

@@ -47,6 +47,9 @@ bool check_run_folder(const RunFolder& folder, const std::set<std::string>& name
 UnfinishedWork begin_work(const RunFolder& folder, const std::vector<RunInput>& inputs,
                           const CommandLine& line);
 
+/// Lets the program's last words say where parts are kept, if some are.
+void tell_of_parts(const UnfinishedWork& unfinished, const RunFolder& folder);
+
 /// work(); if it fails with parts kept, the program's last words say where they are.
 template <class Work>
 auto keeping_parts(const UnfinishedWork& unfinished, const RunFolder& folder, const Work& work) {
@@ -57,8 +60,5 @@ auto keeping_parts(const UnfinishedWork& unfinished, const RunFolder& folder, co
     throw;
   }
 }
-
-/// Lets the program's last words say where parts are kept, if some are.
-void tell_of_parts(const UnfinishedWork& unfinished, const RunFolder& folder);
 
 }  // namespace lightproof::cli

@@ -8,6 +8,7 @@
 
 #include "lightproof/report/ci_outputs.h"
 #include "lightproof/report/gate_table.h"
+#include "messages.h"
 #include "outputs.h"
 
 namespace lightproof::cli {
