@@ -1,11 +1,14 @@
-// What ci/load does. Usage: load.mjs PROGRAM FOLDER PART…
+// What ci/load does. Usage: load.mjs PROGRAM FOLDER PART… [-- OPTION…]
 import { spawn, spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 import { exr, writeLargeExr } from "./exr.mjs";
 
-const [program, folder, ...parts] = process.argv.slice(2);
+const [program, folder, ...rest] = process.argv.slice(2);
+const end = rest.includes("--") ? rest.indexOf("--") : rest.length;
+const parts = rest.slice(0, end);
+const options = rest.slice(end + 1);
 /** Of resident memory of the program and what it starts, in bytes. */
 const kMost = 8e9;
 const kLarge = [16384, 8192];
@@ -65,7 +68,7 @@ function residentBytes(root) {
 function run(words) {
   return new Promise((resolve) => {
     const start = Date.now();
-    const child = spawn(program, [...words, "--progress", "1"], { stdio: ["ignore", "ignore", "pipe"] });
+    const child = spawn(program, [...words, ...options, "--progress", "1"], { stdio: ["ignore", "ignore", "pipe"] });
     const peaks = new Map();
     let stage = "reading";
     let said = "";
@@ -92,7 +95,7 @@ function fail(text) {
 }
 
 async function measure(name, words, accepted = [0]) {
-  console.log(`${name}: lightproof ${words.join(" ")}`);
+  console.log(`${name}: lightproof ${[...words.slice(0, 10), words.length > 10 ? "…" : "", ...options].join(" ")}`);
   const found = await run(words);
   if (!accepted.includes(found.code)) fail(`ended with ${found.code}\n${found.said.slice(-2000)}`);
   for (const [stage, peak] of found.peaks) console.log(`  ${stage}: ${gigabytes(peak)}`);

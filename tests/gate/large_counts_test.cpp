@@ -1,7 +1,10 @@
 // Counts beyond 32 bits: a run of 1e10 samples is one of the usual size, many times over.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
+#include <span>
+#include <vector>
 
 #include "lightproof/gate/direction_histogram.h"
 #include "lightproof/gate/discrete_sampler.h"
@@ -24,8 +27,7 @@ std::uint64_t sum_of(const Counts& counts) {
 }
 
 /// Whether all of these are the others so many times over.
-template <class Counts>
-bool is_multiple(const Counts& large, const Counts& small) {
+bool is_multiple(std::span<const std::uint64_t> large, std::span<const std::uint64_t> small) {
   return std::ranges::equal(
       large, small, [](std::uint64_t all, std::uint64_t once) { return all == kTimes * once; });
 }
