@@ -93,7 +93,7 @@ function furnishHistory() {
 
 /** The simple commands of a line, as words; quotes are taken off. */
 function simpleCommands(line) {
-  const words = line.match(/"[^"]*"|'[^']*'|&&|\|\|?|;|[^\s;|]+/g) ?? [];
+  const words = line.match(/"[^"]*"|'[^']*'|\S+/g) ?? [];
   const commands = [[]];
   for (const word of words) {
     if (["&&", "||", "|", ";"].includes(word)) commands.push([]);
@@ -134,7 +134,7 @@ function faultsOfOptions(caller, words) {
 function callOf(words) {
   const call = [join(build, "lightproof")];
   for (const word of words.slice(1)) {
-    if (!/^[a-z]+$/.test(word) || !new RegExp(`^  ${word}\\s`, "m").test(helpOf(call) ?? "")) break;
+    if (!/^[a-z-]+$/.test(word) || word.startsWith("-") || !new RegExp(`^  ${word}\\s`, "m").test(helpOf(call) ?? "")) break;
     call.push(word);
   }
   return call;
