@@ -11,6 +11,12 @@
 namespace lightproof {
 namespace {
 
+/// No system has more than its memory, and asked for more it ends programs in place of saying no.
+bool can_be_had(std::size_t bytes) {
+  const auto pages = static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES));
+  return bytes / static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) < pages;
+}
+
 /// Takes the memory now: later the system would end whoever writes first, for want of it.
 bool take(int descriptor, std::size_t bytes) {
   const auto size = static_cast<off_t>(bytes);
@@ -24,8 +30,9 @@ bool take(int descriptor, std::size_t bytes) {
 
 }  // namespace
 
-SharedMemory::SharedMemory(std::size_t bytes)
-    : descriptor_(::memfd_create("lightproof", MFD_CLOEXEC | MFD_ALLOW_SEALING)) {
+SharedMemory::SharedMemory(std::size_t bytes) {
+  if (!can_be_had(bytes)) throw std::bad_alloc();
+  descriptor_ = ::memfd_create("lightproof", MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (descriptor_ < 0) throw std::bad_alloc();
   void* at = take(descriptor_, bytes)
                  ? ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_, 0)
