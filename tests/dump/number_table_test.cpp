@@ -116,5 +116,14 @@ TEST_F(NumberTableFile, IsRefusedForWhatItIsNot) {
   EXPECT_THAT(refusal("/"), HasSubstr("is a folder"));
 }
 
+// An exponent may be any number: what it says of decimals is bounded.
+TEST_F(NumberTableFile, OfTextTakesExponentsOfAnySize) {
+  const NumberTable table(
+      write("a.csv", "1e-2147483648,1e2147483647,1e-99999999999999999999,0.25e+3\n"), std::nullopt,
+      0);
+  EXPECT_THAT(all_of(table), ElementsAre(0.0, testing::_, testing::_, 250.0));
+  EXPECT_EQ(table.rounding(), 0.5e-16);
+}
+
 }  // namespace
 }  // namespace lightproof
