@@ -1,6 +1,6 @@
-// Every correct sampler of the registry, on maps of any radiance, at any random numbers and at those
-// where tables change: a position inside the drawn texel, a finite density above 0, which is the one
-// that is returned for this position, and a unit vector.
+// Every correct sampler of the registry, on maps of any radiance, at any random numbers and at
+// those where tables change: a position inside the drawn texel, a finite density above 0, which is
+// the one that is returned for this position, and a unit vector.
 #include <fmt/format.h>
 
 #include <array>
@@ -25,23 +25,16 @@ constexpr double kSameDensity = 1e-4;
 constexpr double kSamePosition = 1e-12;
 constexpr std::size_t kPoints = 24;
 
-constexpr std::array kEnds = {0.0,
-                              std::numeric_limits<double>::denorm_min(),
-                              0x1p-60,
-                              0x1p-32,
-                              0x1p-31,
-                              0x1p-24,
-                              0.25,
-                              0.5,
-                              0.75,
-                              1.0 - 0x1p-24,
-                              1.0 - 0x1p-31,
-                              1.0 - 0x1p-32,
-                              1.0 - 0x1p-53,
-                              1.0};
+constexpr std::array kEnds = {0.0,           std::numeric_limits<double>::denorm_min(),
+                              0x1p-60,       0x1p-32,
+                              0x1p-31,       0x1p-24,
+                              0.25,          0.5,
+                              0.75,          1.0 - 0x1p-24,
+                              1.0 - 0x1p-31, 1.0 - 0x1p-32,
+                              1.0 - 0x1p-53, 1.0};
 
-/// A number of [0,1]: an end, an entry of a CDF or its neighbour, a multiple of a column of an alias
-/// table, or any other.
+/// A number of [0,1]: an end, an entry of a CDF or its neighbour, a multiple of a column of an
+/// alias table, or any other.
 double random_number(Input& input, CdfEntries entries, double cells) {
   switch (input.below(6)) {
     case 0:
@@ -74,10 +67,11 @@ class Drawn {
 
   void require(bool holds, SquarePoint u, const TexelSample& sample, std::string_view what) const {
     if (holds) return;
-    fail(fmt::format("{} under {} on {}x{} at u = ({:.17g}, {:.17g}): texel ({}, {}), position "
-                     "({:.17g}, {:.17g}), density {:.17g}: {}",
-                     info_.name, to_string(density_space_), extent_.width, extent_.height, u.s, u.t,
-                     sample.x, sample.y, sample.at.s, sample.at.t, sample.pdf.value, what));
+    fail(
+        fmt::format("{} under {} on {}x{} at u = ({:.17g}, {:.17g}): texel ({}, {}), position "
+                    "({:.17g}, {:.17g}), density {:.17g}: {}",
+                    info_.name, to_string(density_space_), extent_.width, extent_.height, u.s, u.t,
+                    sample.x, sample.y, sample.at.s, sample.at.t, sample.pdf.value, what));
   }
 
   template <class Sampler>

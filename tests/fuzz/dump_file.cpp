@@ -26,8 +26,7 @@ SampleConvention any_convention(Input& input) {
   SampleConvention convention;
   convention.axes = AxisMap::all()[input.below(AxisMap::all().size())];
   convention.preset = presets()[input.below(presets().size())].preset;
-  convention.measure =
-      input.below(2) == 0 ? DensityMeasure::solid_angle : DensityMeasure::square;
+  convention.measure = input.below(2) == 0 ? DensityMeasure::solid_angle : DensityMeasure::square;
   return convention;
 }
 

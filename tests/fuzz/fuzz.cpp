@@ -32,7 +32,9 @@ MemoryFile::MemoryFile(std::string_view bytes)
 
 MemoryFile::~MemoryFile() { ::close(descriptor_); }
 
-std::filesystem::path MemoryFile::path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
+std::filesystem::path MemoryFile::path() const {
+  return fmt::format("/proc/self/fd/{}", descriptor_);
+}
 
 void fail(std::string_view what) {
   fmt::print(stderr, "{}\n", what);
@@ -50,7 +52,8 @@ namespace {
 
 void* allocate(std::size_t bytes, std::size_t alignment = alignof(std::max_align_t)) noexcept {
   if (bytes > largest_allocation.load(std::memory_order_relaxed)) return nullptr;
-  const std::size_t rounded = (std::max<std::size_t>(bytes, 1) + alignment - 1) / alignment * alignment;
+  const std::size_t rounded =
+      (std::max<std::size_t>(bytes, 1) + alignment - 1) / alignment * alignment;
   return std::aligned_alloc(alignment, rounded);
 }
 
@@ -62,8 +65,8 @@ void* there(void* memory) {
 }  // namespace
 }  // namespace lightproof::fuzz
 
-// In the place of those of the address sanitizer, which end the process where there is no memory. It
-// still watches over what they return.
+// In the place of those of the address sanitizer, which end the process where there is no memory.
+// It still watches over what they return.
 using lightproof::fuzz::allocate;
 using lightproof::fuzz::there;
 using Alignment = std::align_val_t;
@@ -73,8 +76,12 @@ void* operator new(size_t bytes) { return there(allocate(bytes)); }
 void* operator new[](size_t bytes) { return there(allocate(bytes)); }
 void* operator new(size_t bytes, const nothrow_t& /*tag*/) noexcept { return allocate(bytes); }
 void* operator new[](size_t bytes, const nothrow_t& /*tag*/) noexcept { return allocate(bytes); }
-void* operator new(size_t bytes, Alignment to) { return there(allocate(bytes, static_cast<size_t>(to))); }
-void* operator new[](size_t bytes, Alignment to) { return there(allocate(bytes, static_cast<size_t>(to))); }
+void* operator new(size_t bytes, Alignment to) {
+  return there(allocate(bytes, static_cast<size_t>(to)));
+}
+void* operator new[](size_t bytes, Alignment to) {
+  return there(allocate(bytes, static_cast<size_t>(to)));
+}
 void* operator new(size_t bytes, Alignment to, const nothrow_t& /*tag*/) noexcept {
   return allocate(bytes, static_cast<size_t>(to));
 }
@@ -89,8 +96,12 @@ void operator delete(void* memory, size_t /*bytes*/) noexcept { std::free(memory
 void operator delete[](void* memory, size_t /*bytes*/) noexcept { std::free(memory); }
 void operator delete(void* memory, Alignment /*to*/) noexcept { std::free(memory); }
 void operator delete[](void* memory, Alignment /*to*/) noexcept { std::free(memory); }
-void operator delete(void* memory, size_t /*bytes*/, Alignment /*to*/) noexcept { std::free(memory); }
-void operator delete[](void* memory, size_t /*bytes*/, Alignment /*to*/) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t /*bytes*/, Alignment /*to*/) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, size_t /*bytes*/, Alignment /*to*/) noexcept {
+  std::free(memory);
+}
 void operator delete(void* memory, Alignment /*to*/, const nothrow_t& /*tag*/) noexcept {
   std::free(memory);
 }

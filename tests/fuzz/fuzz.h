@@ -64,8 +64,8 @@ class MemoryFile {
 /// Fails unless a refusal says something, in one line.
 void require_words(const std::string& refusal);
 
-/// Runs `work`, which may refuse its input by InputError, or say what needs too much memory, in words,
-/// and throw nothing else. Returns whether it accepted it.
+/// Runs `work`, which may refuse its input by InputError, or say what needs too much memory, in
+/// words, and throw nothing else. Returns whether it accepted it.
 template <class Work>
 bool accepts(const Work& work) {
   try {

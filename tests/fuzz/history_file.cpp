@@ -1,5 +1,5 @@
-// The history, whose file is an SQLite database: its bytes changed by the input, or what stands in it
-// by statements that the input is.
+// The history, whose file is an SQLite database: its bytes changed by the input, or what stands in
+// it by statements that the input is.
 #include <sqlite3.h>
 
 #include <cmath>
@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 BenchmarkRun some_run(int number) {
   BenchmarkRun run = {"session", number, "machine", "compiler", "flags", "commit", 0, {}};
   run.digest = static_cast<std::uint64_t>(number);
-  for (int i = 0; i < 3; ++i) run.measurements.push_back({"kernel", Metric::nanoseconds, i, 1.0 + i});
+  for (int i = 0; i < 3; ++i)
+    run.measurements.push_back({"kernel", Metric::nanoseconds, i, 1.0 + i});
   return run;
 }
 

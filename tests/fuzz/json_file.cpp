@@ -1,5 +1,5 @@
-// Every kind of JSON file that the program reads: side-cars of dumps, results of Google Benchmark, in
-// the history and in a study, and manifests of folders.
+// Every kind of JSON file that the program reads: side-cars of dumps, results of Google Benchmark,
+// in the history and in a study, and manifests of folders.
 #include <cmath>
 #include <fstream>
 #include <vector>

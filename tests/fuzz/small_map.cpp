@@ -80,6 +80,8 @@ EnvironmentMap small_map(Input& input, Values values) {
   return map;
 }
 
-DensitySpace density_space(Input& input) { return kDensitySpaces[input.below(kDensitySpaces.size())]; }
+DensitySpace density_space(Input& input) {
+  return kDensitySpaces[input.below(kDensitySpaces.size())];
+}
 
 }  // namespace lightproof::fuzz

@@ -13,8 +13,8 @@ enum class Values {
   radiance,  ///< finite ones from 0 on
 };
 
-/// A map of 1 x 1 to 40 x 24 texels, of any mapping that may have so many. The values that the input
-/// gives come again and again.
+/// A map of 1 x 1 to 40 x 24 texels, of any mapping that may have so many. The values that the
+/// input gives come again and again.
 EnvironmentMap small_map(Input& input, Values values);
 
 DensitySpace density_space(Input& input);

@@ -76,13 +76,18 @@ void write_pictures(const Seeds& seeds) {
   std::string repeats = "#?RGBE\nFORMAT=32-bit_rle_xyze\n\n-Y 2 +X 16\n";
   for (int line = 0; line < 2; ++line) {
     planes += std::string("\x02\x02\x00\x10", 4);
-    for (int plane = 0; plane < 4; ++plane) planes += "\x90\x81\x08" "abcdefgh\x88\x40";
+    for (int plane = 0; plane < 4; ++plane)
+      planes +=
+          "\x90\x81\x08"
+          "abcdefgh\x88\x40";
     repeats += std::string("\xc0\x40\x20\x80\x01\x01\x01\x0f", 8);
   }
   // Of 16 bytes a plane: a run of 16 alone.
   std::string runs = "#?RADIANCE\n\n-Y 2 +X 16\n";
   for (int line = 0; line < 2; ++line) {
-    runs += std::string("\x02\x02\x00\x10", 4) + "\x90\x81\x90\x82\x08" "abcdefgh\x88\x40\x90\x80";
+    runs += std::string("\x02\x02\x00\x10", 4) +
+            "\x90\x81\x90\x82\x08"
+            "abcdefgh\x88\x40\x90\x80";
   }
   seeds.add("planes.hdr", planes);
   seeds.add("repeats.hdr", repeats);
@@ -98,8 +103,8 @@ void write_pictures(const Seeds& seeds) {
     }
   }
   for (const int channels : {1, 3}) {
-    test::write_integer_picture(seeds.path(fmt::format("{}.jpg", channels)), kSize, channels, values,
-                                8, channels);
+    test::write_integer_picture(seeds.path(fmt::format("{}.jpg", channels)), kSize, channels,
+                                values, 8, channels);
   }
   test::write_png_with_gamma(seeds.path("gamma.png"), kSize, values, 0.4545);
 }
@@ -152,8 +157,8 @@ void write_answers(const Seeds& seeds) {
   stored.parts = {"one", "two"};
   stored.chromaticities = kRec709Space;
   add("window", rows);
-  seeds.add("failed", choices + message(MessageKind::failed,
-                                        bytes_of(DecoderFailure{.reason = "a reason"})));
+  seeds.add("failed",
+            choices + message(MessageKind::failed, bytes_of(DecoderFailure{.reason = "a reason"})));
 }
 
 void write_kept(const Seeds& seeds) {
@@ -162,7 +167,8 @@ void write_kept(const Seeds& seeds) {
   };
   add("picture", 1, bytes_of(some_picture()));
   add("encode", 2,
-      bytes_of(EncodeRequest{.version = "0", .channels = {"R"}, .levels = {{.width = 4, .height = 2}}}));
+      bytes_of(
+          EncodeRequest{.version = "0", .channels = {"R"}, .levels = {{.width = 4, .height = 2}}}));
   add("read", 3, bytes_of(ReadRequest{.channels = {"R", "G", "B"}}));
   add("failure", 4, bytes_of(DecoderFailure{.reason = "a reason"}));
   add("survey", 5, bytes_of(KeptMeasurement<RecommendationSurvey>{"today", {}}));

@@ -239,7 +239,8 @@ TEST_F(History, RefusesTablesThatAreNotItsOwn) {
       "CREATE VIEW runs AS WITH RECURSIVE n(id) AS (SELECT 1 UNION ALL SELECT id + 1 FROM n)"
       " SELECT id, '' AS session, 0 AS started, '' AS machine, '' AS compiler, '' AS flags,"
       " '' AS \"commit\", id AS digest, 0 AS checksum FROM n",
-      "CREATE TABLE more (bytes CHECK (length(zeroblob(1000000000)) > 0)); INSERT INTO more VALUES (1)",
+      "CREATE TABLE more (bytes CHECK (length(zeroblob(1000000000)) > 0)); INSERT INTO more VALUES "
+      "(1)",
       "CREATE TRIGGER late AFTER INSERT ON runs BEGIN DELETE FROM runs; END",
       "CREATE INDEX slow ON runs (length(zeroblob(1000000000)))",
       "DROP VIEW history; ALTER TABLE runs ADD COLUMN more AS (randomblob(1000000000))",

@@ -1,5 +1,5 @@
-// No operation of a material gives NaN or an infinity: at grazing views and lights, in lobes as narrow
-// as they may be, alone or with any vectors.
+// No operation of a material gives NaN or an infinity: at grazing views and lights, in lobes as
+// narrow as they may be, alone or with any vectors.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,8 @@ std::vector<Material> all_materials() {
 
 std::vector<ShadingPoint> all_points() {
   std::vector<ShadingPoint> points;
-  for (const Direction normal : {Direction(0, 0, 1), Direction(0, 0, -1), Direction(0.6, 0.0, 0.8)}) {
+  for (const Direction normal :
+       {Direction(0, 0, 1), Direction(0, 0, -1), Direction(0.6, 0.0, 0.8)}) {
     for (const double angle : {0.0, 1e-9, 0.7, 1.57, 0.5 * kPi - 1e-9}) {
       points.push_back(shading_point(normal, angle));
     }
@@ -92,7 +93,8 @@ TEST(FloatingPoint, OfNoMaterialGivesNaNOrInfinity) {
             for (std::size_t i = 0; i < kSize; ++i) {
               const DirectionSample one = surface.sample(at, {square.s[i], square.t[i]});
               const Scattering asked = surface.evaluate(at, one.direction);
-              EXPECT_TRUE(std::isfinite(one.scattering.pdf.value) && std::isfinite(asked.pdf.value));
+              EXPECT_TRUE(std::isfinite(one.scattering.pdf.value) &&
+                          std::isfinite(asked.pdf.value));
             }
           },
           material);

@@ -1,5 +1,5 @@
-// No operation of a prefilter gives NaN or an infinity: on a map with a sun of 1e9 over black, by the
-// narrowest and the broadest lobes.
+// No operation of a prefilter gives NaN or an infinity: on a map with a sun of 1e9 over black, by
+// the narrowest and the broadest lobes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

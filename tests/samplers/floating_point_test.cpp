@@ -1,5 +1,5 @@
-// No operation of a correct sampler gives NaN or an infinity, on the hardest of maps and at the ends
-// of the random numbers, alone or with any vectors.
+// No operation of a correct sampler gives NaN or an infinity, on the hardest of maps and at the
+// ends of the random numbers, alone or with any vectors.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -89,8 +89,8 @@ TEST(FloatingPoint, OfNoCorrectSamplerGivesNaNOrInfinity) {
     for (const SamplerInfo& info : samplers()) {
       if (info.known_defects) continue;
       for (const DensitySpace density_space : kDensitySpaces) {
-        SCOPED_TRACE(testing::Message() << info.name << " " << map.name << " "
-                                        << map.radiance.extent().width);
+        SCOPED_TRACE(testing::Message()
+                     << info.name << " " << map.name << " " << map.radiance.extent().width);
         for_each_kind_of_vector([&](const char* /*vectors*/) {
           const test::TrapFloatingPoint trap;
           EXPECT_TRUE(draw(info.make(map, density_space), points));

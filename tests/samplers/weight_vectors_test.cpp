@@ -158,7 +158,8 @@ TEST(WeightVectors, DoWholeVectors) {
     SCOPED_TRACE(vectors);
     for (std::size_t count = 0; count <= kMost; ++count) {
       std::vector<double> weights(count);
-      expect_whole_vectors(vectors, weigh(std::span(texels).first(count), kRec709, 1.0, weights).by_vectors,
+      expect_whole_vectors(vectors,
+                           weigh(std::span(texels).first(count), kRec709, 1.0, weights).by_vectors,
                            count, 2 * kWidestVector);
       expect_whole_vectors(vectors, WeightSums().add(std::span(all).first(count)), count);
       std::vector<std::int64_t> fixed(count);

@@ -30,16 +30,16 @@ std::vector<Method> part_of(const std::vector<Method>& methods, bool published) 
 }
 
 StabilityMethods part_of(const StabilityMethods& all, bool published) {
-  return {part_of(all.samplers, published),      part_of(all.warps, published),
-          part_of(all.lobes, published),         part_of(all.frames, published),
-          part_of(all.prefilters, published),    part_of(all.reflectivities, published),
-          part_of(all.brdf_tables, published),   part_of(all.means, published),
-          part_of(all.estimators, published),    part_of(all.point_sets, published),
+  return {part_of(all.samplers, published),    part_of(all.warps, published),
+          part_of(all.lobes, published),       part_of(all.frames, published),
+          part_of(all.prefilters, published),  part_of(all.reflectivities, published),
+          part_of(all.brdf_tables, published), part_of(all.means, published),
+          part_of(all.estimators, published),  part_of(all.point_sets, published),
           part_of(all.formats, published)};
 }
 
-/// What every method does. Of one that is right, none of its operations may give NaN or an infinity,
-/// not even if that is thrown away: the trap ends this program.
+/// What every method does. Of one that is right, none of its operations may give NaN or an
+/// infinity, not even if that is thrown away: the trap ends this program.
 const StabilityResult& all() {
   static const StabilityResult result = [] {
     const StabilityMethods methods = all_stability_methods();

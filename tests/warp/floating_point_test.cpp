@@ -1,4 +1,5 @@
-// No operation of a warp gives NaN or an infinity, at poles, seams and the ends of the random numbers.
+// No operation of a warp gives NaN or an infinity, at poles, seams and the ends of the random
+// numbers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +15,8 @@
 namespace lightproof {
 namespace {
 
-constexpr double kEnds[] = {0.0, 0x1p-60, 0x1p-24, 0.25, 0.5, 0.7, 1.0 - 0x1p-24, 1.0 - 0x1p-53, 1.0};
+constexpr double kEnds[] = {0.0, 0x1p-60,       0x1p-24,       0.25, 0.5,
+                            0.7, 1.0 - 0x1p-24, 1.0 - 0x1p-53, 1.0};
 
 std::vector<SquarePoint> points() {
   std::vector<SquarePoint> all;

@@ -201,9 +201,10 @@ void require_tables(const fs::path& file, sqlite::Database& database) {
     const std::string type = objects.text(0);
     const std::string name = objects.text(1);
     if (!is_of_history(type, name, objects.text(2))) {
-      refuse(file, fmt::format("is damaged, or no performance history of ours: the {} \"{}\" is not "
-                               "what `lightproof history` makes; a copy without it can be read",
-                               type, name));
+      refuse(file,
+             fmt::format("is damaged, or no performance history of ours: the {} \"{}\" is not "
+                         "what `lightproof history` makes; a copy without it can be read",
+                         type, name));
     }
     tables += type == "table" ? 1 : 0;
   }

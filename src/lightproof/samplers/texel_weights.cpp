@@ -104,7 +104,8 @@ CellWeights::CellWeights(const EnvironmentMap& map, TargetDensity target)
 void refuse_impossible(const EnvironmentMap& map) {
   const TexelScan scan = scan_texels(map.radiance);
   throw InputError(fmt::format(
-      "{}: texels have a luminance that is negative or no finite number ({}): there is no density in "
+      "{}: texels have a luminance that is negative or no finite number ({}): there is no density "
+      "in "
       "proportion to it; readers of files refuse or repair such values",
       map.name, scan.clean() ? "by their weights of red, green and blue" : describe_faults(scan)));
 }

@@ -11,8 +11,8 @@
 namespace lightproof {
 
 /// The weights of all texels, a grid of the map's extent: their luminance, under B and C times
-/// their solid angle. Throws InputError if the map is black, or if a weight is negative or no finite
-/// number.
+/// their solid angle. Throws InputError if the map is black, or if a weight is negative or no
+/// finite number.
 Grid<double> texel_weights(const EnvironmentMap& map, TargetDensity target);
 
 /// Writes the weights of the texels of row y, as many as the map has columns: their luminance,

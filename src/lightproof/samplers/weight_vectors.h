@@ -21,7 +21,7 @@ struct Weighed {
 /// Writes weights[i] = area * luminance(texels[i], luminance). There may be more texels than
 /// weights: those that come later in memory and are asked for ahead.
 Weighed weigh(std::span<const Rgb> texels, LuminanceWeights luminance, double area,
-                  std::span<double> weights);
+              std::span<double> weights);
 
 /// Sums of weights >= 0, which run side by side in a fixed order: weight i is added to the sum
 /// i % kLanes.
