@@ -125,5 +125,12 @@ TEST_F(NumberTableFile, OfTextTakesExponentsOfAnySize) {
   EXPECT_EQ(table.rounding(), 0.5e-16);
 }
 
+TEST_F(NumberTableFile, OfTextWithoutANumberHasNoRows) {
+  for (const char* text : {",", "\n", "# a note\n", "x,y,z\n", " \t\r\n;"}) {
+    EXPECT_THAT(refusal(write("a.csv", text)), HasSubstr("has no rows")) << text;
+    EXPECT_THAT(refusal(write("a.csv", text), 3), HasSubstr("has no rows")) << text;
+  }
+}
+
 }  // namespace
 }  // namespace lightproof

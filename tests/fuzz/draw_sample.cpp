@@ -45,7 +45,7 @@ double random_number(Input& input, CdfEntries entries, double cells) {
       return std::clamp(std::nextafter(entry, entry + towards), 0.0, 1.0);
     }
     case 2: {
-      const double edge = input.take<std::uint16_t>() % (cells + 1.0) / cells;
+      const double edge = std::fmod(input.take<std::uint16_t>(), cells + 1.0) / cells;
       const double towards = input.below(3) - 1.0;
       return std::clamp(std::nextafter(edge, edge + towards), 0.0, 1.0);
     }
