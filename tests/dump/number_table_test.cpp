@@ -132,5 +132,12 @@ TEST_F(NumberTableFile, OfTextWithoutANumberHasNoRows) {
   }
 }
 
+TEST_F(NumberTableFile, OfNumPyNamesAnyTypeInOneLine) {
+  const std::string said =
+      refusal(write("a.npy", test::npy_header("\n\x1b[2J" + std::string(1000, 'x'), "(1,)")));
+  EXPECT_THAT(said, HasSubstr("NumPy's type \\x0a\\x1b[2Jxxx"));
+  EXPECT_LT(said.size(), 400U);
+}
+
 }  // namespace
 }  // namespace lightproof

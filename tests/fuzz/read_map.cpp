@@ -55,7 +55,8 @@ void read_map(const std::filesystem::path& file, Input choice) {
     const EnvironmentMap map = read_environment_map(file, options);
     require_radiance(map);
     double light = 0.0;
-    for (const double luminance : luminance_of(map).values()) light += luminance;
+    const Grid<double> luminance = luminance_of(map);
+    for (const double of_texel : luminance.values()) light += of_texel;
     if (!(light > 0.0) || !std::isfinite(light)) fail(fmt::format("a map of the light {}", light));
     is_read = true;
   });
