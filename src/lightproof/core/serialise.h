@@ -126,8 +126,6 @@ class ValueReader {
   }
 
   bool is_at_end() const { return bytes_.empty(); }
-  /// Bytes that are left: whoever takes memory for values asks whether they can be there.
-  std::size_t left() const { return bytes_.size(); }
 
  private:
   template <std::floating_point Number>
