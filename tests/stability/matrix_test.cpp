@@ -3,55 +3,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <iterator>
 #include <set>
-#include <vector>
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/serialise.h"
 #include "lightproof/stability/stability.h"
-#include "tests/core/trap_floating_point.h"
 
 namespace lightproof {
 namespace {
 
 using testing::HasSubstr;
 
-/// The methods of a list that are, or are not, kept as published.
-template <class Method>
-std::vector<Method> part_of(const std::vector<Method>& methods, bool published) {
-  std::vector<Method> part;
-  for (const Method& method : methods) {
-    if (has_known_defects(method) == published) part.push_back(method);
-  }
-  return part;
-}
-
-StabilityMethods part_of(const StabilityMethods& all, bool published) {
-  return {part_of(all.samplers, published),    part_of(all.warps, published),
-          part_of(all.lobes, published),       part_of(all.frames, published),
-          part_of(all.prefilters, published),  part_of(all.reflectivities, published),
-          part_of(all.brdf_tables, published), part_of(all.means, published),
-          part_of(all.estimators, published),  part_of(all.point_sets, published),
-          part_of(all.formats, published)};
-}
-
-/// What every method does. Of one that is right, none of its operations may give NaN or an
-/// infinity, not even if that is thrown away: the trap ends this program.
 const StabilityResult& all() {
-  static const StabilityResult result = [] {
-    const StabilityMethods methods = all_stability_methods();
-    StabilityResult right;
-    {
-      const test::TrapFloatingPoint trap;
-      right = run_stability(part_of(methods, false), {});
-    }
-    StabilityResult published = run_stability(part_of(methods, true), {});
-    std::ranges::move(published.records, std::back_inserter(right.records));
-    return right;
-  }();
+  static const StabilityResult result = run_stability(all_stability_methods(), {});
   return result;
 }
 
