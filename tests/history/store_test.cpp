@@ -261,5 +261,25 @@ TEST_F(History, MayHaveViewsOfItsOwner) {
   EXPECT_EQ(HistoryStore::open_to_write(file()).add(some_run(1)), 2);
 }
 
+// SQLite says what is damaged in several lines.
+TEST_F(History, RefusesDamageInOneLine) {
+  fill(1);
+  execute("PRAGMA journal_mode = DELETE");
+  std::size_t said = 0;
+  const std::string whole = bytes_of(file());
+  for (std::size_t at = 4096; at < whole.size(); at += 509) {
+    std::string bytes = whole;
+    bytes[at] = static_cast<char>(bytes[at] ^ 0x55);
+    std::ofstream(file(), std::ios::binary) << bytes;
+    try {
+      HistoryStore::open_to_read(file()).runs();
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos) << error.what();
+      ++said;
+    }
+  }
+  EXPECT_GT(said, 3U);
+}
+
 }  // namespace
 }  // namespace lightproof

@@ -56,7 +56,9 @@ constexpr std::string_view kView = R"(CREATE VIEW history AS
          datetime(started, 'unixepoch') AS started
   FROM measurements JOIN runs ON runs.id = measurements.run)";
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& why) {
+/// Of several lines, as SQLite gives them, it makes one.
+[[noreturn]] void refuse(const fs::path& file, std::string why) {
+  std::ranges::replace(why, '\n', ' ');
   throw InputError(fmt::format("{}: {}", file.string(), why));
 }
 
