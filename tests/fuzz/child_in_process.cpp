@@ -18,10 +18,10 @@ void fuzz::set_child(ChildInProcess& child) {
 }
 
 ChildConversation::ChildConversation(const std::filesystem::path& /*program*/,
-                                     const std::vector<std::string>& /*arguments*/, int file,
-                                     std::chrono::milliseconds patience)
+                                     const std::vector<std::string>& /*arguments*/,
+                                     std::span<const int> files, std::chrono::milliseconds patience)
     : patience_(patience) {
-  current->begin(file);
+  current->begin(files.empty() ? -1 : files.front());
 }
 
 ChildConversation::~ChildConversation() { current->end(); }
