@@ -24,6 +24,12 @@ ChildConversation::ChildConversation(const std::filesystem::path& /*program*/,
   current->begin(files.empty() ? -1 : files.front());
 }
 
+ChildConversation::ChildConversation(const std::filesystem::path& program,
+                                     const std::vector<std::string>& arguments, int file,
+                                     std::chrono::milliseconds patience)
+    : ChildConversation(program, arguments, file < 0 ? std::span<const int>() : std::span(&file, 1),
+                        patience) {}
+
 ChildConversation::~ChildConversation() { current->end(); }
 
 Exchange ChildConversation::send(std::span<const std::byte> bytes) {
