@@ -147,6 +147,12 @@ TEST_F(CheckCommand, RefusesWhatItCannotRead) {
   EXPECT_THAT(refusal(path("nowhere.npy"), {}), HasSubstr("No such file"));
   std::ofstream(dump + ".json") << "[1]";
   EXPECT_THAT(refusal(dump, {"--columns", "x,y,z,pdf,-"}), HasSubstr("is no JSON object"));
+  const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']');
+  std::ofstream(dump + ".json") << R"({"columns": )" << deep << "}";
+  EXPECT_THAT(refusal(dump, {"--columns", "x,y,z,pdf,-"}), HasSubstr("is no JSON object"));
+  std::filesystem::remove(dump + ".json");
+  std::filesystem::create_directory(dump + ".json");
+  EXPECT_THAT(refusal(dump, {"--columns", "x,y,z,pdf,-"}), HasSubstr("is no JSON object"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cfenv>
 #include <chrono>
 #include <cstdlib>
 #include <mutex>
@@ -102,6 +103,20 @@ int loops_cut_short() {
 TEST(ParallelFor, ReturnsOnlyWithAllWorkDone) {
   // How the threads meet differs from round to round.
   for (int round = 0; round < 50; ++round) EXPECT_EQ(loops_cut_short(), 0);
+}
+
+TEST(ParallelFor, ComputesAsTheCallerDoes) {
+  const int before = std::fegetround();
+  for (const int rounding : {FE_UPWARD, FE_TONEAREST, FE_DOWNWARD}) {
+    std::fesetround(rounding);
+    std::atomic<int> others = 0;
+    parallel_for(8, [&](std::size_t) {
+      parallel_for(8, [&](std::size_t) { others += std::fegetround() == rounding ? 0 : 1; });
+    });
+    EXPECT_EQ(others, 0) << rounding;
+    EXPECT_EQ(std::fegetround(), rounding);
+  }
+  std::fesetround(before);
 }
 
 TEST(ParallelFor, WorksAfterAnException) {

@@ -116,5 +116,28 @@ TEST_F(NumberTableFile, IsRefusedForWhatItIsNot) {
   EXPECT_THAT(refusal("/"), HasSubstr("is a folder"));
 }
 
+// An exponent may be any number: what it says of decimals is bounded.
+TEST_F(NumberTableFile, OfTextTakesExponentsOfAnySize) {
+  const NumberTable table(
+      write("a.csv", "1e-2147483648,1e2147483647,1e-99999999999999999999,0.25e+3\n"), std::nullopt,
+      0);
+  EXPECT_THAT(all_of(table), ElementsAre(0.0, testing::_, testing::_, 250.0));
+  EXPECT_EQ(table.rounding(), 0.5e-16);
+}
+
+TEST_F(NumberTableFile, OfTextWithoutANumberHasNoRows) {
+  for (const char* text : {",", "\n", "# a note\n", "x,y,z\n", " \t\r\n;"}) {
+    EXPECT_THAT(refusal(write("a.csv", text)), HasSubstr("has no rows")) << text;
+    EXPECT_THAT(refusal(write("a.csv", text), 3), HasSubstr("has no rows")) << text;
+  }
+}
+
+TEST_F(NumberTableFile, OfNumPyNamesAnyTypeInOneLine) {
+  const std::string said =
+      refusal(write("a.npy", test::npy_header("\n\x1b[2J" + std::string(1000, 'x'), "(1,)")));
+  EXPECT_THAT(said, HasSubstr("NumPy's type \\x0a\\x1b[2Jxxx"));
+  EXPECT_LT(said.size(), 400U);
+}
+
 }  // namespace
 }  // namespace lightproof

@@ -213,5 +213,49 @@ TEST_F(GoogleBenchmark, RefusesARepetitionThatIsThereTwice) {
               HasSubstr("benchmarks[1]: repetition 0 of kernel/1 is there twice"));
 }
 
+// Copying or printing such a value would overflow the stack.
+TEST_F(GoogleBenchmark, RefusesValuesThatLieTooDeepInEachOther) {
+  for (const std::string& open : {std::string(1'000'000, '['), std::string(65, '[')}) {
+    const std::string close(open.size(), ']');
+    EXPECT_THAT(refusal_of(open + close), HasSubstr("lie too deep in each other"));
+    EXPECT_THAT(refusal_of(open), HasSubstr("lie too deep in each other"));
+  }
+  std::string text = document().dump();
+  text.insert(text.size() - 1, ", \"more\": " + std::string(63, '[') + std::string(63, ']'));
+  EXPECT_EQ(refusal_of(text), "");
+}
+
+TEST_F(GoogleBenchmark, RefusesWholeNumbersThatAreNone) {
+  for (const Json& number : {Json(1e300), Json(-1), Json(0.5), Json(1LL << 40U), Json("1")}) {
+    Json json = document();
+    json["benchmarks"][0]["repetition_index"] = number;
+    EXPECT_THAT(refusal_of(json), HasSubstr("benchmarks[0].repetition_index: " + number.dump()));
+    json = document();
+    json["context"].erase("machine");
+    json["context"]["num_cpus"] = number;
+    EXPECT_THAT(refusal_of(json), HasSubstr("context.num_cpus: " + number.dump()));
+  }
+}
+
+TEST_F(GoogleBenchmark, RefusesATimeThatIsTooLongForANumber) {
+  Json json = document();
+  json["benchmarks"][0]["time_unit"] = "s";
+  json["benchmarks"][0]["cpu_time"] = 1e300;
+  EXPECT_THAT(refusal_of(json), HasSubstr("benchmarks[0].cpu_time: inf is not a positive number"));
+}
+
+TEST_F(GoogleBenchmark, ShowsTheBeginningOfWhatIsNotOfTheRightType) {
+  Json json = document();
+  json["benchmarks"][0]["cpu_time"] = std::string(100'000, 'x');
+  const std::string refusal = refusal_of(json);
+  EXPECT_THAT(refusal, HasSubstr("…"));
+  EXPECT_LT(refusal.size(), 400U);
+}
+
+TEST(GoogleBenchmarkFile, MayNotBeAFolder) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(read_google_benchmark(folder / ""), InputError);
+}
+
 }  // namespace
 }  // namespace lightproof

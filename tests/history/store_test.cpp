@@ -172,11 +172,13 @@ TEST_F(History, OfTheFirstVersionIsReadAndBroughtUpToDate) {
   // As version 1 was made: its measurements knew no errors.
   execute(
       "DROP VIEW history; ALTER TABLE measurements RENAME TO latest;"
-      "CREATE TABLE measurements (run INTEGER NOT NULL REFERENCES runs (id), benchmark TEXT NOT "
-      "NULL,"
-      " metric TEXT NOT NULL CHECK (metric IN ('ns', 'instructions')), repetition INTEGER NOT NULL,"
-      " value REAL NOT NULL CHECK (value > 0), PRIMARY KEY (run, benchmark, metric, repetition))"
-      " WITHOUT ROWID;"
+      "CREATE TABLE measurements (\n"
+      "  run        INTEGER NOT NULL REFERENCES runs (id),\n"
+      "  benchmark  TEXT NOT NULL,\n"
+      "  metric     TEXT NOT NULL CHECK (metric IN ('ns', 'instructions')),\n"
+      "  repetition INTEGER NOT NULL,\n"
+      "  value      REAL NOT NULL CHECK (value > 0),\n"
+      "  PRIMARY KEY (run, benchmark, metric, repetition)) WITHOUT ROWID;"
       "INSERT INTO measurements SELECT * FROM latest; DROP TABLE latest;"
       "CREATE VIEW history AS SELECT value FROM measurements;"
       "PRAGMA user_version = 1");
@@ -227,6 +229,56 @@ TEST_F(History, RefusesAFileThatWasCutShort) {
   fill(40);
   fs::resize_file(file(), fs::file_size(file()) / 2);
   expect_refused("is damaged");
+}
+
+// What runs when it is looked at is not looked at: a view without an end, a check that takes all
+// memory, somebody else's tables.
+TEST_F(History, RefusesTablesThatAreNotItsOwn) {
+  const std::vector<std::string> harms = {
+      "DROP VIEW history; DROP TABLE runs;"
+      "CREATE VIEW runs AS WITH RECURSIVE n(id) AS (SELECT 1 UNION ALL SELECT id + 1 FROM n)"
+      " SELECT id, '' AS session, 0 AS started, '' AS machine, '' AS compiler, '' AS flags,"
+      " '' AS \"commit\", id AS digest, 0 AS checksum FROM n",
+      "CREATE TABLE more (bytes CHECK (length(zeroblob(1000000000)) > 0)); INSERT INTO more VALUES "
+      "(1)",
+      "CREATE TRIGGER late AFTER INSERT ON runs BEGIN DELETE FROM runs; END",
+      "CREATE INDEX slow ON runs (length(zeroblob(1000000000)))",
+      "DROP VIEW history; ALTER TABLE runs ADD COLUMN more AS (zeroblob(1000000000))",
+      "DROP VIEW history; DROP TABLE measurements"};
+  for (const std::string& harm : harms) {
+    SCOPED_TRACE(harm);
+    fs::remove(file());
+    fill(1);
+    execute(("PRAGMA journal_mode = DELETE;" + harm).c_str());
+    expect_refused("is damaged");
+  }
+}
+
+TEST_F(History, MayHaveViewsOfItsOwner) {
+  fill(1);
+  execute("CREATE VIEW mine AS SELECT value FROM history");
+  EXPECT_EQ(HistoryStore::open_to_read(file()).runs().size(), 1U);
+  EXPECT_EQ(HistoryStore::open_to_write(file()).add(some_run(1)), 2);
+}
+
+// SQLite says what is damaged in several lines.
+TEST_F(History, RefusesDamageInOneLine) {
+  fill(1);
+  execute("PRAGMA journal_mode = DELETE");
+  std::size_t said = 0;
+  const std::string whole = bytes_of(file());
+  for (std::size_t at = 4096; at < whole.size(); at += 509) {
+    std::string bytes = whole;
+    bytes[at] = static_cast<char>(bytes[at] ^ 0x55);
+    std::ofstream(file(), std::ios::binary) << bytes;
+    try {
+      HistoryStore::open_to_read(file()).runs();
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos) << error.what();
+      ++said;
+    }
+  }
+  EXPECT_GT(said, 3U);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "lightproof/image/decoder_program.h"
 #include "lightproof/image/image_file.h"
 #include "lightproof/image/stored_picture.h"
+#include "lightproof/image/stored_picture_checks.h"
 #include "lightproof/image/writer.h"
 #include "tests/image/picture_files.h"
 
@@ -200,6 +201,20 @@ TEST_F(DecoderProgram, ReadsTheFileThatWasOpenedWhateverBecomesOfItsName) {
   fs::remove(file_);
   const Grid<Rgb> picture = image.read_pixels();
   EXPECT_TRUE(std::ranges::equal(picture.values(), test::numbered_picture({64, 32}).values()));
+}
+
+// Sizes of tiles are divided by.
+TEST(StoredPictureChecks, TakeTilesWithBothSidesOrNone) {
+  StoredPicture stored;
+  stored.data = {.width = 4, .height = 2};
+  stored.display = stored.data;
+  EXPECT_TRUE(is_possible(stored));
+  stored.tile_width = 16;
+  EXPECT_FALSE(is_possible(stored));
+  stored.tile_height = 16;
+  EXPECT_TRUE(is_possible(stored));
+  stored.tile_width = 0;
+  EXPECT_FALSE(is_possible(stored));
 }
 
 }  // namespace

@@ -178,5 +178,25 @@ TEST_F(Results, GoNowhereIfTheFolderIsAFile) {
   EXPECT_THAT(refusal(Overwriting::refused), HasSubstr("not a folder"));
 }
 
+TEST_F(Results, RefuseAManifestThatLiesTooDeepInItself) {
+  fs::create_directories(folder());
+  put(file("manifest.json"), std::string(1'000'000, '['));
+  EXPECT_THAT(refusal(Overwriting::of_listed_files), HasSubstr("is no manifest"));
+  const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']');
+  put(file("manifest.json"), R"({"format": )" + deep + "}");
+  EXPECT_THAT(refusal(Overwriting::of_listed_files), HasSubstr("is no manifest"));
+}
+
+// What cannot be looked at could not be removed in the end.
+TEST_F(Results, RefuseAManifestThatListsANameThatIsTooLong) {
+  write_manifest("[\"" + std::string(300, 'x') + "\"]");
+  EXPECT_THAT(refusal(Overwriting::of_listed_files), HasSubstr("xxx', which cannot be looked at"));
+}
+
+TEST_F(Results, RefuseAManifestThatIsAFolder) {
+  fs::create_directories(file("manifest.json"));
+  EXPECT_THAT(refusal(Overwriting::of_listed_files), HasSubstr("is no manifest"));
+}
+
 }  // namespace
 }  // namespace lightproof

@@ -50,6 +50,26 @@ TEST(WeightVectors, WeighByLuminanceAndArea) {
   });
 }
 
+TEST(WeightVectors, SayWhetherEachWeightIsPossible) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  for_each_kind_of_vector([&](const char* vectors) {
+    SCOPED_TRACE(vectors);
+    std::vector<double> weights(kMost);
+    std::vector<Rgb> texels = texels_of(kMost);
+    texels[7] = Rgb(-0.0F);
+    texels[8] = Rgb(std::numeric_limits<float>::max());
+    EXPECT_TRUE(weigh(texels, kRec709, 0.3, weights).are_possible);
+    for (std::size_t at = 0; at < kMost; ++at) {
+      for (const float value : {kNaN, -kNaN, kInfinity, -kInfinity, -1e-30F}) {
+        std::vector<Rgb> faulty = texels;
+        faulty[at] = Rgb(0.0F, value, 0.0F);
+        EXPECT_FALSE(weigh(faulty, kRec709, 0.3, weights).are_possible) << at << " " << value;
+      }
+    }
+  });
+}
+
 // Texels are asked for some thousand before they are read, as far as there are any.
 TEST(WeightVectors, WeighNoMoreThanTheyAreAskedFor) {
   constexpr std::size_t kTexels = 5000;
@@ -138,7 +158,8 @@ TEST(WeightVectors, DoWholeVectors) {
     SCOPED_TRACE(vectors);
     for (std::size_t count = 0; count <= kMost; ++count) {
       std::vector<double> weights(count);
-      expect_whole_vectors(vectors, weigh(std::span(texels).first(count), kRec709, 1.0, weights),
+      expect_whole_vectors(vectors,
+                           weigh(std::span(texels).first(count), kRec709, 1.0, weights).by_vectors,
                            count, 2 * kWidestVector);
       expect_whole_vectors(vectors, WeightSums().add(std::span(all).first(count)), count);
       std::vector<std::int64_t> fixed(count);

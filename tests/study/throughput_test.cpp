@@ -141,11 +141,14 @@ TEST_F(ThroughputFile, ABenchmarkThatFailedIsNotLeftOutSilently) {
 }
 
 TEST_F(ThroughputFile, WhatIsNotGoogleBenchmarksIsRefusedByName) {
+  const std::string deep = R"({"benchmarks":[], "context": )" + std::string(1'000'000, '[') +
+                           std::string(1'000'000, ']') + "}";
   const std::string huge = "{\"benchmarks\":[" + run("sample/a/b/99999999999x1/random", 9) + "]}";
   for (const std::string_view text :
        {std::string_view(""), std::string_view("not json"), std::string_view("[]"),
         std::string_view("{\"benchmarks\":[]}"),
-        std::string_view("{\"benchmarks\":[{\"run_type\":3}]}"), std::string_view(huge)}) {
+        std::string_view("{\"benchmarks\":[{\"run_type\":3}]}"), std::string_view(huge),
+        std::string_view(deep)}) {
     write(text);
     try {
       read_throughput(file_);
@@ -155,6 +158,7 @@ TEST_F(ThroughputFile, WhatIsNotGoogleBenchmarksIsRefusedByName) {
     }
   }
   EXPECT_THROW(read_throughput("/no/such/file.json"), InputError);
+  EXPECT_THROW(read_throughput("/"), InputError);
 }
 
 TEST(MeasureThroughput, AProgramThatCannotRunIsNamed) {

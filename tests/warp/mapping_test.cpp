@@ -208,5 +208,14 @@ TEST(Mapping, NamesWhatASizeLacks) {
   for (const MappingInfo& each : mappings()) EXPECT_EQ(info(each.kind).name, each.name);
 }
 
+// What a dump of another program may name. Under the undefined-behaviour sanitizer.
+TEST(CubeMapping, TakesPointsThatAreNone) {
+  const Mapping faces = {MappingKind::cube_strip};
+  const double nan = std::nan("");
+  EXPECT_TRUE(std::isnan(solid_angle_per_square(faces, {nan, nan})));
+  EXPECT_TRUE(std::isfinite(solid_angle_per_square(faces, {1e300, 0.5})));
+  EXPECT_FALSE(solid_angle_per_square(faces, square_point_of(faces, {nan, nan, nan})) > 0.0);
+}
+
 }  // namespace
 }  // namespace lightproof

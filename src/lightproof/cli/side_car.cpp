@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/file_content.h"
+#include "lightproof/core/json_text.h"
 
 namespace lightproof::cli {
 namespace {
@@ -43,8 +44,9 @@ std::optional<DumpDescription> read_side_car(const std::string& dump) {
   const std::string file = dump + ".json";
   std::error_code unreadable;
   if (dump == "-" || !std::filesystem::exists(file, unreadable)) return std::nullopt;
-  std::ifstream stream(file);
-  const Json document = Json::parse(stream, nullptr, false);
+  const std::string text = content_of(file).value_or("");
+  const Json document =
+      json_depth(text) > kDeepestJson ? Json() : Json::parse(text, nullptr, false);
   if (!document.is_object()) {
     throw InputError(
         fmt::format("{}: is no JSON object; it lies beside the dump, and would say what "

@@ -5,13 +5,13 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
-#include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/file_content.h"
 #include "lightproof/core/random.h"
 #include "lightproof/core/serialise.h"
 #include "lightproof/core/system_call.h"
@@ -32,10 +32,7 @@ constexpr std::size_t kHeadBytes = 16;
 
 CellLog::CellLog(std::filesystem::path file) : path_(std::move(file)) {
   std::size_t whole = 0;
-  {
-    std::ifstream in(path_, std::ios::binary);
-    if (in) whole = read(std::string{std::istreambuf_iterator<char>(in), {}});
-  }
+  if (const std::optional<std::string> content = content_of(path_)) whole = read(*content);
   descriptor_ = uninterrupted(
       [&] { return ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, kMode); });
   if (descriptor_ < 0) fail(path_, errno);

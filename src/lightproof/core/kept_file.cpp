@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <exception>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "lightproof/core/atomic_file.h"
+#include "lightproof/core/file_content.h"
 #include "lightproof/core/random.h"
 #include "lightproof/core/serialise.h"
 
@@ -16,16 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kMark = "lightproof kept file 1";
-
-std::optional<std::string> content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
-  try {
-    return std::string{std::istreambuf_iterator<char>(in), {}};
-  } catch (const std::ios_base::failure&) {  // a folder, for example
-    return std::nullopt;
-  }
-}
 
 }  // namespace
 

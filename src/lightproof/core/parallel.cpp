@@ -67,6 +67,7 @@ void run_tasks(std::size_t count, const std::function<void(std::size_t)>& body) 
   Handover handover;
   handover.give_tasks();
   tbb::task_group_context context;
+  context.capture_fp_settings();
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, count, 1),
       [&](const tbb::blocked_range<std::size_t>& range) {

@@ -12,7 +12,7 @@ namespace lightproof {
 
 /// Runs body(0) … body(count-1), each once, in any order. Between tasks it throws Interrupted if
 /// request_interrupt() was called. The first exception of a task is passed on; loops inside other
-/// tasks are then abandoned with Interrupted, which goes no further.
+/// tasks are then abandoned with Interrupted, which goes no further. Tasks round as callers do.
 ///
 /// Loops may be nested. A thread that waits inside of a task for an inner loop takes part in that
 /// loop alone, and begins no other task of the outer one: what outer tasks hold in memory is held

@@ -50,6 +50,17 @@ bool has_end(ByteReader& bytes) {
   return false;
 }
 
+/// What libpng keeps of a picture.
+struct PngStructs {
+  PngStructs() = default;
+  ~PngStructs() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngStructs(const PngStructs&) = delete;
+  PngStructs& operator=(const PngStructs&) = delete;
+
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+};
+
 class PngDecoder : public PictureDecoder {
  public:
   explicit PngDecoder(ByteReader& bytes) {
@@ -57,20 +68,17 @@ class PngDecoder : public PictureDecoder {
       refuse("cannot be read as PNG: the file is cut off before its end marker");
     }
     bytes.seek(0);
-    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, ignore);
-    if (png_ != nullptr) info_ = png_create_info_struct(png_);
-    if (info_ == nullptr) throw std::bad_alloc();
-    png_set_read_fn(png_, &bytes, read_bytes);
-    png_set_user_limits(png_, static_cast<unsigned>(kLargestPicture.width),
+    structs_.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, ignore);
+    if (structs_.png != nullptr) structs_.info = png_create_info_struct(structs_.png);
+    if (structs_.info == nullptr) throw std::bad_alloc();
+    png_set_read_fn(structs_.png, &bytes, read_bytes);
+    png_set_user_limits(structs_.png, static_cast<unsigned>(kLargestPicture.width),
                         static_cast<unsigned>(kLargestPicture.width));
-    png_set_chunk_malloc_max(png_, kLargestChunk);
-    png_read_info(png_, info_);
+    png_set_chunk_malloc_max(structs_.png, kLargestChunk);
+    png_read_info(structs_.png, structs_.info);
     note_colours();
     choose_form();
   }
-  ~PngDecoder() override { png_destroy_read_struct(&png_, &info_, nullptr); }
-  PngDecoder(const PngDecoder&) = delete;
-  PngDecoder& operator=(const PngDecoder&) = delete;
 
   const StoredPicture& picture() const override { return stored_; }
 
@@ -91,7 +99,7 @@ class PngDecoder : public PictureDecoder {
     } else {
       std::vector<std::uint8_t> row(row_bytes());
       read_rows(take, [&](std::uint64_t /*y*/) {
-        png_read_row(png_, row.data(), nullptr);
+        png_read_row(structs_.png, row.data(), nullptr);
         return std::span<const std::uint8_t>(row);
       });
     }
@@ -99,40 +107,40 @@ class PngDecoder : public PictureDecoder {
 
  private:
   std::uint64_t height() const { return static_cast<std::uint64_t>(stored_.data.height); }
-  std::size_t row_bytes() const { return png_get_rowbytes(png_, info_); }
+  std::size_t row_bytes() const { return png_get_rowbytes(structs_.png, structs_.info); }
 
   void note_colours() {
     double gamma = 0.0;
     // sRGB says how the values are encoded, and gAMA beside it the nearest power.
-    const bool is_srgb = png_get_valid(png_, info_, PNG_INFO_sRGB) != 0;
-    if (!is_srgb && png_get_gAMA(png_, info_, &gamma) != 0 && gamma > 0.0) {
+    const bool is_srgb = png_get_valid(structs_.png, structs_.info, PNG_INFO_sRGB) != 0;
+    if (!is_srgb && png_get_gAMA(structs_.png, structs_.info, &gamma) != 0 && gamma > 0.0) {
       stored_.gamma = 1.0 / gamma;
     }
     png_charp name = nullptr;
     int compression = 0;
     png_bytep profile = nullptr;
     png_uint_32 length = 0;
-    if (png_get_iCCP(png_, info_, &name, &compression, &profile, &length) != 0) {
+    if (png_get_iCCP(structs_.png, structs_.info, &name, &compression, &profile, &length) != 0) {
       stored_.profile = profile_name({profile, length});
     }
     png_bytep exif = nullptr;
     png_uint_32 exif_bytes = 0;
-    if (png_get_eXIf_1(png_, info_, &exif_bytes, &exif) != 0) {
+    if (png_get_eXIf_1(structs_.png, structs_.info, &exif_bytes, &exif) != 0) {
       stored_.exif_orientation = exif_orientation({exif, exif_bytes});
     }
   }
 
   /// Palettes become colours, fewer bits 8; 16 bits in the order of this machine.
   void choose_form() {
-    png_set_expand(png_);
-    if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);
-    is_interlaced_ = png_set_interlace_handling(png_) > 1;
-    png_read_update_info(png_, info_);
-    stored_.data = {.width = png_get_image_width(png_, info_),
-                    .height = png_get_image_height(png_, info_)};
+    png_set_expand(structs_.png);
+    if constexpr (std::endian::native == std::endian::little) png_set_swap(structs_.png);
+    is_interlaced_ = png_set_interlace_handling(structs_.png) > 1;
+    png_read_update_info(structs_.png, structs_.info);
+    stored_.data = {.width = png_get_image_width(structs_.png, structs_.info),
+                    .height = png_get_image_height(structs_.png, structs_.info)};
     stored_.display = stored_.data;
-    is_wide_ = png_get_bit_depth(png_, info_) == 16;
-    const auto count = static_cast<std::size_t>(png_get_channels(png_, info_));
+    is_wide_ = png_get_bit_depth(structs_.png, structs_.info) == 16;
+    const auto count = static_cast<std::size_t>(png_get_channels(structs_.png, structs_.info));
     const std::vector<std::string> names = count < 3 ? std::vector<std::string>{"Y", "A"}
                                                      : std::vector<std::string>{"R", "G", "B", "A"};
     for (std::size_t i = 0; i < std::min(count, names.size()); ++i) {
@@ -145,7 +153,7 @@ class PngDecoder : public PictureDecoder {
     std::vector<std::uint8_t> whole(height() * row_bytes());
     std::vector<png_bytep> rows(height());
     for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = &whole[y * row_bytes()];
-    png_read_image(png_, rows.data());
+    png_read_image(structs_.png, rows.data());
     read_rows(take,
               [&](std::uint64_t y) { return std::span<const std::uint8_t>(rows[y], row_bytes()); });
   }
@@ -179,8 +187,7 @@ class PngDecoder : public PictureDecoder {
     }
   }
 
-  png_structp png_ = nullptr;
-  png_infop info_ = nullptr;
+  PngStructs structs_;
   StoredPicture stored_;
   std::vector<std::size_t> channels_;
   bool is_interlaced_ = false;

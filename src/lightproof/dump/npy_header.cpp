@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/text_escapes.h"
 
 namespace lightproof {
 namespace {
 
 constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr std::size_t kVersionEnd = 8;
+constexpr std::size_t kShownCharacters = 40;
 
 [[noreturn]] void refuse_header(const std::string& file, std::string_view reason) {
   throw InputError(fmt::format("{}: {}", file, reason));
@@ -99,7 +101,8 @@ NpyHeader read_npy_header(const std::string& file, std::span<const std::byte> by
     refuse_header(file,
                   fmt::format("holds numbers of NumPy's type {}: little-endian floats, <f4 or "
                               "<f8, are needed; numpy.asarray(samples, '<f4') makes them",
-                              name.empty() ? "that is not named" : name));
+                              name.empty() ? "that is not named"
+                                           : terminal_text(name.substr(0, kShownCharacters))));
   }
   header.number_size = name == "<f4" ? 4 : 8;
   const auto order = value_of(dictionary, "fortran_order");

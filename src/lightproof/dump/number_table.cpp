@@ -89,6 +89,8 @@ NumberTable::NumberTable(const std::string& file, std::optional<NumberFormat> fo
       open_text(name);
       break;
   }
+  // Of a text the columns are those of its rows.
+  if (rows_ == 0) throw InputError(name + ": has no rows");
   if (columns != 0 && columns != columns_) {
     throw InputError(
         fmt::format("{}: its rows have {} numbers, --columns names {}", name, columns_, columns));
@@ -101,7 +103,6 @@ NumberTable::NumberTable(const std::string& file, std::optional<NumberFormat> fo
                     "row {} (counted from 0)",
                     name, rows_, columns_, left / row_bytes));
   }
-  if (rows_ == 0) throw InputError(name + ": has no rows");
 }
 
 void NumberTable::open_raw(const std::string& name, std::size_t columns) {

@@ -18,6 +18,8 @@ namespace {
 
 /// Rows from which it is taken how exact numbers are.
 constexpr std::uint64_t kRowsForRounding = 1000;
+/// More than a double has.
+constexpr std::int64_t kMostDecimals = 1000;
 constexpr std::size_t kBuffered = std::size_t{1} << 16U;
 
 struct Close {
@@ -89,7 +91,7 @@ bool parse(std::string_view word, double& number) {
 int decimals_of(std::string_view word) {
   const std::size_t exponent_at = word.find_first_of("eE");
   const std::string_view mantissa = word.substr(0, exponent_at);
-  int exponent = 0;
+  std::int64_t exponent = 0;
   if (exponent_at != std::string_view::npos) {
     const char* begin = word.data() + exponent_at + 1;
     if (begin != word.data() + word.size() && *begin == '+') ++begin;
@@ -97,7 +99,10 @@ int decimals_of(std::string_view word) {
   }
   const std::size_t point = mantissa.find('.');
   const std::size_t after = point == std::string_view::npos ? 0 : mantissa.size() - point - 1;
-  return std::max(0, static_cast<int>(after) - exponent);
+  // Nobody asks for more than some, and a text may say any number.
+  exponent = std::clamp<std::int64_t>(exponent, -kMostDecimals, kMostDecimals);
+  const auto decimals = static_cast<std::int64_t>(std::min<std::size_t>(after, kMostDecimals));
+  return static_cast<int>(std::clamp<std::int64_t>(decimals - exponent, 0, kMostDecimals));
 }
 
 std::string unquoted(std::string_view word) {

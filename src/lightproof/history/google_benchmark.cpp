@@ -2,15 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <fstream>
-#include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <tuple>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/file_content.h"
+#include "lightproof/core/json_text.h"
 #include "lightproof/core/random.h"
 
 namespace lightproof {
@@ -31,12 +34,20 @@ namespace {
 using Json = nlohmann::json;
 
 std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in || text.empty()) {
-    throw InputError(fmt::format("{}: {}", file.string(), in ? "is empty" : "cannot be read"));
+  const std::optional<std::string> text = content_of(file);
+  if (!text || text->empty()) {
+    throw InputError(fmt::format("{}: {}", file.string(), text ? "is empty" : "cannot be read"));
   }
-  return text;
+  return *text;
+}
+
+constexpr std::size_t kShownCharacters = 60;
+
+[[noreturn]] void refuse_value(const Json& value, const std::string& location) {
+  const std::string text = value.dump();
+  throw InputError(fmt::format("{}: {}{} is not of the right type", location,
+                               text.substr(0, kShownCharacters),
+                               text.size() > kShownCharacters ? "…" : ""));
 }
 
 /// `value` as a T. Throws InputError, which names the place.
@@ -45,8 +56,17 @@ T as(const Json& value, const std::string& location) {
   try {
     return value.get<T>();
   } catch (const Json::exception&) {
-    throw InputError(fmt::format("{}: {} is not of the right type", location, value.dump()));
+    refuse_value(value, location);
   }
+}
+
+/// `value` as a number from 0 on. Throws InputError, which names the place.
+template <>
+int as<int>(const Json& value, const std::string& location) {
+  if (!value.is_number_integer() || value < 0 || value > std::numeric_limits<int>::max()) {
+    refuse_value(value, location);
+  }
+  return value.get<int>();
 }
 
 template <class T>
@@ -105,7 +125,9 @@ Measurement measurement_of(const Json& entry, const std::string& location) {
     throw InputError(fmt::format("{}: {} failed: {}", location, name,
                                  entry.value("error_message", "no reason is given")));
   }
-  Measurement measurement{name, Metric::nanoseconds, entry.value("repetition_index", 0), 0.0};
+  const int repetition =
+      entry.contains("repetition_index") ? member<int>(entry, "repetition_index", location) : 0;
+  Measurement measurement{name, Metric::nanoseconds, repetition, 0.0};
   for (const Metric metric : {Metric::instructions, Metric::error}) {
     const char* counter = to_string(metric);
     if (!entry.contains(counter)) continue;
@@ -118,7 +140,7 @@ Measurement measurement_of(const Json& entry, const std::string& location) {
   const char* key = wall ? "real_time" : "cpu_time";
   const double unit = nanoseconds_per(member<std::string>(entry, "time_unit", location), location);
   measurement.value =
-      unit * positive(member<double>(entry, key, location), fmt::format("{}.{}", location, key));
+      positive(unit * member<double>(entry, key, location), fmt::format("{}.{}", location, key));
   return measurement;
 }
 
@@ -180,6 +202,9 @@ BenchmarkRun run_of(const Json& document, const std::string& commit) {
 BenchmarkRun read_google_benchmark(const std::filesystem::path& file, const std::string& commit) {
   const std::string text = text_of(file);
   try {
+    if (json_depth(text) > kDeepestJson) {
+      throw InputError("no result of Google Benchmark: its values lie too deep in each other");
+    }
     BenchmarkRun run = run_of(Json::parse(text), commit);
     run.digest = hash_text(text);
     return run;

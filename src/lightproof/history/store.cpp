@@ -24,9 +24,8 @@ constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kOldestVersion = 1;
 constexpr std::string_view kMagic{"SQLite format 3\0", 16};
 
-/// The view is what a person would query.
-constexpr const char* kSchema = R"(
-CREATE TABLE runs (
+/// Tables, in the words that SQLite keeps of them.
+constexpr std::string_view kRuns = R"(CREATE TABLE runs (
   id       INTEGER PRIMARY KEY,
   session  TEXT NOT NULL,
   started  INTEGER NOT NULL,
@@ -35,23 +34,31 @@ CREATE TABLE runs (
   flags    TEXT NOT NULL,
   "commit" TEXT NOT NULL,
   digest   INTEGER NOT NULL UNIQUE,
-  checksum INTEGER NOT NULL);
-)";
-constexpr const char* kMeasurements = R"(
-CREATE TABLE measurements (
+  checksum INTEGER NOT NULL))";
+constexpr std::string_view kMeasurements = R"(CREATE TABLE measurements (
   run        INTEGER NOT NULL REFERENCES runs (id),
   benchmark  TEXT NOT NULL,
   metric     TEXT NOT NULL CHECK (metric IN ('ns', 'instructions', 'error')),
   repetition INTEGER NOT NULL,
   value      REAL NOT NULL CHECK (value > 0),
-  PRIMARY KEY (run, benchmark, metric, repetition)) WITHOUT ROWID;
-CREATE VIEW history AS
+  PRIMARY KEY (run, benchmark, metric, repetition)) WITHOUT ROWID)";
+/// Those of version 1.
+constexpr std::string_view kEarlierMeasurements = R"(CREATE TABLE measurements (
+  run        INTEGER NOT NULL REFERENCES runs (id),
+  benchmark  TEXT NOT NULL,
+  metric     TEXT NOT NULL CHECK (metric IN ('ns', 'instructions')),
+  repetition INTEGER NOT NULL,
+  value      REAL NOT NULL CHECK (value > 0),
+  PRIMARY KEY (run, benchmark, metric, repetition)) WITHOUT ROWID)";
+/// What a person would query.
+constexpr std::string_view kView = R"(CREATE VIEW history AS
   SELECT machine, compiler, flags, "commit", benchmark, repetition, metric, value, run, session,
          datetime(started, 'unixepoch') AS started
-  FROM measurements JOIN runs ON runs.id = measurements.run;
-)";
+  FROM measurements JOIN runs ON runs.id = measurements.run)";
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& why) {
+/// Of several lines, as SQLite gives them, it makes one.
+[[noreturn]] void refuse(const fs::path& file, std::string why) {
+  std::ranges::replace(why, '\n', ' ');
   throw InputError(fmt::format("{}: {}", file.string(), why));
 }
 
@@ -102,8 +109,9 @@ bool is_there(const fs::path& file) {
 void make_history(const fs::path& file) {
   sqlite::Database database(file, sqlite::Mode::create);
   sqlite::Transaction transaction(database);
-  database.execute(kSchema);
-  database.execute(kMeasurements);
+  for (const std::string_view made : {kRuns, kMeasurements, kView}) {
+    database.execute(std::string(made).c_str());
+  }
   database.execute(
       fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplication, kVersion)
           .c_str());
@@ -125,8 +133,9 @@ void bring_up_to_date(sqlite::Database& database) {
   // Another process may have been faster.
   if (version_of(database) != kVersion) {
     database.execute("DROP VIEW history; ALTER TABLE measurements RENAME TO earlier");
-    database.execute(kMeasurements);
+    database.execute(std::string(kMeasurements).c_str());
     database.execute("INSERT INTO measurements SELECT * FROM earlier; DROP TABLE earlier");
+    database.execute(std::string(kView).c_str());
     database.execute(fmt::format("PRAGMA user_version = {}", kVersion).c_str());
   }
   transaction.commit();
@@ -175,6 +184,35 @@ Metric metric_of(std::string_view unit) {
   return Metric::nanoseconds;
 }
 
+/// Whether something that a database holds is what a history is made of. A view is a person's, and
+/// is not run here.
+bool is_of_history(std::string_view type, std::string_view name, std::string_view made_by) {
+  if (type == "view") return true;
+  if (type == "index") return name.starts_with("sqlite_autoindex_") && made_by.empty();
+  if (type != "table") return false;
+  if (name == "runs") return made_by == kRuns;
+  return name == "measurements" && (made_by == kMeasurements || made_by == kEarlierMeasurements);
+}
+
+/// A database is a program, too: triggers, checks, generated columns and tables that are views or
+/// modules of SQLite run when it is looked at. Nothing but what is made here is looked at.
+void require_tables(const fs::path& file, sqlite::Database& database) {
+  sqlite::Statement objects(database, "SELECT type, name, sql FROM sqlite_master");
+  int tables = 0;
+  while (objects.step()) {
+    const std::string type = objects.text(0);
+    const std::string name = objects.text(1);
+    if (!is_of_history(type, name, objects.text(2))) {
+      refuse(file,
+             fmt::format("is damaged, or no performance history of ours: the {} \"{}\" is not "
+                         "what `lightproof history` makes; a copy without it can be read",
+                         type, name));
+    }
+    tables += type == "table" ? 1 : 0;
+  }
+  if (tables != 2) refuse(file, "is damaged: a performance history has two tables");
+}
+
 /// One pass over all pages.
 void require_intact(const fs::path& file, sqlite::Database& database) {
   sqlite::Statement check(database, "PRAGMA integrity_check(1)");
@@ -197,6 +235,8 @@ HistoryStore::HistoryStore(fs::path file, bool writable) : file_(std::move(file)
     // and not by how the file is opened: the last one to close it tidies the write-ahead log away.
     connection_->database.execute(writable ? "PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON"
                                            : "PRAGMA query_only = ON");
+    connection_->database.execute("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON");
+    require_tables(file_, connection_->database);
     require_intact(file_, connection_->database);
     if (writable) bring_up_to_date(connection_->database);
   } catch (const sqlite::Error& error) {

@@ -151,7 +151,8 @@ bool is_possible(const StoredPicture& stored) {
   };
   const auto tile_fits = [](std::int64_t side) { return side >= 0 && side <= kLargestTileSide; };
   return !stored.parts.empty() && window_fits(stored.data) && window_fits(stored.display) &&
-         tile_fits(stored.tile_width) && tile_fits(stored.tile_height);
+         tile_fits(stored.tile_width) && tile_fits(stored.tile_height) &&
+         (stored.tile_width == 0) == (stored.tile_height == 0);
 }
 
 void check_header(const fs::path& file, const StoredPicture& stored, const Allowances& allow) {

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/file_content.h"
+#include "lightproof/core/json_text.h"
 #include "lightproof/core/unfinished_work.h"
 
 namespace lightproof {
@@ -39,7 +39,13 @@ std::set<std::string> names_in(const Json& files, const fs::path& manifest) {
           manifest,
           fmt::format("lists '{}', which is no plain name of a file in this folder", name));
     }
-    if (fs::is_directory(fs::symlink_status(manifest.parent_path() / name))) {
+    std::error_code error;
+    const fs::file_status status = fs::symlink_status(manifest.parent_path() / name, error);
+    if (status.type() == fs::file_type::none) {  // a name that is too long, for example
+      refuse_manifest(manifest, fmt::format("lists '{}', which cannot be looked at: {}", name,
+                                            error.message()));
+    }
+    if (fs::is_directory(status)) {
       refuse_manifest(manifest, fmt::format("lists '{}', which is a folder", name));
     }
     names.insert(name);
@@ -110,9 +116,9 @@ bool holds_something(const fs::path& folder) {
 std::set<std::string> listed_files(const fs::path& folder) {
   const fs::path manifest = folder / kManifestName;
   if (!is_there(manifest)) return {};
-  std::ifstream in(manifest, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  const Json document = Json::parse(text, nullptr, false);
+  const std::string text = content_of(manifest).value_or("");
+  const Json document =
+      json_depth(text) > kDeepestJson ? Json() : Json::parse(text, nullptr, false);
   const bool ours = document.is_object() && document.value("format", Json()) == kMarker &&
                     document.contains("files") && document["files"].is_array();
   if (!ours) refuse_manifest(manifest, "is no manifest of an earlier run");

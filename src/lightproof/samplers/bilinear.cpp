@@ -34,9 +34,14 @@ BilinearPatches::BilinearPatches(const EnvironmentMap& map, TargetDensity target
       return static_cast<float>(factor * luminance_of(rgb, target.weights));
     });
   });
-  if (std::ranges::none_of(luminance_.values(), [](float luminance) { return luminance > 0.0F; })) {
-    refuse_black(map);
+  bool is_black = true;
+  bool is_possible = true;
+  for (const float luminance : luminance_.values()) {
+    is_black = is_black && !(luminance > 0.0F);
+    is_possible = is_possible && luminance >= 0.0F && std::isfinite(luminance);
   }
+  if (!is_possible) refuse_impossible(map);
+  if (is_black) refuse_black(map);
   for (int row = 0; row <= extent.height; ++row) rows_.push_back(weigh(row));
 }
 

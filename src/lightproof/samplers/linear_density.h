@@ -47,9 +47,10 @@ class LinearTimesSine {
       const double excess = integral(low, high, q) - wanted;
       (excess > 0.0 ? above : below) = q;
       const double density = (low + (high - low) * q) * std::sin(angle_ + step_ * q);
-      const double newton = q - excess / density;
+      // Without a slope to go by, a step that leaves the bracket.
+      const double newton = density > 0.0 ? q - excess / density : below;
       if (std::abs(newton - q) <= kSmallStep * q) return std::clamp(newton, 0.0, 1.0);
-      const bool inside = newton > below && newton < above;  // false for NaN
+      const bool inside = newton > below && newton < above;
       q = inside ? newton : 0.5 * (below + above);
     }
     return q;

@@ -1,5 +1,6 @@
 #include "lightproof/samplers/linear_scan_published.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lightproof/samplers/texel_weights.h"
@@ -34,6 +35,11 @@ float to_shader_random(double u) { return static_cast<float>(std::floor(u * 0x1p
 
 LinearScanPublished::LinearScanPublished(const EnvironmentMap& map, TargetDensity target)
     : LinearScanPublished(map, target, AsListed{}) {
+  const bool is_possible = std::ranges::all_of(map.radiance.values(), [&](const Rgb& rgb) {
+    const float weight = glm::dot(weights_, rgb);
+    return weight >= 0.0F && std::isfinite(weight);
+  });
+  if (!is_possible) refuse_impossible(map);
   if (!(total_average_ > 0.0F)) refuse_black(map);
 }
 

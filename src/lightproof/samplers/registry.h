@@ -42,7 +42,8 @@ struct SamplerInfo {
   bool inverts_rows = false;  ///< u.t alone, all its 53 bits, gives the row and the share of it
   bool known_defects;         ///< kept as published, to show what the gate finds
   bool inverts_shared_cdf;    ///< must return the texel of LinearScan for every point
-  /// Builds the sampler of a map, which must outlive it. Throws InputError if the map is black.
+  /// Builds the sampler of a map, which must outlive it. Throws InputError if the map is black, or
+  /// if the luminance of a texel is negative or no finite number.
   AnySampler (*make)(const EnvironmentMap& map, DensitySpace density_space);
   /// Builds a published sampler as it is listed, without any check of the map, which may hold
   /// what is no radiance. Null for all others.

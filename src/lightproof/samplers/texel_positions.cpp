@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "lightproof/core/error.h"
 
 namespace lightproof {
@@ -20,7 +22,7 @@ MapMeasure declared_measure(DensitySpace density_space, const Mapping& mapping) 
 
 SolidAngleRows::SolidAngleRows(Extent extent)
     : height_(extent.height),
-      row_height_(1.0 / extent.height),
+      row_height_(1.0 / std::max(1, extent.height)),  // of no rows, whatever it is
       rows_per_radian_(extent.height / kPi),
       solid_angle_(4.0 * kPi / extent.width) {
   // sin^2 b - sin^2 a = sin(b + a) sin(b - a): written so, nothing cancels.

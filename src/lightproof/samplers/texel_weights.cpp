@@ -9,6 +9,7 @@
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
+#include "lightproof/image/texel_faults.h"
 #include "lightproof/samplers/weight_vectors.h"
 #include "lightproof/warp/mapping.h"
 
@@ -32,7 +33,9 @@ void weigh_part(const EnvironmentMap& map, TargetDensity target, Texel first,
   const auto offset =
       static_cast<std::size_t>(first.y) * static_cast<std::size_t>(map.radiance.extent().width) +
       static_cast<std::size_t>(first.x);
-  weigh(map.radiance.values().subspan(offset), target.weights, area, weights);
+  if (!weigh(map.radiance.values().subspan(offset), target.weights, area, weights).are_possible) {
+    refuse_impossible(map);
+  }
   if (!by_solid_angle || has_rows) return;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     weights[i] *= texel_solid_angle(map.mapping, extent, first.x + static_cast<int>(i), first.y);
@@ -96,6 +99,15 @@ CellWeights::CellWeights(const EnvironmentMap& map, TargetDensity target)
         }
       }) {
   if (!has_light(*this)) refuse_black(map);
+}
+
+void refuse_impossible(const EnvironmentMap& map) {
+  const TexelScan scan = scan_texels(map.radiance);
+  throw InputError(fmt::format(
+      "{}: texels have a luminance that is negative or no finite number ({}): there is no density "
+      "in "
+      "proportion to it; readers of files refuse or repair such values",
+      map.name, scan.clean() ? "by their weights of red, green and blue" : describe_faults(scan)));
 }
 
 void refuse_black(const EnvironmentMap& map) {

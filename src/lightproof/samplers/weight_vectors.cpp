@@ -19,9 +19,9 @@ namespace {
 
 #if HWY_TARGET == HWY_SCALAR
 
-std::size_t weigh_front(std::span<const Rgb> /*texels*/, LuminanceWeights /*luminance*/,
-                        double /*area*/, std::span<double> /*weights*/) {
-  return 0;
+Weighed weigh_front(std::span<const Rgb> /*texels*/, LuminanceWeights /*luminance*/,
+                    double /*area*/, std::span<double> /*weights*/) {
+  return {0, true};
 }
 std::size_t sum_front(std::span<const double> /*weights*/, WeightSums::Lanes& /*lanes*/) {
   return 0;
@@ -74,14 +74,21 @@ HWY_INLINE void fetch(const Rgb* texels) {
   }
 }
 
-std::size_t weigh_front(std::span<const Rgb> texels, LuminanceWeights luminance, double area,
-                        std::span<double> weights) {
+Weighed weigh_front(std::span<const Rgb> texels, LuminanceWeights luminance, double area,
+                    std::span<double> weights) {
   const Numbers d;
   const hn::ScalableTag<float> floats;
   const hn::Half<decltype(floats)> half;
   const std::size_t lanes = hn::Lanes(d);
   const Weigher weigh = {hn::Set(d, luminance.red), hn::Set(d, luminance.green),
                          hn::Set(d, luminance.blue), hn::Set(d, area)};
+  const auto zero = hn::Zero(d);
+  const auto infinite = hn::Set(d, std::numeric_limits<double>::infinity());
+  // Neither holds for what is not a number.
+  const auto is_possible = [&](Number weight) {
+    return hn::And(hn::Ge(weight, zero), hn::Lt(weight, infinite));
+  };
+  auto possible = hn::Eq(zero, zero);
   std::size_t done = 0;
   for (; done + 2 * lanes <= weights.size(); done += 2 * lanes) {
     if (done + kAhead + 2 * hn::MaxLanes(d) <= texels.size()) fetch(&texels[done + kAhead]);
@@ -90,12 +97,15 @@ std::size_t weigh_front(std::span<const Rgb> texels, LuminanceWeights luminance,
     hn::Vec<decltype(floats)> b;
     static_assert(sizeof(Rgb) == 3 * sizeof(float));
     hn::LoadInterleaved3(floats, &texels[done].r, r, g, b);
-    hn::StoreU(weigh(hn::LowerHalf(half, r), hn::LowerHalf(half, g), hn::LowerHalf(half, b)), d,
-               &weights[done]);
-    hn::StoreU(weigh(hn::UpperHalf(half, r), hn::UpperHalf(half, g), hn::UpperHalf(half, b)), d,
-               &weights[done + lanes]);
+    const Number low =
+        weigh(hn::LowerHalf(half, r), hn::LowerHalf(half, g), hn::LowerHalf(half, b));
+    const Number high =
+        weigh(hn::UpperHalf(half, r), hn::UpperHalf(half, g), hn::UpperHalf(half, b));
+    possible = hn::And(possible, hn::And(is_possible(low), is_possible(high)));
+    hn::StoreU(low, d, &weights[done]);
+    hn::StoreU(high, d, &weights[done + lanes]);
   }
-  return done;
+  return {done, hn::AllTrue(d, possible)};
 }
 
 std::size_t sum_front(std::span<const double> weights, WeightSums::Lanes& lanes) {
@@ -191,14 +201,14 @@ T combined(const std::array<T, WeightSums::kLanes>& lanes, const Combine& combin
 
 }  // namespace
 
-std::size_t weigh(std::span<const Rgb> texels, LuminanceWeights luminance, double area,
-                  std::span<double> weights) {
-  const std::size_t by_vectors =
-      HWY_DYNAMIC_DISPATCH(weigh_front)(texels, luminance, area, weights);
-  for (std::size_t i = by_vectors; i < weights.size(); ++i) {
+Weighed weigh(std::span<const Rgb> texels, LuminanceWeights luminance, double area,
+              std::span<double> weights) {
+  Weighed done = HWY_DYNAMIC_DISPATCH(weigh_front)(texels, luminance, area, weights);
+  for (std::size_t i = done.by_vectors; i < weights.size(); ++i) {
     weights[i] = area * luminance_of(texels[i], luminance);
+    done.are_possible = done.are_possible && weights[i] >= 0.0 && std::isfinite(weights[i]);
   }
-  return by_vectors;
+  return done;
 }
 
 WeightSums::WeightSums() : lanes_{} {

@@ -12,11 +12,16 @@
 
 namespace lightproof {
 
+/// What is known of weights that were computed.
+struct Weighed {
+  std::size_t by_vectors;  ///< how many vectors computed, from the front
+  bool are_possible;       ///< whether all are finite and none is negative
+};
+
 /// Writes weights[i] = area * luminance(texels[i], luminance). There may be more texels than
-/// weights: those that come later in memory and are asked for ahead. Returns how many of the
-/// weights vectors computed.
-std::size_t weigh(std::span<const Rgb> texels, LuminanceWeights luminance, double area,
-                  std::span<double> weights);
+/// weights: those that come later in memory and are asked for ahead.
+Weighed weigh(std::span<const Rgb> texels, LuminanceWeights luminance, double area,
+              std::span<double> weights);
 
 /// Sums of weights >= 0, which run side by side in a fixed order: weight i is added to the sum
 /// i % kLanes.

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "lightproof/core/child_process.h"
 #include "lightproof/core/error.h"
+#include "lightproof/core/file_content.h"
+#include "lightproof/core/json_text.h"
 #include "lightproof/core/kept_file.h"
 #include "lightproof/core/machine.h"
 #include "lightproof/core/random.h"
@@ -195,15 +195,17 @@ std::string origin_of(const nlohmann::json& context) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-Throughput records_of(const nlohmann::json& document) {
+Throughput records_of(const std::string& text) {
+  if (json_depth(text) > kDeepestJson) throw InputError("its values lie too deep in each other");
+  const nlohmann::json document = nlohmann::json::parse(text);
   Throughput records;
   const std::vector<Group> groups = groups_of(document);
-  for (const auto& [text, runs] : groups) {
-    if (const auto directions = directions_of(text, runs)) {
+  for (const auto& [benchmark, runs] : groups) {
+    if (const auto directions = directions_of(benchmark, runs)) {
       records.directions.push_back(*directions);
       continue;
     }
-    const std::optional<SampleName> name = sample_name(text);
+    const std::optional<SampleName> name = sample_name(benchmark);
     if (!name) continue;
     if (name->order == "random") {
       records.samplers.push_back(summarise(*name, runs));
@@ -241,17 +243,12 @@ std::optional<Throughput> kept_throughput(const KeptFile& kept) {
   const std::optional<std::string> text = read_kept(kept);
   if (!text) return std::nullopt;
   try {
-    return records_of(nlohmann::json::parse(*text));
+    return records_of(*text);
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   } catch (const InputError&) {
     return std::nullopt;
   }
-}
-
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 }  // namespace
@@ -282,15 +279,15 @@ Throughput measure_throughput(const ThroughputSource& source) {
                              "--benchmark_min_time=0.1"});
   Throughput measured = read_throughput(file);
   if (before && before->busy_rows <= measured.busy_rows) return *std::move(before);
-  keep(kept, content_of(file));
+  keep(kept, content_of(file).value_or(""));
   return measured;
 }
 
 Throughput read_throughput(const fs::path& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(fmt::format("{}: cannot be read", file.string()));
+  const std::optional<std::string> text = content_of(file);
+  if (!text) throw InputError(fmt::format("{}: cannot be read", file.string()));
   try {
-    return records_of(nlohmann::json::parse(in));
+    return records_of(*text);
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: not a result of Google Benchmark (--benchmark_out): {}",
                                  file.string(), error.what()));

@@ -16,7 +16,8 @@ double triangle_solid_angle(double triple_product, Direction a, Direction b, Dir
 }
 
 int texel_of(double coordinate, int size) {
-  return std::clamp(static_cast<int>(coordinate * size), 0, size - 1);
+  // In this order: converted to an integer before, what is not a number would be undefined.
+  return static_cast<int>(std::min(std::max(0.0, coordinate * size), size - 1.0));
 }
 
 }  // namespace

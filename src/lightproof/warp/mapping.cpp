@@ -64,7 +64,8 @@ double lat_long_height(const Mapping& mapping, double t) {
 
 CubePoint cube_point(SquarePoint at) {
   const double scaled = at.s * kFaces;
-  const int face = std::clamp(static_cast<int>(scaled), 0, kFaces - 1);
+  // In this order: converted to an integer before, what is not a number would be undefined.
+  const int face = static_cast<int>(std::min(std::max(0.0, scaled), kFaces - 1.0));
   return {kCubeFaces[static_cast<std::size_t>(face)], scaled - face, 1.0 - at.t};
 }
 
