@@ -212,6 +212,29 @@ UniformChart cosine_lobe_chart(Direction axis, double exponent) {
           }};
 }
 
+UniformChart henyey_greenstein_chart(double g) {
+  // The square root that the cumulative distribution and the density share.
+  const auto root = [g](double z) { return std::sqrt(1.0 + g * g - 2.0 * g * z); };
+  return {[=](Direction d) -> std::optional<SquarePoint> {
+            const double here = root(d.z);
+            const double at_bottom = 1.0 + g;
+            const double below =
+                (1.0 - g * g) * (1.0 + d.z) / (here * at_bottom * (here + at_bottom));
+            return inside({turns(d.x, d.y), below});
+          },
+          [=](SquarePoint at) {
+            const double u = at.t;
+            const double w = 1.0 - g + 2.0 * g * u;
+            const double z =
+                (2.0 * u * (1.0 + g * g) * (1.0 - g + g * u) - (1.0 - g) * (1.0 - g)) / (w * w);
+            return at_angles(std::sqrt(std::max(0.0, (1.0 - z) * (1.0 + z))), z, at.s);
+          },
+          [=](Direction d) {
+            const double here = root(d.z);
+            return PerSteradian{(1.0 - g * g) / (4.0 * kPi * here * here * here)};
+          }};
+}
+
 UniformChart mirrored_at_normals(NormalDistribution distribution, Direction view) {
   const auto upper_normal = [view](Direction light) {
     const Direction normal = normal_between(view, light);

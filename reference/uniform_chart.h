@@ -25,6 +25,10 @@ struct UniformChart {
 /// Density (n+1)/2pi (axis.d)^n on the side of the axis.
 UniformChart cosine_lobe_chart(Direction axis, double exponent);
 
+/// Henyey and Greenstein's phase function (1941) around +z, the direction in which light travels
+/// on: (1 - g^2) / (4 pi (1 + g^2 - 2 g z)^(3/2)), g in (-1,1). g = 0 is uniform over the sphere.
+UniformChart henyey_greenstein_chart(double g);
+
 /// Microfacet normals in proportion to D(h) (n.h).
 struct NormalDistribution {
   enum class Kind {

@@ -33,6 +33,10 @@ std::vector<NamedChart> charts() {
                      1.0 / std::sqrt(1.0 + exponent)});
     }
   }
+  for (const double g : {-0.9, 0.0, 0.3, 0.9}) {
+    all.push_back({fmt::format("Henyey-Greenstein {}", g), henyey_greenstein_chart(g),
+                   (1.0 - std::abs(g)) * (1.0 - std::abs(g))});
+  }
   for (const double roughness : {0.01, 0.1, 0.3, 0.6, 1.0}) {
     const double alpha = roughness * roughness;
     const double shininess = 2.0 / (alpha * alpha) - 2.0;
