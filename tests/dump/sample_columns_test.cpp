@@ -34,6 +34,15 @@ TEST(SampleColumns, OfAnImageMayCountFromTheTop) {
   EXPECT_TRUE(sample_columns(Names{"u", "v"}).t_is_from_top);
 }
 
+TEST(SampleColumns, MayHoldAWeightInGreyOrInThreeChannels) {
+  EXPECT_EQ(sample_columns(Names{"x", "y", "z", "weight"}).weight, 3U);
+  const SampleColumns coloured = sample_columns(Names{"wb", "wg", "wr", "s", "t"});
+  EXPECT_EQ(coloured.red, 2U);
+  EXPECT_EQ(coloured.blue, 0U);
+  EXPECT_THAT(refusal({"x", "y", "z", "wr", "wg"}), HasSubstr("three channels"));
+  EXPECT_THAT(refusal({"x", "y", "z", "weight", "wr", "wg", "wb"}), HasSubstr("three channels"));
+}
+
 TEST(SampleColumns, AreRefusedIfTheyNameNoSample) {
   EXPECT_THAT(refusal({"x", "y"}), HasSubstr("x, y and z are needed"));
   EXPECT_THAT(refusal({"x", "y", "z", "s", "t"}), HasSubstr("x, y and z are needed"));

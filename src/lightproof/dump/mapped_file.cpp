@@ -111,7 +111,8 @@ MappedFile::~MappedFile() {
 void MappedFile::forget(std::size_t first, std::size_t count) const {
   if (data_ == nullptr) return;
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-  const std::size_t begin = (first + page - 1) / page * page;
+  // The page that a block shares with the one before it is forgotten with the later one.
+  const std::size_t begin = first / page * page;
   const std::size_t end = std::min(first + count, size_) / page * page;
   if (begin < end) ::madvise(const_cast<std::byte*>(data_) + begin, end - begin, MADV_DONTNEED);
 }

@@ -20,8 +20,8 @@ class MappedFile {
 
   std::span<const std::byte> bytes() const { return {data_, size_}; }
 
-  /// Lets the system forget the pages of these bytes, which are read again from the file if they
-  /// are needed again.
+  /// Lets the system forget the pages of these bytes, up to the last whole one, which are read
+  /// again from the file if they are needed again.
   void forget(std::size_t first, std::size_t count) const;
 
  private:

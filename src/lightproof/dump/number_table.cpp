@@ -44,11 +44,10 @@ NumberFormat format_of(const std::string& file, std::span<const std::byte> bytes
 
 template <class Number>
 void copy_numbers(std::span<const std::byte> bytes, std::span<double> numbers) {
-  std::array<Number, 1024> block;
-  for (std::size_t done = 0; done < numbers.size(); done += block.size()) {
-    const std::size_t count = std::min(block.size(), numbers.size() - done);
-    std::memcpy(block.data(), bytes.data() + done * sizeof(Number), count * sizeof(Number));
-    for (std::size_t i = 0; i < count; ++i) numbers[done + i] = static_cast<double>(block[i]);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    Number number;
+    std::memcpy(&number, bytes.data() + i * sizeof(Number), sizeof(Number));
+    numbers[i] = static_cast<double>(number);
   }
 }
 

@@ -20,6 +20,11 @@ constexpr std::array kNames = {
     ColumnName{"u", ColumnRole::s, "the same as s"},
     ColumnName{"v", ColumnRole::v, "image coordinate from the top, in place of t"},
     ColumnName{"pdf", ColumnRole::pdf, "density with which the sample was drawn"},
+    ColumnName{"weight", ColumnRole::weight,
+               "what the sample adds to an estimate of the light: luminance over pdf"},
+    ColumnName{"wr", ColumnRole::red, "red of the weight"},
+    ColumnName{"wg", ColumnRole::green, "green of the weight"},
+    ColumnName{"wb", ColumnRole::blue, "blue of the weight"},
     ColumnName{"-", ColumnRole::ignored, "a column that is not read"},
 };
 
@@ -44,6 +49,14 @@ std::optional<std::size_t>& index_of(SampleColumns& columns, ColumnRole role) {
     case ColumnRole::t:
     case ColumnRole::v:
       return columns.t;
+    case ColumnRole::weight:
+      return columns.weight;
+    case ColumnRole::red:
+      return columns.red;
+    case ColumnRole::green:
+      return columns.green;
+    case ColumnRole::blue:
+      return columns.blue;
     case ColumnRole::pdf:
     case ColumnRole::ignored:
       break;
@@ -52,6 +65,10 @@ std::optional<std::size_t>& index_of(SampleColumns& columns, ColumnRole role) {
 }
 
 void check_parts(const SampleColumns& columns) {
+  const int channels = (columns.red ? 1 : 0) + (columns.green ? 1 : 0) + (columns.blue ? 1 : 0);
+  if (channels != 0 && (channels != 3 || columns.weight)) {
+    throw InputError("a weight has three channels, wr, wg and wb, or is one column, weight");
+  }
   const int parts = (columns.x ? 1 : 0) + (columns.y ? 1 : 0) + (columns.z ? 1 : 0);
   const int coordinates = (columns.s ? 1 : 0) + (columns.t ? 1 : 0);
   if (parts == 3 && coordinates == 0) return;

@@ -19,6 +19,10 @@ enum class ColumnRole {
   t,        ///< image coordinate from the bottom, in [0,1]
   v,        ///< image coordinate from the top, in [0,1]
   pdf,      ///< density of the sample
+  weight,   ///< what the sample adds to an estimate, in grey
+  red,      ///< of the weight
+  green,    ///< of the weight
+  blue,     ///< of the weight
   ignored,  ///< not read
 };
 
@@ -32,13 +36,16 @@ struct ColumnName {
 /// All names of columns.
 std::span<const ColumnName> column_names();
 
-/// Where the parts of a sample stand in a row: a direction or a position, and perhaps a density.
+/// Where the parts of a sample stand in a row: a direction or a position, and perhaps a density and
+/// a weight.
 struct SampleColumns {
   std::size_t count = 0;               ///< numbers of a row
   std::optional<std::size_t> x, y, z;  ///< all three or none
   std::optional<std::size_t> s, t;     ///< both or neither; none if x, y, z are there
   bool t_is_from_top = false;          ///< the column of t counts from the top
   std::optional<std::size_t> pdf;
+  std::optional<std::size_t> weight;            ///< none if the weight has three channels
+  std::optional<std::size_t> red, green, blue;  ///< of the weight: all three or none
 
   bool are_directions() const { return x.has_value(); }
 };

@@ -12,7 +12,9 @@
 namespace lightproof {
 namespace {
 
-constexpr std::size_t kBlock = 1024;
+/// Rows that are read at once: few enough for the cache.
+constexpr std::size_t kBlock = 4096;
+
 }  // namespace
 
 SampleDump::SampleDump(NumberTable table, SampleColumns columns, SampleConvention convention)
@@ -36,8 +38,19 @@ void SampleDump::read(std::uint64_t first, std::span<DumpedSample> samples) cons
     const std::size_t count = std::min(kBlock, samples.size() - done);
     const std::span<double> block = std::span(numbers).first(count * columns);
     table_.read(first + done, block);
+    rows_.set_samples(block, samples.subspan(done, count));
+  }
+}
+
+void SampleDump::read_weights(std::uint64_t first, std::span<SampleWeight> weights) const {
+  const std::size_t columns = table_.columns();
+  std::vector<double> numbers(std::min(weights.size(), kBlock) * columns);
+  for (std::size_t done = 0; done < weights.size(); done += kBlock) {
+    const std::size_t count = std::min(kBlock, weights.size() - done);
+    const std::span<double> block = std::span(numbers).first(count * columns);
+    table_.read(first + done, block);
     for (std::size_t i = 0; i < count; ++i) {
-      samples[done + i] = rows_.sample(block.subspan(i * columns, columns));
+      weights[done + i] = rows_.weight(block.subspan(i * columns, columns));
     }
   }
 }

@@ -19,6 +19,11 @@ class SampleDump {
 
   std::uint64_t count() const { return table_.rows(); }
   bool has_pdf() const { return rows_.columns().pdf.has_value(); }
+  bool has_weights() const { return rows_.have_weights(); }
+  /// Whether the weights have three channels.
+  bool has_coloured_weights() const { return rows_.have_coloured_weights(); }
+  /// What the densities of the file are per.
+  DensityMeasure measure() const { return rows_.convention().measure; }
   /// The axes by which the directions are read.
   const AxisMap& axes() const { return rows_.convention().axes; }
   /// By how much rounding may have moved a direction, in radians.
@@ -26,6 +31,8 @@ class SampleDump {
 
   /// Reads samples first, first + 1, … .
   void read(std::uint64_t first, std::span<DumpedSample> samples) const;
+  /// Reads their weights, which they must have.
+  void read_weights(std::uint64_t first, std::span<SampleWeight> weights) const;
 
  private:
   NumberTable table_;

@@ -16,8 +16,7 @@ constexpr double kLengthTolerance = 1e-3;
 /// The unit vector; not a number if it is none.
 Direction normalised(Direction d) {
   const double length = std::sqrt(glm::dot(d, d));
-  if (!(std::abs(length - 1.0) <= kLengthTolerance)) return {kNaN, kNaN, kNaN};
-  return d / length;
+  return d * (std::abs(length - 1.0) <= kLengthTolerance ? 1.0 / length : kNaN);
 }
 
 /// Steradian per area of the image at a direction: of latitude and longitude by the angle from the
@@ -50,6 +49,40 @@ DumpedSample SampleRows::sample(std::span<const double> row) const {
   }
   if (columns_.pdf) sample.pdf = density(sample.direction, row[*columns_.pdf]);
   return sample;
+}
+
+void SampleRows::set_samples(std::span<const double> rows, std::span<DumpedSample> samples) const {
+  if (columns_.are_directions()) return set_directions(rows, samples);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i] = sample(rows.subspan(i * columns_.count, columns_.count));
+  }
+}
+
+void SampleRows::set_directions(std::span<const double> rows,
+                                std::span<DumpedSample> samples) const {
+  const std::size_t x = *columns_.x;
+  const std::size_t y = *columns_.y;
+  const std::size_t z = *columns_.z;
+  const std::size_t pdf = columns_.pdf.value_or(x);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double* const row = rows.data() + i * columns_.count;
+    samples[i] = {normalised({row[x], row[y], row[z]}), {row[pdf]}};
+  }
+  if (!(convention_.axes == AxisMap())) {
+    for (DumpedSample& sample : samples) sample.direction = convention_.axes(sample.direction);
+  }
+  if (!columns_.pdf) {
+    for (DumpedSample& sample : samples) sample.pdf.value = kNaN;
+  } else if (convention_.measure == DensityMeasure::square) {
+    for (DumpedSample& sample : samples) {
+      sample.pdf = density(sample.direction, sample.pdf.value);
+    }
+  }
+}
+
+SampleWeight SampleRows::weight(std::span<const double> row) const {
+  if (columns_.weight) return {row[*columns_.weight], row[*columns_.weight], row[*columns_.weight]};
+  return {row[*columns_.red], row[*columns_.green], row[*columns_.blue]};
 }
 
 std::size_t SampleRows::numbers_of_position() const { return columns_.are_directions() ? 3 : 2; }

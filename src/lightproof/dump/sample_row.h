@@ -1,6 +1,7 @@
 // A row of numbers as a sample, and a position as numbers, in the convention of another program.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -18,6 +19,9 @@ struct DumpedSample {
   PerSteradian pdf;  ///< not a number if no column holds it
 };
 
+/// What a sample adds to an estimate, in red, green and blue; alike if it is grey.
+using SampleWeight = std::array<double, 3>;
+
 /// What rows of these columns are, in this convention.
 class SampleRows {
  public:
@@ -28,6 +32,14 @@ class SampleRows {
 
   /// The sample of a row of columns().count numbers.
   DumpedSample sample(std::span<const double> row) const;
+  /// The samples of rows, one after the other.
+  void set_samples(std::span<const double> rows, std::span<DumpedSample> samples) const;
+
+  bool have_weights() const { return columns_.weight || columns_.red; }
+  /// Whether the weights have three channels.
+  bool have_coloured_weights() const { return columns_.red.has_value(); }
+  /// The weight of a row, which must have one.
+  SampleWeight weight(std::span<const double> row) const;
 
   /// Numbers that name a position: x, y, z, or two image coordinates.
   std::size_t numbers_of_position() const;
@@ -37,6 +49,9 @@ class SampleRows {
   PerSteradian density(Direction direction, double value) const;
 
  private:
+  /// set_samples() of rows that hold directions.
+  void set_directions(std::span<const double> rows, std::span<DumpedSample> samples) const;
+
   SampleColumns columns_;
   SampleConvention convention_;
   AxisMap to_theirs_;
