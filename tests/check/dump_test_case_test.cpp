@@ -5,19 +5,23 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include "lightproof/check/recognition.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/random.h"
+#include "lightproof/image/largest_channel.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/results/verdict.h"
 #include "lightproof/samplers/alias.h"
 #include "lightproof/samplers/batch.h"
+#include "lightproof/warp/lat_long.h"
 #include "tests/dump/files.h"
 
 namespace lightproof {
@@ -36,6 +40,21 @@ const EnvironmentMap& sun_sky() {
   return map;
 }
 
+/// A sky that is blue below, red above and green on one side.
+const EnvironmentMap& coloured_map() {
+  static const EnvironmentMap map = [] {
+    EnvironmentMap coloured = make_synthetic_map("constant", {64, 32});
+    for (int y = 0; y < 32; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        coloured.radiance(x, y) = {static_cast<float>(y) / 16.0F, static_cast<float>(x) / 32.0F,
+                                   static_cast<float>(32 - y) / 16.0F};
+      }
+    }
+    return coloured;
+  }();
+  return map;
+}
+
 /// Samples of a sampler that is right, as a file of floats, each changed as a defect would.
 class Dump {
  public:
@@ -43,7 +62,7 @@ class Dump {
                 std::size_t samples = kSamples, bool with_pdf = true,
                 const EnvironmentMap& map = sun_sky())
       : map_(&map) {
-    const Alias sampler(map, {drawn});
+    const Alias sampler(map, on_map({drawn}, map));
     const RandomStream stream("dump", 7);
     const std::size_t columns = with_pdf ? 4 : 3;
     std::vector<float> numbers;
@@ -61,12 +80,18 @@ class Dump {
         std::move(table), sample_columns(default_columns(columns)), convention);
   }
 
-  GateResult judged(DensitySpace declared) const {
-    const TestCase test_case = dump_test_case(dump_, *map_, {"dump", {declared}});
+  /// On the map that the samples are of.
+  GateResult judged(DensitySpace declared) const { return judged_on(*map_, declared); }
+  std::vector<Recognition> recognised(DensitySpace declared) const {
+    return recognised_on(*map_, declared);
+  }
+  /// On another one.
+  GateResult judged_on(const EnvironmentMap& map, DensitySpace declared) const {
+    const TestCase test_case = dump_test_case(dump_, map, {"dump", {declared}});
     return run_gate({&test_case, 1}, spending({}, dump_->count()));
   }
-  std::vector<Recognition> recognised(DensitySpace declared) const {
-    return recognise(*dump_, *map_, {declared});
+  std::vector<Recognition> recognised_on(const EnvironmentMap& map, DensitySpace declared) const {
+    return recognise(*dump_, DeclaredMap{&map, {declared}});
   }
 
  private:
@@ -207,6 +232,70 @@ TEST(Dump, OfAnotherDensityIsRejectedAndTheDensityIsRecognised) {
   const auto found = dump.recognised(DensitySpace::sine_weighted);
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found.front().options, "--density A");
+}
+
+/// Positions moved by parts of a texel of sun_sky(); what leaves it below or above stays at the
+/// pole.
+Change moved_by_texels(double s, double t) {
+  return [=](Written& row) {
+    SquarePoint at = square_from_direction({row[0], row[1], row[2]});
+    at.s += s / 256.0;
+    at.t = std::clamp(at.t + t / 128.0, 0.0, 1.0);
+    const Direction d = direction_from_square(at);
+    row = {d.x, d.y, d.z, row[3]};
+  };
+}
+
+TEST(Dump, ThatIsHalfATexelOffIsRejectedAndTheShiftIsRecognised) {
+  const std::vector<std::tuple<double, double, const char*>> shifts = {
+      {0.5, 0.0, "if s decreases by half a texel"},
+      {-0.5, 0.0, "if s increases by half a texel"},
+      {0.0, 0.5, "if t decreases by half a texel"},
+      {0.0, -0.5, "if t increases by half a texel"},
+      {0.5, -0.5, "if s decreases by half a texel and t increases by half a texel"},
+      {-0.5, -0.5, "if s increases by half a texel and t increases by half a texel"}};
+  for (const auto& [s, t, words] : shifts) {
+    const Dump dump(DensitySpace::sine_weighted, moved_by_texels(s, t));
+    EXPECT_EQ(outcome_of(dump.judged(DensitySpace::sine_weighted)), Outcome::reject) << words;
+    const auto found = dump.recognised(DensitySpace::sine_weighted);
+    ASSERT_FALSE(found.empty()) << words;
+    EXPECT_EQ(found.front().words, words);
+    EXPECT_TRUE(found.front().options.empty()) << found.front().options;
+  }
+}
+
+TEST(Dump, WhoseDensityLacksAJacobianIsRejectedAndTheJacobianIsRecognised) {
+  const auto sine = [](const Written& row) { return std::hypot(row[0], row[1]); };
+  const std::vector<std::tuple<Change, const char*, const char*>> mistakes = {
+      {[=](Written& row) { row[3] *= 2.0 * kPi * kPi * sine(row); }, "is one over the unit square",
+       "--measure square"},
+      {[=](Written& row) { row[3] *= sine(row); }, "divided by sin(theta), which is forgotten", ""},
+      {[](Written& row) { row[3] *= 2.0 * kPi * kPi; }, "divided by 2 pi^2", ""},
+      {[=](Written& row) { row[3] *= 2.0 * kPi * kPi * sine(row) / (256.0 * 128.0); },
+       "probability of the texel", ""},
+      {[](Written& row) { row[3] *= 0.25; }, "divided by 0.25", ""}};
+  for (const auto& [change, words, options] : mistakes) {
+    const Dump dump(DensitySpace::sine_weighted, change);
+    EXPECT_EQ(outcome_of(dump.judged(DensitySpace::sine_weighted)), Outcome::reject) << words;
+    const auto found = dump.recognised(DensitySpace::sine_weighted);
+    ASSERT_EQ(found.size(), 1U) << words;
+    EXPECT_THAT(found.front().words, HasSubstr(words));
+    EXPECT_EQ(found.front().options, options);
+  }
+}
+
+TEST(Dump, OfAnotherLuminanceIsRejectedAndTheLuminanceIsRecognised) {
+  const EnvironmentMap& coloured = coloured_map();
+  const auto recognised = [&](const EnvironmentMap& drawn_of) {
+    const Dump dump(DensitySpace::sine_weighted, {}, {}, kSamples, true, drawn_of);
+    EXPECT_EQ(outcome_of(dump.judged_on(coloured, DensitySpace::sine_weighted)), Outcome::reject);
+    const auto found = dump.recognised_on(coloured, DensitySpace::sine_weighted);
+    return found.empty() ? std::string("nothing") : found.front().options;
+  };
+  EnvironmentMap by_average = coloured;
+  by_average.weights = kAverageLuminance;
+  EXPECT_EQ(recognised(by_average), "--luminance average");
+  EXPECT_EQ(recognised(grey_of_largest_channel(coloured)), "--luminance max");
 }
 
 TEST(Dump, ThatIsRightIsRecognisedAsNothingElse) {

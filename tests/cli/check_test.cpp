@@ -90,10 +90,10 @@ TEST_F(CheckCommand, TakesTheLuminanceOfASideCarUnlessAnOptionSaysIt) {
   const std::string rec709 = command_in_json({"--luminance", "rec709"});
   EXPECT_NE(average, rec709);
   EXPECT_EQ(command_in_json({}), average);
-  std::ofstream(dump + ".json") << R"({"luminance": "max"})";
+  std::ofstream(dump + ".json") << R"({"luminance": "least"})";
   const Finished finished = check(dump, {"--columns", "x,y,z,pdf"});
   EXPECT_EQ(finished.exit_code, 2);
-  EXPECT_THAT(finished.err, HasSubstr("\"max\" is none of rec709"));
+  EXPECT_THAT(finished.err, HasSubstr("\"least\" is none of rec709"));
 }
 
 TEST_F(CheckCommand, RejectsAWrongDensityAndSaysHowToCheckAgain) {
@@ -153,6 +153,120 @@ TEST_F(CheckCommand, RefusesWhatItCannotRead) {
   std::filesystem::remove(dump + ".json");
   std::filesystem::create_directory(dump + ".json");
   EXPECT_THAT(refusal(dump, {"--columns", "x,y,z,pdf,-"}), HasSubstr("is no JSON object"));
+}
+
+TEST_F(CheckCommand, JudgesDirectionsAgainstATargetWithoutAMap) {
+  const std::string dump = raw("a.f32", uniform_samples(kEnough));
+  const auto against = [&](const std::string& target, Words more = {}) {
+    Words words = {"check", dump, "--columns", "x,y,z,pdf", "--target", target};
+    words.insert(words.end(), more.begin(), more.end());
+    return lightproof(words);
+  };
+  const Finished right = against("uniform", {"--json", path("a.json")});
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  expect_valid("gate.schema.json", path("a.json"));
+  EXPECT_EQ(json_of(path("a.json")).at("tests").front().at("map"), "directions");
+  EXPECT_EQ(against("cosine").exit_code, 1);
+  EXPECT_EQ(against("uniform", {"--sequential"}).exit_code, 0);
+  EXPECT_EQ(against("cosine", {"--sequential"}).exit_code, 1);
+  // A picture of a density, which is the same everywhere.
+  EXPECT_EQ(against("constant", {"--size", "32x16"}).exit_code, 0);
+  std::ofstream(dump + ".json") << R"({"columns": ["x", "y", "z", "pdf"], "target": "uniform"})";
+  EXPECT_EQ(lightproof({"check", dump}).exit_code, 0);
+  // A map on the command line stands against the side-car's target.
+  EXPECT_EQ(check(dump, {"--density", "B"}).exit_code, 0);
+}
+
+TEST_F(CheckCommand, JudgesTheGivenPdfOfASamplerWhoseDensityIsItsOwnAffair) {
+  std::vector<float> numbers = uniform_samples(kEnough);
+  const Words none = {"--columns", "x,y,z,pdf", "--target", "none"};
+  Words with_json = none;
+  with_json.insert(with_json.end(), {"--json", path("a.json")});
+  const Finished right = check(raw("a.f32", numbers), with_json);
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  expect_valid("gate.schema.json", path("a.json"));
+  for (std::size_t i = 3; i < numbers.size(); i += 4) numbers[i] *= 1.1F;
+  const Finished wrong = check(raw("b.f32", numbers), none);
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_THAT(wrong.out, HasSubstr("pdf-too-large"));
+}
+
+TEST_F(CheckCommand, JudgesWeights) {
+  const std::vector<float> numbers = uniform_samples(kEnough);
+  const auto with_weights = [&](float factor) {
+    std::vector<float> rows;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      // The map's radiance is 1.
+      rows.push_back(i % 4 == 3 ? factor / numbers[i] : numbers[i]);
+    }
+    return raw("w.f32", rows);
+  };
+  const Words words = {"--columns", "x,y,z,weight", "--density", "B"};
+  const Finished right = check(with_weights(1.0F), words);
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  const Finished wrong = check(with_weights(1.1F), words);
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_THAT(wrong.out, HasSubstr("light by the given weights"));
+}
+
+TEST_F(CheckCommand, JudgesDensitiesOnAGrid) {
+  const std::string dump = raw("a.f32", uniform_samples(kEnough));
+  const auto with_grid = [&](double density) {
+    std::ofstream text(path("grid.csv"));
+    text << "s,t,pdf\n";
+    text.precision(9);
+    for (int i = 0; i < 128; ++i) {
+      text << (i % 16 + 0.5) / 16 << ',' << (i / 16 + 0.5) / 8 << ',' << density << '\n';
+    }
+    text.close();
+    return check(dump, {"--columns", "x,y,z,pdf", "--density", "B", "--densities", path("grid.csv"),
+                        "--json", path("a.json")});
+  };
+  const Finished right = with_grid(1.0 / kSphere);
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  expect_valid("gate.schema.json", path("a.json"));
+  const Finished wrong = with_grid(1.02 / kSphere);
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_THAT(wrong.out, AllOf(HasSubstr("pdf of a grid of directions"),
+                               HasSubstr("pdf of a grid integrates to 1")));
+  expect_valid("gate.schema.json", path("a.json"));
+}
+
+TEST_F(CheckCommand, TakesTheLargestChannelAsLuminance) {
+  const std::string dump = raw("a.f32", uniform_samples(kEnough));
+  // A grey map: it is the same by any luminance.
+  EXPECT_EQ(
+      check(dump, {"--columns", "x,y,z,pdf", "--density", "B", "--luminance", "max"}).exit_code, 0);
+  EXPECT_EQ(lightproof({"gate", "constant", "--luminance", "max"}).exit_code, 2);
+}
+
+TEST_F(CheckCommand, RefusesWhatDoesNotGoTogether) {
+  const std::string dump = raw("a.f32", uniform_samples(16));
+  const auto refusal = [&](Words more) {
+    Words words = {"check", dump};
+    words.insert(words.end(), more.begin(), more.end());
+    const Finished finished = lightproof(words);
+    EXPECT_EQ(finished.exit_code, 2) << finished.out;
+    return finished.err;
+  };
+  EXPECT_THAT(refusal({"--columns", "x,y,z,pdf"}), HasSubstr("--target a distribution"));
+  EXPECT_THAT(refusal({"--columns", "x,y,z,pdf", "--target", "cosin"}),
+              HasSubstr("did you mean 'cosine'?"));
+  EXPECT_THAT(refusal({"--columns", "x,y,z,pdf", "--target", "phong"}),
+              HasSubstr("its parameter is missing"));
+  EXPECT_THAT(refusal({"--columns", "x,y,z,pdf", "--target", "cosine", "--map", "constant"}),
+              HasSubstr("needs no map"));
+  EXPECT_THAT(refusal({"--columns", "x,y,z,pdf", "--target", "cosine", "--density", "B"}),
+              HasSubstr("--density belongs to --map"));
+  EXPECT_THAT(refusal({"--columns", "x,y,z,-", "--target", "none", "--map", "constant"}),
+              HasSubstr("a column pdf is needed"));
+  EXPECT_THAT(refusal({"--columns", "x,y,z,pdf", "--target", "none"}), HasSubstr("--map"));
+  EXPECT_THAT(
+      refusal({"--columns", "x,y,z,pdf", "--target", "none", "--map", "constant", "--sequential"}),
+      HasSubstr("--sequential"));
+  EXPECT_THAT(refusal({"--columns", "x,y,z,weight", "--target", "cosine"}),
+              HasSubstr("weights are held against the light of a map"));
+  EXPECT_THAT(refusal({"--columns", "x,y,z,wr", "--map", "constant"}), HasSubstr("three channels"));
 }
 
 }  // namespace

@@ -52,6 +52,11 @@ INSTANTIATE_TEST_SUITE_P(
                  with_common({"--sampler", "--density", "--level", "--json", "--junit",
                               "--markdown", "--github", "--sequential", "--rejections",
                               "--with-published", "Exit codes", "inconclusive", "powers of 1000"})},
+        HelpCase{
+            "check",
+            {"DUMP", "--map", "--target", "--columns", "--axes", "--samples-preset", "--measure",
+             "--density", "--densities", "--sequential", "--pdf-tolerance", "--must-detect",
+             "weight or wr,wg,wb", "max is the largest", "list targets", "Exit codes"}},
         HelpCase{"study", with_common({"-o,--output", "--throughput", "--no-throughput",
                                        "--largest", "--no-self-test", "--no-stability",
                                        "--material", "--quality", "Exit codes"})},

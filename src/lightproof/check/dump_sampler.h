@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "lightproof/dump/sample_dump.h"
 #include "lightproof/gate/bound_sampler.h"
@@ -22,5 +23,15 @@ BoundSampler bound_dump(std::shared_ptr<const SampleDump> dump,
 /// the rounding of a direction does to them.
 DensityComparison compare_dumped_density(const SampleDump& dump, const Expectation& expectation,
                                          double tolerance);
+
+/// A direction's density beside the declared one, over the square, by the texel within the rounding
+/// of the direction that fits best. The direction must be one.
+ComparedCell compared_at(const DumpedSample& sample, const Expectation& expectation,
+                         double rounding);
+
+/// The first `count` samples' densities beside the declared ones, of those that lie where there is
+/// light.
+std::vector<ComparedCell> some_densities(const SampleDump& dump, const Expectation& expectation,
+                                         std::size_t count);
 
 }  // namespace lightproof

@@ -1,26 +1,18 @@
 #include "lightproof/check/texel_locator.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "lightproof/check/compared_samples.h"
 #include "lightproof/samplers/texel_positions.h"
 
 namespace lightproof {
 namespace {
 
-/// Directions around one, on a circle: an edge within the rounding of a direction lies between it
-/// and one of as many on a circle that is so much larger.
-constexpr int kAround = 8;
-const double kBeyond = 1.0 / std::cos(kPi / kAround);
-
-/// Two unit vectors that are perpendicular to a unit vector and to each other.
-std::array<Direction, 2> across(Direction d) {
-  const Direction other = std::abs(d.z) < 0.5 ? Direction(0.0, 0.0, 1.0) : Direction(1.0, 0.0, 0.0);
-  const Direction first = glm::normalize(glm::cross(d, other));
-  return {first, glm::cross(d, first)};
-}
+/// Closer to a pole than this, in radians, places have fewer digits.
+constexpr double kAtPole = 1e-3;
 
 /// A coordinate as samplers place it: away from the edges of its cell.
 double away_from_edges(double coordinate, int cell, int count) {
@@ -35,7 +27,7 @@ bool is_near_edge(double coordinate, double reach, int count) {
 }  // namespace
 
 TexelLocator::TexelLocator(Mapping mapping, Extent extent, double rounding,
-                                 DeclaredDensity declared)
+                           DeclaredDensity declared)
     : mapping_(mapping), extent_(extent), rounding_(rounding), declared_(std::move(declared)) {}
 
 TexelSample TexelLocator::operator()(const DumpedSample& sample) const {
@@ -44,21 +36,47 @@ TexelSample TexelLocator::operator()(const DumpedSample& sample) const {
   TexelSample best = placed(sample.direction, sample.pdf);
   if (!is_near_edges(best.at)) return best;
   double least = misfit(best);
-  const auto [first, second] = across(sample.direction);
-  for (int k = 0; k < kAround; ++k) {
-    const double angle = 2.0 * kPi * k / kAround;
-    const Direction turned =
-        glm::normalize(sample.direction +
-                       rounding_ * kBeyond * (std::cos(angle) * first + std::sin(angle) * second));
+  visit_around(sample.direction, rounding_, [&](Direction turned) {
     const TexelSample candidate = placed(turned, sample.pdf);
-    if (candidate.x == best.x && candidate.y == best.y) continue;
+    if (candidate.x == best.x && candidate.y == best.y) return;
     const double its = misfit(candidate);
     if (its < least) {
       least = its;
       best = candidate;
     }
-  }
+  });
   return best;
+}
+
+void TexelLocator::operator()(std::span<const DumpedSample> samples,
+                              std::span<TexelSample> placed_samples, LatLongPlaces& places) const {
+  if (mapping_.kind != MappingKind::lat_long) {
+    std::ranges::transform(samples, placed_samples.begin(),
+                           [this](const DumpedSample& sample) { return (*this)(sample); });
+    return;
+  }
+  places.find(samples);
+  const double shift = mapping_.shift;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    double s = places.s(i) - shift;
+    s -= std::floor(s);
+    const double t = places.t(i);
+    const double sine = places.sine(i);
+    const bool is_plain_case = sine > kAtPole &&
+                               !is_near_edge(s, rounding_ * 0.5 / (kPi * sine), extent_.width) &&
+                               !is_near_edge(t, rounding_ / kPi, extent_.height);  // false for NaN
+    if (!is_plain_case) {
+      placed_samples[i] = (*this)(samples[i]);
+      continue;
+    }
+    const int x = cell_of(s, extent_.width);
+    const int y = cell_of(t, extent_.height);
+    placed_samples[i] = {
+        {away_from_edges(s, x, extent_.width), away_from_edges(t, y, extent_.height)},
+        x,
+        y,
+        {samples[i].pdf.value * 2.0 * kPi * kPi * sine}};
+  }
 }
 
 TexelSample TexelLocator::placed(Direction d, PerSteradian pdf) const {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
+#include "lightproof/check/lat_long_places.h"
 #include "lightproof/core/grid.h"
 #include "lightproof/dump/sample_row.h"
 #include "lightproof/samplers/sampler.h"
@@ -24,6 +26,11 @@ class TexelLocator {
 
   /// A sample whose direction is not a number lies nowhere: its position and density are none.
   TexelSample operator()(const DumpedSample& sample) const;
+
+  /// Many at once: on latitude and longitude all but those at poles and near edges by vectors. Both
+  /// spans are of one size, for which `places` is made.
+  void operator()(std::span<const DumpedSample> samples, std::span<TexelSample> placed_samples,
+                  LatLongPlaces& places) const;
 
  private:
   TexelSample placed(Direction d, PerSteradian pdf) const;

@@ -38,13 +38,14 @@ std::vector<std::string> channel_names(const std::string& text) {
       text));
 }
 
-LuminanceChoice choice_of(std::string_view name) {
+LuminanceChoice choice_of(std::string_view name, bool allows_max) {
+  if (allows_max && name == "max") return LuminanceChoice::rec709;
   if (name == "rec709") return LuminanceChoice::rec709;
   if (name == "published") return LuminanceChoice::published;
   if (name == "average") return LuminanceChoice::average;
   if (name == "file") return LuminanceChoice::file;
-  throw InputError(fmt::format("luminance: \"{}\" is none of rec709, published, average, file",
-                               terminal_text(name)));
+  throw InputError(fmt::format("luminance: \"{}\" is none of rec709, published, average,{} file",
+                               terminal_text(name), allows_max ? " max," : ""));
 }
 
 /// A word that a shell reads as it is.
@@ -91,12 +92,17 @@ void add_input_options(CLI::App& command, InputOptions& options) {
   command.add_flag("--to-rgb", options.to_rgb,
                    "read files of luminance and chroma (Y, RY, BY) or of CIE XYZ, converted to "
                    "linear RGB");
+  std::vector<std::string> luminances = {"rec709", "published", "average", "file"};
+  if (options.allows_max) luminances.emplace_back("max");
   command
-      .add_option("--luminance", options.luminance,
-                  "weights of red, green and blue in the luminance that samplers draw by: rec709, "
-                  "published (the lecture's), average, or file (as the header's chromaticities "
-                  "imply)")
-      ->check(CLI::IsMember({"rec709", "published", "average", "file"}))
+      .add_option(
+          "--luminance", options.luminance,
+          fmt::format(
+              "weights of red, green and blue in the luminance that samplers draw "
+              "by: rec709, published (the lecture's), average, or file (as the "
+              "header's chromaticities imply){}",
+              options.allows_max ? "; max is the largest of the three, in `check` alone" : ""))
+      ->check(CLI::IsMember(luminances))
       ->capture_default_str();
 }
 
@@ -105,7 +111,7 @@ void apply(const InputOptions& options, ReadOptions& read) {
   if (options.repair_by == "clamp") read.repair = Repair::clamp;
   read.selection = {channel_names(options.channels), options.layer, options.part};
   read.allow = {.pad = options.pad, .crop = options.crop, .to_rgb = options.to_rgb};
-  read.luminance = choice_of(options.luminance);
+  read.luminance = choice_of(options.luminance, options.allows_max);
 }
 
 std::string words_of(const InputOptions& options) {

@@ -18,6 +18,9 @@ struct InputOptions {
   bool crop = false;
   bool to_rgb = false;
   std::string luminance = "rec709";
+  /// Whether --luminance may be max, the largest of red, green and blue: whoever allows it makes
+  /// the map grey by grey_of_largest_channel(), since samplers know weights alone.
+  bool allows_max = false;
 };
 
 /// Adds --repair, --channels, --layer, --part, --pad, --crop, --to-rgb and --luminance.

@@ -10,6 +10,7 @@
 #include "common.h"
 #include "describe_run.h"
 #include "known_names.h"
+#include "lightproof/check/direction_target.h"
 #include "lightproof/estimators/registry.h"
 #include "lightproof/gate/direction_sampler.h"
 #include "lightproof/image/synthetic.h"
@@ -137,6 +138,14 @@ std::vector<Entry> density_entries() {
   return entries;
 }
 
+std::vector<Entry> target_entries() {
+  std::vector<Entry> entries;
+  for (const DirectionTargetInfo& target : direction_targets()) {
+    entries.push_back({std::string(target.form), std::string(target.description)});
+  }
+  return entries;
+}
+
 std::vector<Entry> entries_of(const std::string& registry) {
   if (registry == "samplers") return sampler_entries();
   if (registry == "densities") return density_entries();
@@ -146,13 +155,14 @@ std::vector<Entry> entries_of(const std::string& registry) {
   if (registry == "materials") return described(materials());
   if (registry == "receivers") return described(receivers());
   if (registry == "points") return point_set_entries();
+  if (registry == "targets") return target_entries();
   if (registry == "systems") return system_entries();
   return estimator_entries();
 }
 
 const std::vector<std::string> kRegistries = {"samplers", "densities", "mutants",   "maps",
                                               "presets",  "materials", "receivers", "estimators",
-                                              "points",   "systems"};
+                                              "points",   "systems",   "targets"};
 
 /// Version of the format of `list --json` (docs/schema/list.schema.json).
 constexpr int kListFormatVersion = 1;

@@ -53,10 +53,10 @@ std::optional<DumpDescription> read_side_car(const std::string& dump) {
                     "its numbers mean",
                     file));
   }
-  return DumpDescription{columns_of(file, document),          text_of(file, document, "format"),
-                         text_of(file, document, "axes"),     text_of(file, document, "preset"),
-                         text_of(file, document, "measure"),  text_of(file, document, "density"),
-                         text_of(file, document, "luminance")};
+  return DumpDescription{columns_of(file, document),           text_of(file, document, "format"),
+                         text_of(file, document, "axes"),      text_of(file, document, "preset"),
+                         text_of(file, document, "measure"),   text_of(file, document, "density"),
+                         text_of(file, document, "luminance"), text_of(file, document, "target")};
 }
 
 DumpDescription with_side_car(DumpDescription options, const DumpDescription& side_car) {
@@ -70,6 +70,7 @@ DumpDescription with_side_car(DumpDescription options, const DumpDescription& si
   fill(options.measure, side_car.measure);
   fill(options.density, side_car.density);
   fill(options.luminance, side_car.luminance);
+  fill(options.target, side_car.target);
   return options;
 }
 

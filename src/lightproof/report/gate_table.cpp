@@ -81,9 +81,11 @@ std::string diagnosis_lines(const GateResult& gate) {
     if (!r.confidence.empty()) text += "\n    " + terminal_text(r.confidence);
     text += "\n    again: " + replay_command(gate, r) + "\n";
   }
+  const bool is_on_map = gate.tests.empty() || gate.tests.front().map != kDirections;
   for (const Recognition& recognition : gate.recognitions) {
-    text +=
-        fmt::format("The samples match the map {}: {}\n", recognition.words, recognition.options);
+    text += fmt::format("The samples match the {} {}{}{}\n", is_on_map ? "map" : "distribution",
+                        recognition.words, recognition.options.empty() ? "" : ": ",
+                        recognition.options);
   }
   return text.empty() ? "" : "\nDiagnosis\n" + text;
 }

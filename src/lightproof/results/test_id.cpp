@@ -100,6 +100,24 @@ constexpr std::array kTests = {
                     "calls of a sampler that runs in another process", false, share},
     TestDescription{same_texel, Oracle::check, "same texel as linear_scan",
                     "texels of the reference implementation at the same points", false, share},
+    TestDescription{given_area, Oracle::self, "solid angle by 1/pdf",
+                    "1/pdf of samples in blocks of texels, against their solid angle", true,
+                    relative_mean},
+    TestDescription{given_light, Oracle::mean, "light by L/pdf",
+                    "light over pdf of samples in blocks of texels, against their exact light",
+                    true, relative_mean},
+    TestDescription{given_weights, Oracle::mean, "light by the given weights",
+                    "weights of samples in blocks of texels, against their exact light", true,
+                    relative_mean},
+    TestDescription{light_reached, Oracle::self, "light that no sample reaches",
+                    "texels with light in which none of the first samples lies", true,
+                    unreachable_mass},
+    TestDescription{weight_is_light, Oracle::check, "weight is L/pdf",
+                    "weights against light over pdf at the sample", false, relative_pdf},
+    TestDescription{grid_density, Oracle::check, "pdf of a grid of directions",
+                    "densities on a grid, against the declared ones", false, relative_pdf},
+    TestDescription{grid_integral, Oracle::check, "pdf of a grid integrates to 1",
+                    "densities on a grid times the solid angles of its cells", false, difference},
 };
 
 constexpr bool is_in_order() {
@@ -109,7 +127,7 @@ constexpr bool is_in_order() {
   return true;
 }
 static_assert(is_in_order());
-static_assert(kTests.size() == static_cast<std::size_t>(same_texel) + 1);
+static_assert(kTests.size() == static_cast<std::size_t>(grid_integral) + 1);
 
 }  // namespace
 

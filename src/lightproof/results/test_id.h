@@ -72,12 +72,20 @@ enum class TestId : std::uint8_t {
   edge_points,
   answers,
   same_texel,
+  given_area,
+  given_light,
+  given_weights,
+  light_reached,
+  weight_is_light,
+  grid_density,
+  grid_integral,
 };
 
 template <>
 inline constexpr std::size_t kValuesOf<Oracle> = 5;
 template <>
-inline constexpr std::size_t kValuesOf<TestId> = static_cast<std::size_t>(TestId::same_texel) + 1;
+inline constexpr std::size_t kValuesOf<TestId> = static_cast<std::size_t>(TestId::grid_integral) +
+                                                 1;
 
 /// What the effect of a test measures. Every one is 0 where nothing deviates.
 enum class EffectMeasure : std::uint8_t {

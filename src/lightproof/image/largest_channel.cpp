@@ -1,0 +1,13 @@
+#include "lightproof/image/largest_channel.h"
+
+#include <algorithm>
+
+namespace lightproof {
+
+EnvironmentMap grey_of_largest_channel(EnvironmentMap map) {
+  for (Rgb& rgb : map.radiance.values()) rgb = Rgb(std::max({rgb.r, rgb.g, rgb.b}));
+  map.weights = kRec709;
+  return map;
+}
+
+}  // namespace lightproof
