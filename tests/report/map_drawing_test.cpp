@@ -94,9 +94,10 @@ TEST_P(EveryPreset, ShowsTheLightInItsPlace) {
   const auto values = picture.values();
   const auto brightest = std::ranges::max_element(values, {}, [](Rgb c) { return c.g; });
   const auto index = static_cast<int>(brightest - values.begin());
-  const Direction found =
-      direction_from_image(preset(), {(index % pixels.width + 0.5) / pixels.width,
-                                      1.0 - (index / pixels.width + 0.5) / pixels.height});
+  const int column = index % pixels.width;
+  const int row = index / pixels.width;
+  const Direction found = direction_from_image(
+      preset(), {(column + 0.5) / pixels.width, 1.0 - (row + 0.5) / pixels.height});
   // The centre of the texel (16, 26); the sun has three by three texels of 5.6 degrees.
   const double theta = kPi * (1.0 - 26.5 / 32.0);
   const double phi = kPi - 2.0 * kPi * 16.5 / 64.0;

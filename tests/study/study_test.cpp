@@ -4,9 +4,9 @@
 
 #include <atomic>
 #include <cmath>
-#include <random>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/random.h"
 #include "lightproof/core/temporary_folder.h"
 #include "lightproof/image/synthetic.h"
 
@@ -102,11 +102,12 @@ TEST(RunStudy, GoesOnToTheSameBitsWhereverItIsEnded) {
   const Progress counting = [&calls](std::string_view /*step*/, double /*fraction*/) { ++calls; };
   const std::string whole = untimed_bytes(run_study(maps, options, counting));
   const TemporaryFolder folder;
-  std::mt19937_64 moments(7);
+  const RandomStream moments("study-ends", 7);
   constexpr int kEnds = 8;
   int ended = 0;
   for (int run = 0; run <= kEnds; ++run) {
-    std::atomic<long> left = std::uniform_int_distribution<long>(1, calls / 3)(moments);
+    const double share = moments.point(static_cast<std::uint64_t>(run)).s / 3.0;
+    std::atomic<long> left = 1 + static_cast<long>(share * static_cast<double>(calls.load()));
     const Progress ending = [&left, run](std::string_view /*step*/, double /*fraction*/) {
       if (--left <= 0 && run < kEnds) throw Interrupted();
     };

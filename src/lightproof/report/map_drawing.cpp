@@ -208,8 +208,10 @@ Grid<Rgb> picture_in_convention(const EnvironmentMap& map, Preset preset, Extent
     for (int x = 0; x < pixels.width; ++x) {
       Rgb sum(0.0F);
       for (int i = 0; i < kLookUps * kLookUps; ++i) {
-        const double right = (i % kLookUps + 0.5) / kLookUps;
-        const double down = (i / kLookUps + 0.5) / kLookUps;
+        const int column = i % kLookUps;
+        const int line = i / kLookUps;
+        const double right = (column + 0.5) / kLookUps;
+        const double down = (line + 0.5) / kLookUps;
         sum += look_up((x + right) / pixels.width, (y + down) / pixels.height);
       }
       picture(x, y) = sum / static_cast<float>(kLookUps * kLookUps);
