@@ -115,8 +115,10 @@ TEST(DensityGrid, OfAPictureIsReadPerSteradianOrPerSquare) {
 TEST(DensityGrid, OfADistributionOverDirectionsIsComparedWithIt) {
   const auto cosine = [](double factor) {
     return test::WrittenDump(kExtent.count(), {"s", "t", "pdf"}, [factor](std::size_t i) {
-      const SquarePoint at = {(static_cast<double>(i % 64) + 0.5) / kExtent.width,
-                              (static_cast<double>(i / 64) + 0.5) / kExtent.height};
+      const std::size_t column = i % 64;
+      const std::size_t row = i / 64;
+      const SquarePoint at = {(static_cast<double>(column) + 0.5) / kExtent.width,
+                              (static_cast<double>(row) + 0.5) / kExtent.height};
       const double z = direction_from_square(at).z;
       return std::vector<double>{at.s, at.t, factor * std::max(0.0, z) / kPi};
     });

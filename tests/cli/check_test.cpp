@@ -215,8 +215,10 @@ TEST_F(CheckCommand, JudgesDensitiesOnAGrid) {
     std::ofstream text(path("grid.csv"));
     text << "s,t,pdf\n";
     text.precision(9);
-    for (int i = 0; i < 128; ++i) {
-      text << (i % 16 + 0.5) / 16 << ',' << (i / 16 + 0.5) / 8 << ',' << density << '\n';
+    for (int row = 0; row < 8; ++row) {
+      for (int column = 0; column < 16; ++column) {
+        text << (column + 0.5) / 16 << ',' << (row + 0.5) / 8 << ',' << density << '\n';
+      }
     }
     text.close();
     return check(dump, {"--columns", "x,y,z,pdf", "--density", "B", "--densities", path("grid.csv"),
