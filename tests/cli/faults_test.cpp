@@ -426,8 +426,7 @@ TEST_F(Surroundings, WithoutProc) {
 
 TEST_F(Surroundings, WithDecimalCommasNumbersAreTheSame) {
   const fs::path locale = path("de_DE.UTF-8");
-  if (std::system(("localedef -i de_DE -f UTF-8 " + locale.string() + " 2>/dev/null").c_str()) !=
-      0) {
+  if (shell("localedef -i de_DE -f UTF-8 \"$2\"", {locale.string()}).exit_code != 0) {
     GTEST_SKIP() << "the package locales is not installed";
   }
   const Words german = {"LOCPATH=" + path().string(), "LC_ALL=de_DE.UTF-8", "LANGUAGE=de"};
