@@ -38,7 +38,7 @@ function configure() {
 /** One compile command per source file of the repository, without GCC's precompiled headers. */
 function commandsOfSources() {
   const commands = JSON.parse(readFileSync(join(build, "compile_commands.json"), "utf8"));
-  const ours = commands.filter(({ file }) => isOurs(file) && !isGenerated(file));
+  const ours = commands.filter(({ file }) => file.endsWith(".cpp") && isOurs(file) && !isGenerated(file));
   for (const unit of ours) {
     unit.command = unit.command.replace(/-Winvalid-pch|-include \S+cmake_pch\.hxx/g, "");
     unit.command = unit.command.replace(/ -o \S+/, "");

@@ -235,12 +235,12 @@ TEST_F(History, RefusesAFileThatWasCutShort) {
 // memory, somebody else's tables.
 TEST_F(History, RefusesTablesThatAreNotItsOwn) {
   const std::vector<std::string> harms = {
-      "DROP VIEW history; DROP TABLE runs;"
-      "CREATE VIEW runs AS WITH RECURSIVE n(id) AS (SELECT 1 UNION ALL SELECT id + 1 FROM n)"
-      " SELECT id, '' AS session, 0 AS started, '' AS machine, '' AS compiler, '' AS flags,"
-      " '' AS \"commit\", id AS digest, 0 AS checksum FROM n",
-      "CREATE TABLE more (bytes CHECK (length(zeroblob(1000000000)) > 0)); INSERT INTO more VALUES "
-      "(1)",
+      R"(DROP VIEW history; DROP TABLE runs;
+         CREATE VIEW runs AS WITH RECURSIVE n(id) AS (SELECT 1 UNION ALL SELECT id + 1 FROM n)
+         SELECT id, '' AS session, 0 AS started, '' AS machine, '' AS compiler, '' AS flags,
+         '' AS "commit", id AS digest, 0 AS checksum FROM n)",
+      R"(CREATE TABLE more (bytes CHECK (length(zeroblob(1000000000)) > 0));
+         INSERT INTO more VALUES (1))",
       "CREATE TRIGGER late AFTER INSERT ON runs BEGIN DELETE FROM runs; END",
       "CREATE INDEX slow ON runs (length(zeroblob(1000000000)))",
       "DROP VIEW history; ALTER TABLE runs ADD COLUMN more AS (zeroblob(1000000000))",

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "lightproof/core/measure.h"
 
 namespace lightproof {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kEnds[][2] = {{1.0, 1.0}, {0.0, 2.0},   {2.0, 0.0}, {1.0, 1e5},
                                {1e5, 1.0}, {0.0, 1e-30}, {1e30, 1.0}};
 

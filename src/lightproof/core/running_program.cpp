@@ -1,5 +1,6 @@
 #include "lightproof/core/running_program.h"
 
+#include <bit>
 #include <cerrno>
 #include <system_error>
 
@@ -17,7 +18,7 @@ constexpr const char* kSelf = "/proc/self/exe";
 fs::path name_of_start() {
 #ifdef __linux__
   if (const unsigned long name = ::getauxval(AT_EXECFN); name != 0) {
-    return reinterpret_cast<const char*>(name);
+    return std::bit_cast<const char*>(name);
   }
 #endif
   const fs::path name = program_invocation_name;

@@ -18,6 +18,7 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <thread>
 #include <vector>
 
@@ -159,11 +160,12 @@ std::uint64_t held_memory() {
   static const int statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
   static const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
   char text[128] = {};
-  unsigned long size = 0;
-  unsigned long resident = 0;
-  unsigned long shared = 0;
   if (statm < 0 || ::pread(statm, text, sizeof text - 1, 0) <= 0) return 0;
-  if (std::sscanf(text, "%lu %lu %lu", &size, &resident, &shared) != 3) return 0;
+  // Size, resident, shared; strtoull() gives 0 where there is no number.
+  char* at = text;
+  static_cast<void>(std::strtoull(at, &at, 10));
+  const std::uint64_t resident = std::strtoull(at, &at, 10);
+  const std::uint64_t shared = std::strtoull(at, &at, 10);
   return page * (resident - std::min(resident, shared));
 }
 
