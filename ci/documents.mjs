@@ -58,9 +58,26 @@ x, y, z = direction[:1 << 18].T
 square = pdf[:1 << 18] * 2 * np.pi**2 * np.sqrt(1 - z * z)
 rows = np.column_stack([0.5 - np.arctan2(y, x) / (2 * np.pi), np.arccos(z) / np.pi, square])
 np.savetxt("samples.csv", rows, delimiter=",")
+
+radiance = sun_sky(WIDTH, HEIGHT) / 100
+sampler = EnvironmentSampler(radiance)
+column = np.clip(((0.5 - np.arctan2(direction[:, 1], direction[:, 0]) / (2 * np.pi)) * WIDTH).astype(int), 0, WIDTH - 1)
+row = np.clip(((1 - np.arccos(direction[:, 2]) / np.pi) * HEIGHT).astype(int), 0, HEIGHT - 1)
+weights = radiance[row, column] / pdf[:, None]
+np.save("guided.npy", np.column_stack([direction, pdf, weights]).astype("<f4"))
+
+t, s = np.meshgrid((np.arange(HEIGHT) + 0.5) / HEIGHT, (np.arange(WIDTH) + 0.5) / WIDTH, indexing="ij")
+densities = sampler.mass.reshape(HEIGHT, WIDTH) * WIDTH * HEIGHT / (2 * np.pi**2 * np.sin(np.pi * t))
+np.savetxt("pdf.csv", np.column_stack([s.ravel(), t.ravel(), densities.ravel()]), delimiter=",", header="s,t,pdf", comments="")
+
+u = np.random.default_rng(2).random((1 << 20, 2))
+phi, cosine = 2 * np.pi * u[:, 0], np.sqrt(1 - u[:, 1])
+sine = np.sqrt(u[:, 1])
+diffuse = np.column_stack([sine * np.cos(phi), sine * np.sin(phi), cosine, cosine / np.pi])
+np.save("brdf.npy", diffuse.astype("<f4"))
 `;
 
-/** samples.npy, samples.csv, and a program that prints samples as floats. */
+/** samples.npy, samples.csv, guided.npy, brdf.npy, pdf.csv, and a program that prints samples as floats. */
 function furnishSamples() {
   const python = pythonWithNumpy();
   execFileSync(python, ["-c", densityC, join(root, "examples", "python")], { cwd: folder });
