@@ -10,7 +10,8 @@ namespace lightproof::bench {
 
 void register_sample_benchmarks();
 void register_direction_benchmarks();
-/// Those of the samplers in these shared libraries. Throws InputError if one is no plug-in.
+/// Registers the directions/ benchmarks of plug-ins, given by the paths of their shared libraries.
+/// Throws InputError if one is no plug-in.
 void register_plugin_benchmarks(std::span<const std::string> files);
 void register_build_benchmarks();
 void register_render_benchmarks();

@@ -21,20 +21,6 @@ constexpr std::int64_t kMostPixels = std::int64_t{1} << 18U;
 /// What the decoder's process may take before pixels are read.
 constexpr std::size_t kMostBytes = std::size_t{96} << 20U;
 
-std::unique_ptr<PictureDecoder> open_picture(ByteReader& bytes, const OpenRequest& request) {
-  switch (request.format) {
-    case PictureFormat::openexr:
-      return open_exr(bytes, request.part);
-    case PictureFormat::radiance:
-      return open_radiance(bytes);
-    case PictureFormat::png:
-      return open_png(bytes);
-    case PictureFormat::jpeg:
-      break;
-  }
-  return open_jpeg(bytes);
-}
-
 bool is_small(const StoredPicture& stored) {
   const auto fits = [](std::int64_t width, std::int64_t height) {
     return width < kMostPixels && height < kMostPixels && width * height < kMostPixels;

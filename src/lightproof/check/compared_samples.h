@@ -24,7 +24,7 @@ void visit_spread(const SampleDump& dump,
 /// A comparison of densities at samples.
 class ComparedSamples {
  public:
-  /// Of samples in texels of this mapping.
+  /// An empty comparison, of samples in texels of this mapping.
   explicit ComparedSamples(const Mapping& mapping) : mapping_(mapping) {
     found_.compared = "samples";
   }

@@ -21,7 +21,8 @@ constexpr std::size_t kBlock = 4096;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// How far from the centre of its cell, in cells, a point may lie.
 constexpr double kOffCentre = 0.01;
-/// Of an integral for which no declared density says how exact the grid is.
+/// By how much the integral of a grid may differ from 1, relative, where no declared density says
+/// how exact the grid is.
 constexpr double kUndeclared = 0.01;
 
 /// The rows of a grid of cell centres, given all t of its points; none if they are no such rows.

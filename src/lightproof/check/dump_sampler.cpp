@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lightproof/check/compared_samples.h"
-#include "lightproof/check/lat_long_places.h"
+#include "lightproof/check/lat_long_positions.h"
 #include "lightproof/check/texel_locator.h"
 #include "lightproof/warp/mapping.h"
 
@@ -31,12 +31,12 @@ BoundSampler bound_dump(std::shared_ptr<const SampleDump> dump,
                                                 std::span<TexelSample> samples) {
     const TexelLocator located = locator_of(*expectation, dump->rounding());
     std::vector<DumpedSample> block(std::min(samples.size(), kSampleBlock));
-    LatLongPlaces places(block.size());
+    LatLongPositions positions(block.size());
     for (std::size_t done = 0; done < samples.size(); done += kSampleBlock) {
       const std::size_t count = std::min(kSampleBlock, samples.size() - done);
       dump->read(first + done, std::span(block).first(count));
       located(std::span<const DumpedSample>(block).first(count), samples.subspan(done, count),
-              places);
+              positions);
     }
   };
   return sampler;
@@ -46,10 +46,10 @@ DensityComparison compare_dumped_density(const SampleDump& dump, const Expectati
                                          double tolerance) {
   const TexelLocator located = locator_of(expectation, dump.rounding());
   ComparedSamples compared(expectation.mapping);
-  LatLongPlaces places(kSampleBlock);
+  LatLongPositions positions(kSampleBlock);
   std::vector<TexelSample> placed(kSampleBlock);
   visit_spread(dump, [&](std::span<const DumpedSample> samples) {
-    located(samples, std::span(placed).first(samples.size()), places);
+    located(samples, std::span(placed).first(samples.size()), positions);
     for (const TexelSample& sample : std::span(placed).first(samples.size())) {
       if (!std::isfinite(sample.at.s)) continue;
       const double declared = declared_density(expectation, sample.at, sample.x, sample.y);

@@ -163,8 +163,8 @@ class Estimates {
     });
     return light;
   }
-  /// The same of the texels of a block that the first fifth did not find, if they have light; and
-  /// their solid angle.
+  /// Exact light, and solid angle in steradian, of the lit texels of a block in which the first
+  /// fifth has no sample.
   struct LitOthers {
     double light = 0.0;
     double area = 0.0;
@@ -394,8 +394,8 @@ struct Evidence {
 /// Rounding may put samples of a bright block into a dark one beside it: as much of the whole.
 constexpr double kSpilled = 1e-6;
 
-/// The more telling of both sides: over all texels for a mean that is too large, over those that
-/// were found for one that is too small. Each has half of the weight.
+/// The stronger evidence of both sides: over all texels for a mean that is too large, over those
+/// that were found for one that is too small. Each has half of the weight.
 Evidence evidence_of(const ValueSums& all, double exact, const ValueSums& seen, double exact_seen,
                      double largest) {
   const double half = std::log10(0.5);
@@ -422,7 +422,7 @@ std::string words_of_block(const Blocks& blocks, std::size_t block) {
                      part(y + 1, blocks.extent.height));
 }
 
-/// Of one quantity: the whole has half of the weight of all evidence, the blocks share the rest.
+/// The evidence against one quantity: half of the weight is the whole's, the blocks share the rest.
 struct Judged {
   Evidence whole;
   Evidence worst;           ///< of the blocks

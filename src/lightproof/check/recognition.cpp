@@ -29,7 +29,7 @@ namespace {
 
 /// Samples by which conventions are told apart.
 constexpr std::uint64_t kSamples = std::uint64_t{1} << 17U;
-/// Of them as many tell axes apart where a density takes long.
+/// How many of these samples tell axes apart where a density takes long to compute.
 constexpr std::size_t kOfDirections = std::size_t{1} << 15U;
 /// How many samples' densities are compared with others.
 constexpr std::size_t kOfDensities = std::size_t{1} << 13U;

@@ -11,7 +11,7 @@
 namespace lightproof {
 namespace {
 
-/// Closer to a pole than this, in radians, places have fewer digits.
+/// Closer to a pole than this, in radians, positions have fewer digits.
 constexpr double kAtPole = 1e-3;
 
 /// A coordinate as samplers place it: away from the edges of its cell.
@@ -49,19 +49,20 @@ TexelSample TexelLocator::operator()(const DumpedSample& sample) const {
 }
 
 void TexelLocator::operator()(std::span<const DumpedSample> samples,
-                              std::span<TexelSample> placed_samples, LatLongPlaces& places) const {
+                              std::span<TexelSample> placed_samples,
+                              LatLongPositions& positions) const {
   if (mapping_.kind != MappingKind::lat_long) {
     std::ranges::transform(samples, placed_samples.begin(),
                            [this](const DumpedSample& sample) { return (*this)(sample); });
     return;
   }
-  places.find(samples);
+  positions.find(samples);
   const double shift = mapping_.shift;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    double s = places.s(i) - shift;
+    double s = positions.s(i) - shift;
     s -= std::floor(s);
-    const double t = places.t(i);
-    const double sine = places.sine(i);
+    const double t = positions.t(i);
+    const double sine = positions.sine(i);
     const bool is_plain_case = sine > kAtPole &&
                                !is_near_edge(s, rounding_ * 0.5 / (kPi * sine), extent_.width) &&
                                !is_near_edge(t, rounding_ / kPi, extent_.height);  // false for NaN

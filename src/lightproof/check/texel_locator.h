@@ -4,7 +4,7 @@
 #include <functional>
 #include <span>
 
-#include "lightproof/check/lat_long_places.h"
+#include "lightproof/check/lat_long_positions.h"
 #include "lightproof/core/grid.h"
 #include "lightproof/dump/sample_row.h"
 #include "lightproof/samplers/sampler.h"
@@ -28,9 +28,9 @@ class TexelLocator {
   TexelSample operator()(const DumpedSample& sample) const;
 
   /// Many at once: on latitude and longitude all but those at poles and near edges by vectors. Both
-  /// spans are of one size, for which `places` is made.
+  /// spans are of one size, for which `positions` is made.
   void operator()(std::span<const DumpedSample> samples, std::span<TexelSample> placed_samples,
-                  LatLongPlaces& places) const;
+                  LatLongPositions& positions) const;
 
  private:
   TexelSample placed(Direction d, PerSteradian pdf) const;

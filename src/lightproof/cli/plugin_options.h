@@ -28,11 +28,11 @@ using PluginLibraries = std::vector<std::shared_ptr<const PluginLibrary>>;
 /// The plug-ins, in the order of their files. Throws InputError if a file is none.
 PluginLibraries load_plugins(const ChosenPlugins& plugins, std::uint64_t seed);
 
-/// Their samplers.
+/// The samplers of plug-ins, in their order; notes on what they print go to `notes`.
 std::vector<SamplerUnderTest> samplers_of(const PluginLibraries& libraries,
                                           const std::shared_ptr<PluginNotes>& notes);
 
-/// How a command line names each of them.
+/// How a command line that repeats a run names each plug-in.
 std::vector<ForeignSampler> foreign_samplers(const PluginLibraries& libraries,
                                              const ChosenPlugins& plugins);
 

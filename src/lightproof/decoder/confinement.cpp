@@ -1,12 +1,7 @@
 #include "lightproof/decoder/confinement.h"
 
-#include <linux/audit.h>
-#include <linux/filter.h>
-#include <linux/seccomp.h>
 #include <malloc.h>
 #include <pthread.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -18,6 +13,8 @@
 #include <ctime>
 #include <thread>
 #include <vector>
+
+#include "lightproof/core/seccomp_filter.h"
 
 namespace lightproof {
 namespace {
@@ -32,14 +29,6 @@ constexpr bool kIsConfined = true;
 constexpr int kFirstForeign = 4;
 constexpr std::size_t kStackOfThread = std::size_t{1} << 20U;
 constexpr int kMostThreads = 16;
-
-#if defined(__x86_64__)
-constexpr unsigned kArchitecture = AUDIT_ARCH_X86_64;
-#elif defined(__aarch64__)
-constexpr unsigned kArchitecture = AUDIT_ARCH_AARCH64;
-#else
-constexpr unsigned kArchitecture = 0;
-#endif
 
 /// What reading a descriptor, computing in threads and writing to a socket take.
 constexpr long kAllowed[] = {
@@ -77,56 +66,26 @@ constexpr long kAllowed[] = {
     SYS_getrusage,
 };
 
-sock_filter statement(unsigned code, unsigned value) {
-  return {static_cast<unsigned short>(code), 0, 0, value};
-}
-
-sock_filter jump(unsigned code, unsigned value, unsigned if_true, unsigned if_false) {
-  return {static_cast<unsigned short>(code), static_cast<unsigned char>(if_true),
-          static_cast<unsigned char>(if_false), value};
-}
-
-constexpr unsigned kLoad = BPF_LD | BPF_W | BPF_ABS;
-constexpr unsigned kIfEqual = BPF_JMP | BPF_JEQ | BPF_K;
-
 /// Every call that is not allowed fails as if this program had no right to it. Another calling
 /// convention than that of the machine ends the program.
 std::vector<sock_filter> filter() {
   std::vector<sock_filter> program = {
-      statement(kLoad, offsetof(seccomp_data, arch)),
-      jump(kIfEqual, kArchitecture, 1, 0),
-      statement(BPF_RET | BPF_K, SECCOMP_RET_KILL_PROCESS),
-      statement(kLoad, offsetof(seccomp_data, nr)),
+      filter_statement(kFilterLoad, offsetof(seccomp_data, arch)),
+      filter_jump(kFilterIfEqual, kSeccompArchitecture, 1, 0),
+      filter_statement(kFilterReturn, SECCOMP_RET_KILL_PROCESS),
+      filter_statement(kFilterLoad, offsetof(seccomp_data, nr)),
   };
   for (const long call : kAllowed) {
-    program.push_back(jump(kIfEqual, static_cast<unsigned>(call), 0, 1));
-    program.push_back(statement(BPF_RET | BPF_K, SECCOMP_RET_ALLOW));
+    program.push_back(filter_jump(kFilterIfEqual, static_cast<unsigned>(call), 0, 1));
+    program.push_back(filter_statement(kFilterReturn, SECCOMP_RET_ALLOW));
   }
   // Limits of this process alone.
-  program.push_back(jump(kIfEqual, SYS_prlimit64, 0, 3));
-  program.push_back(statement(kLoad, offsetof(seccomp_data, args)));
-  program.push_back(jump(kIfEqual, 0, 0, 1));
-  program.push_back(statement(BPF_RET | BPF_K, SECCOMP_RET_ALLOW));
-  program.push_back(statement(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM));
+  program.push_back(filter_jump(kFilterIfEqual, SYS_prlimit64, 0, 3));
+  program.push_back(filter_statement(kFilterLoad, offsetof(seccomp_data, args)));
+  program.push_back(filter_jump(kFilterIfEqual, 0, 0, 1));
+  program.push_back(filter_statement(kFilterReturn, SECCOMP_RET_ALLOW));
+  program.push_back(filter_statement(kFilterReturn, SECCOMP_RET_ERRNO | EPERM));
   return program;
-}
-
-void install_filter() {
-  if (kArchitecture == 0) return;
-  std::vector<sock_filter> program = filter();
-  const sock_fprog whole = {static_cast<unsigned short>(program.size()), program.data()};
-  // Where the system has no filters, the limits remain.
-  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &whole);
-}
-
-/// No more than is allowed already.
-void set_limit(__rlimit_resource resource, rlim_t value, bool for_good) {
-  rlimit now = {};
-  if (::getrlimit(resource, &now) != 0) return;
-  now.rlim_cur = std::min(value, now.rlim_max);
-  if (for_good) now.rlim_max = now.rlim_cur;
-  ::setrlimit(resource, &now);
 }
 
 }  // namespace
@@ -143,16 +102,17 @@ void confine() {
     ::pthread_attr_destroy(&attributes);
   }
   ::mallopt(M_ARENA_MAX, 2);
-  set_limit(RLIMIT_CORE, 0, true);
+  limit_resource(RLIMIT_CORE, 0, true);
   if (!kIsConfined) return;
-  set_limit(RLIMIT_FSIZE, 0, true);
-  install_filter();
+  limit_resource(RLIMIT_FSIZE, 0, true);
+  // Where the system has no filters, the limits remain.
+  install_filter(filter());
 }
 
 void limit(std::uint64_t bytes, double seconds) {
   if (!kIsConfined) return;
-  set_limit(RLIMIT_DATA, bytes, false);
-  set_limit(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(seconds)), false);
+  limit_resource(RLIMIT_DATA, bytes);
+  limit_resource(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(seconds)));
 }
 
 double seconds_taken() {

@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 
+#include "lightproof/core/companion_start.h"
 #include "lightproof/core/failure.h"
 #include "lightproof/decoder/confinement.h"
 #include "lightproof/decoder/conversation.h"
@@ -70,20 +71,6 @@ void with_reasons(std::string_view what, const Work& work) {
     answer_value(MessageKind::failed,
                  DecoderFailure{.reason = fmt::format("{}: unknown error", what)});
   }
-}
-
-std::unique_ptr<PictureDecoder> open_picture(ByteReader& bytes, const OpenRequest& request) {
-  switch (request.format) {
-    case PictureFormat::openexr:
-      return open_exr(bytes, request.part);
-    case PictureFormat::radiance:
-      return open_radiance(bytes);
-    case PictureFormat::png:
-      return open_png(bytes);
-    case PictureFormat::jpeg:
-      break;
-  }
-  return open_jpeg(bytes);
 }
 
 void decode(const OpenRequest& request) {
@@ -157,12 +144,6 @@ void converse() {
   }
 }
 
-bool is_socket(int descriptor) {
-  int type = 0;
-  socklen_t size = sizeof type;
-  return ::getsockopt(descriptor, SOL_SOCKET, SO_TYPE, &type, &size) == 0;
-}
-
 constexpr const char* kUsage =
     "lightproof-decode decodes and encodes pictures for lightproof and programs that are built "
     "with\n"
@@ -170,23 +151,14 @@ constexpr const char* kUsage =
     "  --version   print the version\n"
     "  --help      print this\n";
 
-/// What there is to say to somebody who starts it by hand.
-int explain(int argc, char** argv) {
-  const std::string_view word = argc > 1 ? argv[1] : "";
-  if (word == "--version") {
-    fmt::print("lightproof-decode {}\n", LIGHTPROOF_VERSION);
-    return 0;
-  }
-  fmt::print(word == "--help" ? stdout : stderr, "{}", kUsage);
-  return word == "--help" ? 0 : kInputFailed;
-}
-
 }  // namespace
 }  // namespace lightproof
 
 int main(int argc, char** argv) {
   using namespace lightproof;
-  if (argc > 1 || !is_socket(STDIN_FILENO)) return explain(argc, argv);
+  if (argc > 1 || !is_socket(STDIN_FILENO)) {
+    return explain_companion("lightproof-decode", kUsage, argc, argv);
+  }
   confine();
   try {
     converse();

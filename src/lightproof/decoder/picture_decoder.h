@@ -48,4 +48,7 @@ std::unique_ptr<PictureDecoder> open_radiance(ByteReader& bytes);
 std::unique_ptr<PictureDecoder> open_png(ByteReader& bytes);
 std::unique_ptr<PictureDecoder> open_jpeg(ByteReader& bytes);
 
+/// The decoder of the format that is asked for. Throws InputError, or whatever a library throws.
+std::unique_ptr<PictureDecoder> open_picture(ByteReader& bytes, const OpenRequest& request);
+
 }  // namespace lightproof

@@ -11,7 +11,7 @@
  * Where it runs. Each library is loaded by a process of its own, lightproof-plugin-host. What it
  * does there harms nobody else: a crash, exit(), a batch that takes too long, too much memory, or
  * another process that it starts is a verdict, "rejected", which names the input. What it prints is
- * shown as a note. It is no prison for hostile code: it has the rights of whoever started
+ * shown as a note. It is no sandbox for malicious code: it has the rights of whoever started
  * Lightproof.
  *
  * Threads. All functions are called by one thread of the process, one after the other. There may be

@@ -1,13 +1,9 @@
 #include "lightproof/plugin_host/confinement.h"
 
 #include <fcntl.h>
-#include <linux/audit.h>
-#include <linux/filter.h>
-#include <linux/seccomp.h>
 #include <poll.h>
 #include <sched.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,6 +19,7 @@
 #include <vector>
 
 #include "lightproof/core/failure.h"
+#include "lightproof/core/seccomp_filter.h"
 #include "lightproof/core/system_call.h"
 #include "lightproof/plugin/plugin_messages.h"
 
@@ -40,16 +37,11 @@ constexpr int kSocket = 10;
 /// What the plug-in has to free what is its own, once nobody asks any more.
 constexpr std::chrono::milliseconds kGrace{400};
 
-#if defined(__x86_64__)
-constexpr unsigned kArchitecture = AUDIT_ARCH_X86_64;
 /// Calls with this bit belong to another convention (x32).
+#if defined(__x86_64__)
 constexpr unsigned kOtherConvention = 0x40000000U;
-#elif defined(__aarch64__)
-constexpr unsigned kArchitecture = AUDIT_ARCH_AARCH64;
-constexpr unsigned kOtherConvention = 0xffffffffU;
 #else
-constexpr unsigned kArchitecture = 0;
-constexpr unsigned kOtherConvention = 0xffffffffU;
+constexpr unsigned kOtherConvention = 0;
 #endif
 
 /// Calls that start a process or another program. Threads are clone() with CLONE_THREAD.
@@ -64,62 +56,32 @@ constexpr long kEnding[] = {
     SYS_execveat,
 };
 
-sock_filter statement(unsigned code, unsigned value) {
-  return {static_cast<unsigned short>(code), 0, 0, value};
-}
-
-sock_filter jump(unsigned code, unsigned value, unsigned if_true, unsigned if_false) {
-  return {static_cast<unsigned short>(code), static_cast<unsigned char>(if_true),
-          static_cast<unsigned char>(if_false), value};
-}
-
-constexpr unsigned kLoad = BPF_LD | BPF_W | BPF_ABS;
-constexpr unsigned kIfEqual = BPF_JMP | BPF_JEQ | BPF_K;
-constexpr unsigned kIfAny = BPF_JMP | BPF_JSET | BPF_K;
-constexpr unsigned kReturn = BPF_RET | BPF_K;
-
 /// Everything is allowed but new processes and programs. The flags of clone3() cannot be seen:
 /// where it is said not to exist, libraries take clone().
 std::vector<sock_filter> filter() {
   std::vector<sock_filter> program = {
-      statement(kLoad, offsetof(seccomp_data, arch)),
-      jump(kIfEqual, kArchitecture, 1, 0),
-      statement(kReturn, SECCOMP_RET_KILL_PROCESS),
-      statement(kLoad, offsetof(seccomp_data, nr)),
-      jump(kIfEqual, SYS_clone3, 0, 1),
-      statement(kReturn, SECCOMP_RET_ERRNO | ENOSYS),
+      filter_statement(kFilterLoad, offsetof(seccomp_data, arch)),
+      filter_jump(kFilterIfEqual, kSeccompArchitecture, 1, 0),
+      filter_statement(kFilterReturn, SECCOMP_RET_KILL_PROCESS),
+      filter_statement(kFilterLoad, offsetof(seccomp_data, nr)),
+      filter_jump(kFilterIfEqual, SYS_clone3, 0, 1),
+      filter_statement(kFilterReturn, SECCOMP_RET_ERRNO | ENOSYS),
   };
-  if (kOtherConvention != 0xffffffffU) {
-    program.push_back(jump(kIfAny, kOtherConvention, 0, 1));
-    program.push_back(statement(kReturn, SECCOMP_RET_KILL_PROCESS));
+  if (kOtherConvention != 0) {
+    program.push_back(filter_jump(kFilterIfAny, kOtherConvention, 0, 1));
+    program.push_back(filter_statement(kFilterReturn, SECCOMP_RET_KILL_PROCESS));
   }
   for (const long call : kEnding) {
-    program.push_back(jump(kIfEqual, static_cast<unsigned>(call), 0, 1));
-    program.push_back(statement(kReturn, SECCOMP_RET_KILL_PROCESS));
+    program.push_back(filter_jump(kFilterIfEqual, static_cast<unsigned>(call), 0, 1));
+    program.push_back(filter_statement(kFilterReturn, SECCOMP_RET_KILL_PROCESS));
   }
-  program.push_back(jump(kIfEqual, SYS_clone, 0, 3));
+  program.push_back(filter_jump(kFilterIfEqual, SYS_clone, 0, 3));
   // The flags are the first argument; its lower half comes first.
-  program.push_back(statement(kLoad, offsetof(seccomp_data, args)));
-  program.push_back(jump(kIfAny, CLONE_THREAD, 1, 0));
-  program.push_back(statement(kReturn, SECCOMP_RET_KILL_PROCESS));
-  program.push_back(statement(kReturn, SECCOMP_RET_ALLOW));
+  program.push_back(filter_statement(kFilterLoad, offsetof(seccomp_data, args)));
+  program.push_back(filter_jump(kFilterIfAny, CLONE_THREAD, 1, 0));
+  program.push_back(filter_statement(kFilterReturn, SECCOMP_RET_KILL_PROCESS));
+  program.push_back(filter_statement(kFilterReturn, SECCOMP_RET_ALLOW));
   return program;
-}
-
-void forbid_processes() {
-  if (kArchitecture == 0) return;
-  std::vector<sock_filter> program = filter();
-  const sock_fprog whole = {static_cast<unsigned short>(program.size()), program.data()};
-  // Where the system has no filters, has_children() sees the process afterwards.
-  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &whole);
-}
-
-void set_limit(__rlimit_resource resource, rlim_t value) {
-  rlimit now = {};
-  if (::getrlimit(resource, &now) != 0) return;
-  now.rlim_cur = std::min(value, now.rlim_max);
-  ::setrlimit(resource, &now);
 }
 
 }  // namespace
@@ -137,7 +99,7 @@ int confine_plugin() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) ::signal(signal, SIG_IGN);
   // Whoever asks sees how it crashes: nobody else catches that here, no sanitizer either.
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) ::signal(signal, SIG_DFL);
-  set_limit(RLIMIT_CORE, 0);
+  limit_resource(RLIMIT_CORE, 0);
   return socket;
 }
 
@@ -149,11 +111,12 @@ void end_with(int socket) {
     std::this_thread::sleep_for(kGrace);
     ::_exit(kInputFailed);
   }).detach();
-  forbid_processes();
+  // Where the system has no filters, has_children() sees the process afterwards.
+  install_filter(filter());
 }
 
 void limit_memory(std::uint64_t bytes) {
-  if (kLimitsMemory && bytes > 0) set_limit(RLIMIT_DATA, bytes);
+  if (kLimitsMemory && bytes > 0) limit_resource(RLIMIT_DATA, bytes);
 }
 
 std::uint64_t held_memory() {

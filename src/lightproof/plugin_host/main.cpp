@@ -21,6 +21,7 @@
 #include <string_view>
 #include <utility>
 
+#include "lightproof/core/companion_start.h"
 #include "lightproof/core/failure.h"
 #include "lightproof/core/serialise.h"
 #include "lightproof/core/system_call.h"
@@ -295,35 +296,20 @@ void answer(Plugin& plugin, const Conversation& conversation, const PluginReques
   ::_exit(0);
 }
 
-bool is_socket(int descriptor) {
-  int type = 0;
-  socklen_t size = sizeof type;
-  return ::getsockopt(descriptor, SOL_SOCKET, SO_TYPE, &type, &size) == 0;
-}
-
 constexpr const char* kUsage =
     "lightproof-plugin-host calls the functions of a plug-in for lightproof gate --plugin, which\n"
     "starts it itself: it has no use of its own.\n"
     "  --version   print the version\n"
     "  --help      print this\n";
 
-/// What there is to say to somebody who starts it by hand.
-int explain(int argc, char** argv) {
-  const std::string_view word = argc > 1 ? argv[1] : "";
-  if (word == "--version") {
-    fmt::print("lightproof-plugin-host {}\n", LIGHTPROOF_VERSION);
-    return 0;
-  }
-  fmt::print(word == "--help" ? stdout : stderr, "{}", kUsage);
-  return word == "--help" ? 0 : kInputFailed;
-}
-
 }  // namespace
 }  // namespace lightproof
 
 int main(int argc, char** argv) {
   using namespace lightproof;
-  if (argc != 2 || !is_socket(STDIN_FILENO)) return explain(argc, argv);
+  if (argc != 2 || !is_socket(STDIN_FILENO)) {
+    return explain_companion("lightproof-plugin-host", kUsage, argc, argv);
+  }
   const int socket = confine_plugin();
   end_with(socket);
   try {

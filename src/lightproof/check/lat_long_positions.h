@@ -11,11 +11,11 @@ namespace lightproof {
 
 /// Finds square_from_direction() of directions: an approximation by vectors, and from it one step
 /// along parallel and meridian, whose error is the cube of the approximation's, 1e-21.
-class LatLongPlaces {
+class LatLongPositions {
  public:
-  explicit LatLongPlaces(std::size_t most);
+  explicit LatLongPositions(std::size_t most);
 
-  /// Finds the places of samples, `most` of them at the most. One whose direction is none has no
+  /// Finds the positions of samples, `most` of them at the most. One whose direction is none has no
   /// numbers. Within 1e-3 of a pole s is no better than the approximation.
   void find(std::span<const DumpedSample> samples);
 
@@ -26,7 +26,7 @@ class LatLongPlaces {
 
  private:
   std::vector<double> x_, y_, z_, s_, t_;
-  std::vector<double> near_x_, near_y_, near_z_, near_sine_;  ///< at the approximate places
+  std::vector<double> near_x_, near_y_, near_z_, near_sine_;  ///< at the approximate positions
   std::vector<double> from_axis_;
 };
 

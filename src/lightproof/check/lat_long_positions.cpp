@@ -1,4 +1,4 @@
-#include "lightproof/check/lat_long_places.h"
+#include "lightproof/check/lat_long_positions.h"
 
 #include <cmath>
 
@@ -7,14 +7,14 @@
 
 namespace lightproof {
 
-LatLongPlaces::LatLongPlaces(std::size_t most) {
+LatLongPositions::LatLongPositions(std::size_t most) {
   for (std::vector<double>* numbers :
        {&x_, &y_, &z_, &s_, &t_, &near_x_, &near_y_, &near_z_, &near_sine_, &from_axis_}) {
     numbers->resize(most);
   }
 }
 
-void LatLongPlaces::find(std::span<const DumpedSample> samples) {
+void LatLongPositions::find(std::span<const DumpedSample> samples) {
   const std::size_t count = samples.size();
   const auto part = [count](std::vector<double>& numbers) {
     return std::span(numbers).first(count);
