@@ -43,10 +43,10 @@ std::string text_of(const fs::path& file) {
 
 TEST(GatePlugin, AcceptsTheOneThatIsRightAndTestsNoOther) {
   const TemporaryFolder folder;
-  const Finished finished = gate_of({"sound"}, {"--json", "g.json"}, folder / "");
+  const Finished finished = gate_of({"correct"}, {"--json", "g.json"}, folder / "");
   EXPECT_EQ(finished.exit_code, 0) << finished.out << finished.err;
   EXPECT_EQ(finished.err, "");
-  EXPECT_THAT(values_of(json_of(folder / "g.json"), "sampler"), ElementsAre("sound"));
+  EXPECT_THAT(values_of(json_of(folder / "g.json"), "sampler"), ElementsAre("correct"));
   EXPECT_THAT(values_of(json_of(folder / "g.json"), "density"), ElementsAre("C"));
   expect_valid("gate.schema.json", folder / "g.json");
 }
@@ -69,7 +69,7 @@ TEST(GatePlugin, RejectsInEveryFormWithTheCommandThatDrawsItAgain) {
 
 TEST(GatePlugin, RejectsACrashWithItsInputAndJudgesTheOthers) {
   const TemporaryFolder folder;
-  const Finished finished = gate_of({"crash", "sound"},
+  const Finished finished = gate_of({"crash", "correct"},
                                     {"--sampler", "alias", "--density", "C", "--json", "g.json",
                                      "--junit", "g.xml", "--rejections", "rejected"},
                                     folder / "");
@@ -77,7 +77,8 @@ TEST(GatePlugin, RejectsACrashWithItsInputAndJudgesTheOthers) {
   EXPECT_THAT(finished.out, AllOf(HasSubstr("check/every call returns"),
                                   HasSubstr("crashed (signal 11"), HasSubstr("at u = (0.700")));
   const nlohmann::json gate = json_of(folder / "g.json");
-  EXPECT_THAT(values_of(gate, "sampler"), testing::UnorderedElementsAre("crash", "sound", "alias"));
+  EXPECT_THAT(values_of(gate, "sampler"),
+              testing::UnorderedElementsAre("crash", "correct", "alias"));
   ASSERT_EQ(gate.at("rejections").size(), 1U);
   EXPECT_EQ(gate.at("rejections")[0].at("sampler"), "crash");
   EXPECT_EQ(gate.at("rejections")[0].at("looks_like"), "no answer");
@@ -120,12 +121,12 @@ TEST(GatePlugin, RefusesWhatIsNoPlugin) {
 }
 
 TEST(GatePlugin, RefusesTwoOfOneNameAndADensityThatItDoesNotDeclare) {
-  const Finished twice = gate_of({"sound", "sound"});
+  const Finished twice = gate_of({"correct", "correct"});
   EXPECT_EQ(twice.exit_code, 2);
-  EXPECT_THAT(twice.err, HasSubstr("two samplers of this run are called sound"));
-  const Finished other = gate_of({"sound"}, {"--density", "A"});
+  EXPECT_THAT(twice.err, HasSubstr("two samplers of this run are called correct"));
+  const Finished other = gate_of({"correct"}, {"--density", "A"});
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_THAT(other.err, HasSubstr("sound declares density C, not A"));
+  EXPECT_THAT(other.err, HasSubstr("correct declares density C, not A"));
 }
 
 /// Builds what was written to a folder; its output if that fails.

@@ -41,7 +41,10 @@ EnvironmentMap sun_sky() { return make_synthetic_map("sun-sky", {32, 16}); }
 class InTheGate {
  public:
   explicit InTheGate(const std::string& name, PluginOptions options = {})
-      : library_(std::make_shared<const PluginLibrary>(file_of(name), options)) {}
+      : InTheGate(name, sun_sky(), options) {}
+  InTheGate(const std::string& name, EnvironmentMap map, PluginOptions options = {})
+      : maps_({std::move(map)}),
+        library_(std::make_shared<const PluginLibrary>(file_of(name), options)) {}
 
   GateResult judged(bool sequentially = false, std::vector<SamplerUnderTest> others = {}) {
     others.push_back(sampler_under_test(library_, notes_));
@@ -53,7 +56,7 @@ class InTheGate {
   std::vector<std::string> notes() const { return notes_->all(); }
 
  private:
-  std::vector<EnvironmentMap> maps_ = {sun_sky()};
+  std::vector<EnvironmentMap> maps_;
   std::shared_ptr<const PluginLibrary> library_;
   std::shared_ptr<PluginNotes> notes_ = std::make_shared<PluginNotes>();
 };
@@ -83,9 +86,9 @@ PluginOptions with_little_time() {
   return options;
 }
 
-class Sound : public testing::TestWithParam<const char*> {};
+class Correct : public testing::TestWithParam<const char*> {};
 
-TEST_P(Sound, IsAcceptedByAllTests) {
+TEST_P(Correct, IsAcceptedByAllTests) {
   const GateResult result = InTheGate(GetParam()).judged();
   EXPECT_THAT(rejected_tests(result), IsEmpty());
   EXPECT_EQ(overall_outcome(result, true), Outcome::accept);
@@ -95,22 +98,30 @@ TEST_P(Sound, IsAcceptedByAllTests) {
 /// As it is written; with rounding to floats; with other axes; in the coordinates and the measure
 /// of a picture; in an order of its own, without weights and pdf; with words on both streams; with
 /// an end that crashes.
-INSTANTIATE_TEST_SUITE_P(PluginInTheGate, Sound,
-                         testing::Values("sound", "floats", "y-up", "picture", "in-order", "prints",
-                                         "crash-at-the-end"));
+INSTANTIATE_TEST_SUITE_P(PluginInTheGate, Correct,
+                         testing::Values("correct", "floats", "y-up", "picture", "in-order",
+                                         "prints", "crash-at-the-end"));
+
+// A direction of floats that is a thousandth from the pole has a density that is off by 1e-4.
+TEST(PluginInTheGate, RoundsToFloatsBesideThePoles) {
+  EnvironmentMap map = make_synthetic_map("constant", {32, 16});
+  for (int y = 1; y < 15; ++y) std::ranges::fill(map.radiance.row(y), Rgb(0.0F));
+  const GateResult result = InTheGate("floats", map).judged();
+  EXPECT_THAT(rejected_tests(result), IsEmpty());
+}
 
 TEST(PluginInTheGate, IsAcceptedSequentially) {
-  EXPECT_EQ(overall_outcome(InTheGate("sound").judged(true), true), Outcome::accept);
+  EXPECT_EQ(overall_outcome(InTheGate("correct").judged(true), true), Outcome::accept);
 }
 
 TEST(PluginInTheGate, GivesTheSameBitsWhateverTheThreads) {
   const GateResult one = [] {
     const ThreadLimit limit(1);
-    return InTheGate("sound").judged();
+    return InTheGate("correct").judged();
   }();
   const GateResult many = [] {
     const ThreadLimit limit(4);
-    return InTheGate("sound").judged();
+    return InTheGate("correct").judged();
   }();
   ASSERT_EQ(one.tests.size(), many.tests.size());
   for (std::size_t i = 0; i < one.tests.size(); ++i) {
@@ -132,7 +143,7 @@ TEST(PluginInTheGate, NotesWhatIsPrintedAndWhatHappensAtTheEnd) {
   InTheGate crashing("crash-at-the-end");
   crashing.judged();
   EXPECT_THAT(crashing.notes(), testing::Contains(HasSubstr("crashed at the end (signal 6")));
-  InTheGate silent("sound");
+  InTheGate silent("correct");
   silent.judged();
   EXPECT_THAT(silent.notes(), IsEmpty());
 }
@@ -165,7 +176,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Defect{"off-by-one", "reference/texels", "column-early"},
                     Defect{"other-pdf", "check/pdf of the sample", nullptr},
                     Defect{"nan", "check/no out-of-domain samples", "off-the-map"},
-                    Defect{"silent", "check/no out-of-domain samples", "off-the-map"}),
+                    Defect{"silent", "check/no out-of-domain samples", "off-the-map"},
+                    Defect{"forgets", "check/no out-of-domain samples", "off-the-map"}),
     [](const auto& row) { return name_of(row.param.name); });
 
 /// A call that is not answered, and what the verdict says of it.
@@ -247,7 +259,7 @@ TEST(PluginInTheGate, ThatFailsDisturbsNobodyElse) {
 }
 
 TEST(PluginInTheGate, LeavesNoProcessBehind) {
-  for (const char* name : {"sound", "hang", "fork"}) {
+  for (const char* name : {"correct", "hang", "fork"}) {
     InTheGate(name, with_little_time()).judged();
   }
   // No child is left to wait for.
@@ -308,7 +320,7 @@ TEST(Plugin, ThatIsNoLibraryIsRefused) {
 }
 
 TEST(Plugin, IsTimedInItsOwnProcess) {
-  const PluginLibrary library(file_of("sound"), {});
+  const PluginLibrary library(file_of("correct"), {});
   const EnvironmentMap map = sun_sky();
   const TimedPlugin timed(library, map);
   const std::vector<SquarePoint> points(kPluginBatch, SquarePoint{0.3, 0.6});

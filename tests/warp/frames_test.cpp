@@ -184,15 +184,15 @@ TEST(FrameErrors, ShowWhatEachConstructionLoses) {
   for (const FrameError& row : frame_errors(distances)) {
     SCOPED_TRACE(testing::Message() << row.construction << ", float " << row.is_float << ", nadir "
                                     << row.is_nadir << ", " << row.distance);
-    const double sound = row.is_float ? kRoundings<float> : kRoundings<double>;
+    const double allowed = row.is_float ? kRoundings<float> : kRoundings<double>;
     const bool divides =
         row.construction == "frisvad" || row.construction == "quaternion, published";
     if (divides && row.is_nadir) {
-      EXPECT_GT(row.error, row.distance < 1e-3 ? 5e-7 : 1000.0 * sound);
+      EXPECT_GT(row.error, row.distance < 1e-3 ? 5e-7 : 1000.0 * allowed);
     } else if (row.construction == "quaternion") {
-      EXPECT_LE(row.error, row.distance < 1e-3 ? 1e-5 : 1000.0 * sound);
+      EXPECT_LE(row.error, row.distance < 1e-3 ? 1e-5 : 1000.0 * allowed);
     } else {
-      EXPECT_LE(row.error, sound);
+      EXPECT_LE(row.error, allowed);
     }
   }
   const double at_pole[] = {0.0};
