@@ -36,12 +36,17 @@ static void turn(double* row, double angle) {
   row[1] = sin(angle) * x + cos(angle) * y;
 }
 
+/* The samples of the last call, if it was one for samples; and how often one could be forgotten. */
+static size_t last_drawn = 0;
+static int forgotten = 0;
+
 /* Draws with the correct sampler, and changes what comes out. */
 static void changed_sample(void* pointer, size_t count, const double* u, double* rows) {
   const Sampler* self = (const Sampler*)pointer;
-  /* What is left of an earlier batch looks like samples. */
-  static int calls = 0;
-  const int leaves_half = is("silent") || (is("forgets") && ++calls > 2);
+  /* Once, right after a batch of samples, which are what is left there. */
+  const int repeats = count >= 1024 && last_drawn == count;
+  last_drawn = count;
+  const int leaves_half = is("silent") || (is("forgets") && repeats && ++forgotten == 1);
   sample(pointer, leaves_half ? count / 2 : count, u, rows);
   for (size_t i = 0; i < count; ++i) {
     double* row = rows + 4 * i;
@@ -51,6 +56,12 @@ static void changed_sample(void* pointer, size_t count, const double* u, double*
     if (is("flipped-t")) row[2] = -row[2];
     if (is("off-by-one")) turn(row, 2.0 * kPi / self->width);
     if (is("leak")) memset(malloc(4096), 1, 4096);
+    if (is("rounded")) {
+      double length = 0.0;
+      for (int k = 0; k < 3; ++k) row[k] = rint(row[k] * 16384.0) / 16384.0;
+      for (int k = 0; k < 3; ++k) length += row[k] * row[k];
+      for (int k = 0; k < 3; ++k) row[k] /= sqrt(length);
+    }
     if (is("floats")) {
       for (int k = 0; k < 4; ++k) row[k] = (double)(float)row[k];
     }
@@ -74,6 +85,7 @@ static void changed_sample(void* pointer, size_t count, const double* u, double*
 }
 
 static void changed_pdf(void* pointer, size_t count, const double* positions, double* densities) {
+  last_drawn = 0;
   for (size_t i = 0; i < count; ++i) {
     double at[3] = {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
     if (is("y-up")) {
@@ -176,6 +188,7 @@ const lightproof_plugin* lightproof_plugin_describe(void) {
   if (is("other-columns")) plugin.columns = "x,y";
   if (is("strange-name")) plugin.name = "a/b";
   if (is("y-up")) plugin.axes = "x,-z,y";
+  if (is("rounded")) plugin.rounding = 1e-4;
   if (is("picture")) {
     plugin.columns = "u,v,pdf";
     plugin.preset = "exr-area";
