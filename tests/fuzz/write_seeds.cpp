@@ -42,7 +42,7 @@ class Seeds {
 
 constexpr Extent kSize = {16, 8};
 
-void write_pictures(const Seeds& seeds) {
+void write_exr_pictures(const Seeds& seeds) {
   const Grid<Rgb> picture = test::numbered_picture(kSize);
   for (std::size_t i = 0; i < test::kExrCompressions.size(); ++i) {
     const std::string_view name = test::kExrCompressions[i];
@@ -66,6 +66,9 @@ void write_pictures(const Seeds& seeds) {
   test::write_two_part_exr(seeds.path("parts.exr"), picture, picture);
   test::write_deep_exr(seeds.path("deep.exr"), kSize);
   test::write_luminance_chroma_exr(seeds.path("yc.exr"), kSize);
+}
+
+void write_hdr_pictures(const Seeds& seeds) {
   const std::vector<test::Rgbe> pixels(kSize.count(), {200, 100, 50, 129});
   test::write_hdr_file(seeds.path("plain.hdr"), "-Y 8 +X 16", pixels);
   test::write_hdr_file(seeds.path("turned.hdr"), "+X 16 -Y 8", pixels,
@@ -92,6 +95,10 @@ void write_pictures(const Seeds& seeds) {
   seeds.add("planes.hdr", planes);
   seeds.add("repeats.hdr", repeats);
   seeds.add("runs.hdr", runs);
+}
+
+/// PNG and JPEG.
+void write_integer_pictures(const Seeds& seeds) {
   std::vector<unsigned> values;
   for (std::size_t i = 0; i < 4 * kSize.count(); ++i) {
     values.push_back(static_cast<unsigned>(i * i % 251));
@@ -107,6 +114,12 @@ void write_pictures(const Seeds& seeds) {
                                 values, 8, channels);
   }
   test::write_png_with_gamma(seeds.path("gamma.png"), kSize, values, 0.4545);
+}
+
+void write_pictures(const Seeds& seeds) {
+  write_exr_pictures(seeds);
+  write_hdr_pictures(seeds);
+  write_integer_pictures(seeds);
 }
 
 template <class Value>

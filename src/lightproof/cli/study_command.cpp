@@ -172,6 +172,32 @@ int run(Options options, std::vector<RunInput> from_options) {
   return kPassed;
 }
 
+/// What is charted of speed against accuracy.
+void add_accuracy_options(CLI::App& command, Options& options) {
+  auto* material =
+      command
+          .add_option("--material", options.materials,
+                      "a material in which speed is charted against accuracy: a name of `list "
+                      "materials`, phong:N or ggx:R; may be given again")
+          ->type_name("NAME")
+          ->capture_default_str();
+  auto* receiver = command
+                       .add_option("--receiver", options.receivers,
+                                   "a receiver on which it is charted: point, sphere, plane or "
+                                   "sphere-on-plane; may be given again")
+                       ->type_name("NAME")
+                       ->capture_default_str();
+  auto* quality = command
+                      .add_option("--quality", options.quality,
+                                  "how thoroughly it is charted: draft, default or paper")
+                      ->type_name("NAME")
+                      ->capture_default_str();
+  command.add_flag("--no-accuracy", options.no_accuracy, "leave that chart out")
+      ->excludes(material)
+      ->excludes(receiver)
+      ->excludes(quality);
+}
+
 }  // namespace
 
 void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
@@ -199,28 +225,7 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
                  "measure what is kept of this program and machine: throughput, self-test, first "
                  "tests of warps and materials, costs of levels, point sets")
       ->excludes(file);
-  auto* material =
-      command
-          ->add_option("--material", options->materials,
-                       "a material in which speed is charted against accuracy: a name of `list "
-                       "materials`, phong:N or ggx:R; may be given again")
-          ->type_name("NAME")
-          ->capture_default_str();
-  auto* receiver = command
-                       ->add_option("--receiver", options->receivers,
-                                    "a receiver on which it is charted: point, sphere, plane or "
-                                    "sphere-on-plane; may be given again")
-                       ->type_name("NAME")
-                       ->capture_default_str();
-  auto* quality = command
-                      ->add_option("--quality", options->quality,
-                                   "how thoroughly it is charted: draft, default or paper")
-                      ->type_name("NAME")
-                      ->capture_default_str();
-  command->add_flag("--no-accuracy", options->no_accuracy, "leave that chart out")
-      ->excludes(material)
-      ->excludes(receiver)
-      ->excludes(quality);
+  add_accuracy_options(*command, *options);
   command->add_flag("--all-pictures", options->study.renders.every_estimator,
                     "picture every estimator in equal time, not one of each kind");
   command->add_flag("--no-regimes", options->no_regimes,

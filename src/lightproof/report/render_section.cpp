@@ -96,10 +96,11 @@ constexpr std::string_view kNote =
     "reference's mean over the pixels that show the receiver, on one scale for all maps, "
     "receivers, "
     "materials and estimators; beyond half of the mean the colour stays. All have the same time "
-    "for a pixel, and "
-    "as many samples as fit into it, by a short measurement; look-ups take what they take, less "
-    "than "
-    "that. What a single sample takes longer for has that.";
+    "for "
+    "a pixel, and as many samples as fit into it, by a short measurement. What has no number of "
+    "samples to choose, a look-up, lights, a table for each point, takes what it takes, less or "
+    "more "
+    "than that, and so does what a single sample takes longer for.";
 
 }  // namespace
 
