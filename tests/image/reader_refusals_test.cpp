@@ -52,6 +52,14 @@ TEST(ReaderRefuses, MissingChannelsAndListsThose) {
   EXPECT_THAT(refusal(folder / "grey.png"), HasSubstr("R, G and B needed"));
 }
 
+// Names in a file may hold anything.
+TEST(ReaderRefuses, InOneLineWhateverTheFileCallsItsChannels) {
+  const TemporaryFolder folder;
+  test::write_exr_file(folder / "a.exr", Grid<Rgb>({8, 4}), {.channels = {"up\nand\x1b[1m"}});
+  EXPECT_THAT(refusal(folder / "a.exr"),
+              AllOf(HasSubstr("found up\\x0aand\\x1b[1m"), Not(HasSubstr("\n"))));
+}
+
 TEST(ReaderRefuses, SelectionsThatAreNotThereAndSaysWhatIs) {
   const TemporaryFolder folder;
   const Grid<Rgb> picture = test::numbered_picture({8, 4});

@@ -12,6 +12,7 @@
 
 #include "lightproof/core/error.h"
 #include "lightproof/core/system_call.h"
+#include "lightproof/core/text_escapes.h"
 
 namespace lightproof {
 namespace {
@@ -34,7 +35,7 @@ constexpr std::size_t kLongestMagic = 8;
 }  // namespace
 
 void refuse(const fs::path& file, std::string_view reason) {
-  throw InputError(fmt::format("{}: {}", file.string(), reason));
+  throw InputError(fmt::format("{}: {}", file.string(), terminal_text(reason)));
 }
 
 const FileFormat& info(PictureFormat format) {

@@ -9,7 +9,8 @@
 
 namespace lightproof {
 
-/// Refuses a file: throws InputError "FILE: REASON".
+/// Refuses a file: throws InputError "FILE: REASON". The reason may hold names from the file: it is
+/// written as terminal_text().
 [[noreturn]] void refuse(const std::filesystem::path& file, std::string_view reason);
 
 inline constexpr std::string_view kRadianceFormat = "Radiance .hdr";
