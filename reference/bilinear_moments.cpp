@@ -61,13 +61,17 @@ class CellMoments {
   void add_row(LightMoments& moments, int j) const {
     const Edge low = edge_at(j);
     const Edge high = edge_at(j + 1);
-    for (int i = 0; i < quadrature_.extent().width; ++i) {
+    const auto corners = [&](int i, std::vector<double> Edge::*of) {
       const auto k = static_cast<std::size_t>(i);
-      const auto corners = [&](std::vector<double> Edge::*of) {
-        return Corners{{{{(low.*of)[k], (low.*of)[k + 1]}, {(high.*of)[k], (high.*of)[k + 1]}}}};
-      };
-      add_cell(moments, {i, j, corners(&Edge::radiance), corners(&Edge::weighted)});
-    }
+      return Corners{{{{(low.*of)[k], (low.*of)[k + 1]}, {(high.*of)[k], (high.*of)[k + 1]}}}};
+    };
+    visit_kernel_row(
+        *kernel_, quadrature_, CellRule::gauss, j,
+        [&](int i) { return corners(i, &Edge::radiance).largest() > 0.0; },
+        [&](int i, const Node& node, const KernelValue& value) {
+          add_node(moments, node, value,
+                   {i, j, corners(i, &Edge::radiance), corners(i, &Edge::weighted)});
+        });
   }
 
  private:
@@ -107,13 +111,6 @@ class CellMoments {
       edge.weighted.push_back(look_up_bilinear(weighted_, at));
     }
     return edge;
-  }
-
-  void add_cell(LightMoments& moments, const Cell& cell) const {
-    if (!(cell.radiance.largest() > 0.0)) return;
-    visit_kernel(
-        *kernel_, quadrature_, cell.i, cell.j,
-        [&](const Node& node, const KernelValue& value) { add_node(moments, node, value, cell); });
   }
 
   void add_node(LightMoments& moments, const Node& node, KernelValue value,

@@ -86,22 +86,23 @@ std::vector<Sum> sums_over(const Kernel& kernel, std::span<const Grid<double>> r
   constexpr Extent kLeast = SphereQuadrature::kLeastCells;
   const Extent parts = {(kLeast.width + extent.width - 1) / extent.width,
                         (kLeast.height + extent.height - 1) / extent.height};
-  const SphereQuadrature quadrature({extent.width * parts.width, extent.height * parts.height},
-                                    rule);
+  const SphereQuadrature quadrature({extent.width * parts.width, extent.height * parts.height});
   const auto height = static_cast<std::size_t>(quadrature.extent().height);
   std::vector<std::vector<Sum>> rows(height, std::vector<Sum>(radiance.size()));
-  const auto add_cell = [&](int x, int y, std::vector<Sum>& sums) {
-    visit_kernel(kernel, quadrature, x, y, [&](const Node& node, const KernelValue& value) {
-      for (std::size_t map = 0; map < radiance.size(); ++map) {
-        const double light = radiance[map](x / parts.width, y / parts.height);
-        if (light > 0.0) add(sums[map], map, light, value, node);
-      }
-    });
-  };
   parallel_for(height, [&](std::size_t row) {
-    for (int x = 0; x < quadrature.extent().width; ++x) {
-      add_cell(x, static_cast<int>(row), rows[row]);
-    }
+    const int y = static_cast<int>(row) / parts.height;
+    visit_kernel_row(
+        kernel, quadrature, rule, static_cast<int>(row),
+        [&](int i) {
+          return std::any_of(radiance.begin(), radiance.end(),
+                             [&](const auto& grid) { return grid(i / parts.width, y) > 0.0; });
+        },
+        [&](int i, const Node& node, const KernelValue& value) {
+          for (std::size_t map = 0; map < radiance.size(); ++map) {
+            const double light = radiance[map](i / parts.width, y);
+            if (light > 0.0) add(rows[row][map], map, light, value, node);
+          }
+        });
   });
   std::vector<Sum> sums(radiance.size());
   for (const auto& row : rows) {

@@ -41,26 +41,36 @@ struct TexelIntegrals {
   }
 };
 
-/// Texel (x, y) as its parts, which are the cells of the quadrature.
-TexelIntegrals integrate(const Kernel& kernel, const SphereQuadrature& quadrature, Extent parts,
-                         int x, int y) {
-  TexelIntegrals texel;
-  const auto add_node = [&](const Node& node, const KernelValue& value) { texel.add(value, node); };
+/// The texels of row y as their parts, which are the cells of the quadrature.
+template <class IsWanted>
+std::vector<TexelIntegrals> integrate_row(const Kernel& kernel, const SphereQuadrature& quadrature,
+                                          CellRule rule, Extent parts, int y,
+                                          const IsWanted& is_wanted) {
+  std::vector<TexelIntegrals> texels(
+      static_cast<std::size_t>(quadrature.extent().width / parts.width));
   for (int j = y * parts.height; j < (y + 1) * parts.height; ++j) {
-    for (int i = x * parts.width; i < (x + 1) * parts.width; ++i) {
-      visit_kernel(kernel, quadrature, i, j, add_node);
-    }
+    visit_kernel_row(
+        kernel, quadrature, rule, j, [&](int i) { return is_wanted(i / parts.width); },
+        [&](int i, const Node& node, const KernelValue& value) {
+          texels[static_cast<std::size_t>(i / parts.width)].add(value, node);
+        });
   }
-  return texel;
+  return texels;
 }
 
-/// A texel of another mapping.
-TexelIntegrals integrate(const Kernel& kernel, const Mapping& mapping, Extent map,
-                         const SquareCell& cell) {
-  TexelIntegrals texel;
-  visit_kernel(kernel, mapping, map, cell,
-               [&](const Node& node, const KernelValue& value) { texel.add(value, node); });
-  return texel;
+/// The texels of row y of a map of another mapping.
+template <class IsWanted>
+std::vector<TexelIntegrals> integrate_row(const Kernel& kernel, const Mapping& mapping, Extent map,
+                                          int y, const IsWanted& is_wanted) {
+  std::vector<TexelIntegrals> texels(static_cast<std::size_t>(map.width));
+  for (int x = 0; x < map.width; ++x) {
+    if (!is_wanted(x)) continue;
+    visit_kernel(kernel, mapping, map, texel_cell(map, x, y),
+                 [&](const Node& node, const KernelValue& value) {
+                   texels[static_cast<std::size_t>(x)].add(value, node);
+                 });
+  }
+  return texels;
 }
 
 /// The factors that turn the texel's integrals into moments.
@@ -153,7 +163,7 @@ Kernel cosine_kernel(Direction normal) {
 
 std::vector<LightMoments> light_moments(const Kernel& kernel,
                                         std::span<const Grid<double>> radiance,
-                                        const Mapping& mapping) {
+                                        const Mapping& mapping, CellRule rule) {
   const Extent extent = radiance.front().extent();
   assert(std::all_of(radiance.begin(), radiance.end(),
                      [&](const auto& grid) { return grid.extent() == extent; }));
@@ -169,18 +179,20 @@ std::vector<LightMoments> light_moments(const Kernel& kernel,
   std::vector<std::vector<LightMoments>> rows(height, std::vector<LightMoments>(radiance.size()));
   parallel_for(height, [&](std::size_t row) {
     const int y = static_cast<int>(row);
+    const auto is_bright = [&](int x) {
+      return std::any_of(radiance.begin(), radiance.end(),
+                         [&](const auto& grid) { return grid(x, y) != 0.0; });
+    };
+    const std::vector<TexelIntegrals> texels =
+        is_plain(mapping) ? integrate_row(kernel, quadrature, rule, parts, y, is_bright)
+                          : integrate_row(kernel, mapping, extent, y, is_bright);
     for (int x = 0; x < extent.width; ++x) {
-      const bool dark = std::all_of(radiance.begin(), radiance.end(),
-                                    [&](const auto& grid) { return grid(x, y) == 0.0; });
-      if (dark) continue;
-      const SquareCell cell = texel_cell(extent, x, y);
+      const TexelIntegrals& texel = texels[static_cast<std::size_t>(x)];
+      if (texel.plain[0] == 0.0) continue;
       const TexelArea of_texel = {mapping.kind == MappingKind::lat_long
                                       ? texel_solid_angle(extent, y)
-                                      : cell_solid_angle(mapping, cell),
+                                      : cell_solid_angle(mapping, texel_cell(extent, x, y)),
                                   1.0 / static_cast<double>(extent.count())};
-      const TexelIntegrals texel = is_plain(mapping) ? integrate(kernel, quadrature, parts, x, y)
-                                                     : integrate(kernel, mapping, extent, cell);
-      if (texel.plain[0] == 0.0) continue;
       for (std::size_t map = 0; map < radiance.size(); ++map) {
         if (radiance[map](x, y) == 0.0) continue;  // whatever the powers of 1/pdf are
         accumulate(rows[row][map], radiance[map](x, y), totals[map], of_texel, texel);

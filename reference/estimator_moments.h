@@ -11,6 +11,7 @@
 #include "lightproof/core/direction.h"
 #include "lightproof/core/grid.h"
 #include "lightproof/image/target_density.h"
+#include "reference/quadrature.h"
 
 namespace lightproof::reference {
 
@@ -25,7 +26,8 @@ struct Kernel {
   /// The kernel's value at a direction, a unit vector.
   std::function<KernelValue(Direction)> at;
   /// Whether an edge of k (a horizon, a silhouette) may cross the cap of this angle in radians
-  /// around the direction; such texels are split.
+  /// around the direction; such texels are split. If none crosses a cap, none crosses a cap inside
+  /// of it.
   std::function<bool(Direction, double)> straddles;
   /// Whether light arrives from a direction at all, neither from below a horizon nor from behind
   /// something: one answer all over a cap that no edge crosses. Empty if `at` takes care of it.
@@ -91,9 +93,11 @@ class LightMoments {
 /// The moments of the one-sample estimators of ∫ L k d(omega), one entry per grid of radiance L,
 /// which is constant inside a texel; all grids have one extent. Under A, B and C the density
 /// of a texel is proportional to the same L, so X is bounded however bright a sun is.
-/// Texels are those of the mapping.
+/// Texels are those of the mapping; the rule is for latitude and longitude, other mappings have
+/// Gauss nodes.
 std::vector<LightMoments> light_moments(const Kernel& kernel,
                                         std::span<const Grid<double>> radiance,
-                                        const Mapping& mapping = {});
+                                        const Mapping& mapping = {},
+                                        CellRule rule = CellRule::gauss);
 
 }  // namespace lightproof::reference

@@ -21,22 +21,33 @@ Extent cells_per_texel(Extent map, Extent least) {
   return {(least.width + map.width - 1) / map.width, (least.height + map.height - 1) / map.height};
 }
 
-std::vector<GaussNode> nodes_of(CellRule rule) {
-  if (rule == CellRule::midpoint) return {{0.5, 1.0}};
+std::vector<GaussNode> nodes_of(CellNodes nodes) {
+  if (nodes == CellNodes::middle) return {{0.5, 1.0}};
   const GaussRule<kNodeCount> gauss;
   return {gauss.nodes().begin(), gauss.nodes().end()};
 }
 
+/// Largest angle between the middle of a rectangle of so many cells and a point of it.
+double radius_of(Extent map, int columns, int rows) {
+  return 0.5 * std::hypot(2.0 * kPi * columns / map.width, kPi * rows / map.height);
+}
+
 }  // namespace
 
-SphereQuadrature::SphereQuadrature(Extent extent, CellRule rule)
+SphereQuadrature::SphereQuadrature(Extent extent)
     : extent_(extent),
-      radius_(0.5 * std::hypot(2.0 * kPi / extent.width, kPi / extent.height)),
-      coarse_(make_level(cells_per_texel(extent, kLeastCells), rule)),
-      fine_(make_level(cells_per_texel(extent, kLeastEdgeCells), rule)) {
-  for (int x = 0; x < extent.width; ++x) {
-    const Direction at_equator = direction_from_square({(x + 0.5) / extent.width, 0.5});
-    centre_columns_.push_back({at_equator.x, at_equator.y});
+      radius_(radius_of(extent, 1, 1)),
+      run_radius_(radius_of(extent, kRunCells, 1)),
+      levels_{make_level(cells_per_texel(extent, kLeastCells), CellNodes::middle),
+              make_level(cells_per_texel(extent, kLeastCells), CellNodes::gauss),
+              make_level(cells_per_texel(extent, kLeastEdgeCells), CellNodes::edge)} {
+  const auto column_at = [&](double x) -> std::array<double, 2> {
+    const Direction at_equator = direction_from_square({x / extent.width, 0.5});
+    return {at_equator.x, at_equator.y};
+  };
+  for (int x = 0; x < extent.width; ++x) centre_columns_.push_back(column_at(x + 0.5));
+  for (int x = 0; x < extent.width; x += kRunCells) {
+    run_columns_.push_back(column_at(0.5 * (x + std::min(x + kRunCells, extent.width))));
   }
   for (int y = 0; y < extent.height; ++y) {
     const double t = (y + 0.5) / extent.height;
@@ -44,8 +55,8 @@ SphereQuadrature::SphereQuadrature(Extent extent, CellRule rule)
   }
 }
 
-SphereQuadrature::Level SphereQuadrature::make_level(Extent cells, CellRule rule) const {
-  const std::vector<GaussNode> nodes = nodes_of(rule);
+SphereQuadrature::Level SphereQuadrature::make_level(Extent cells, CellNodes of_cell) const {
+  const std::vector<GaussNode> nodes = nodes_of(of_cell);
   const auto count = static_cast<int>(nodes.size());
   Level level{{count * cells.width, count * cells.height}, {}, {}};
   const int rows = extent_.height * cells.height;

@@ -1,7 +1,9 @@
 // Integrals over the sphere of functions that are smooth inside a texel: 3 x 3 Gauss-Legendre nodes
-// in (phi, theta) for every texel; texels that straddle an edge of the integrand are split first.
+// in (phi, theta) for every texel, or its middle alone; texels that straddle an edge of the integrand
+// are split first.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -24,9 +26,25 @@ struct Node {
 /// Which nodes a cell has.
 enum class CellRule {
   gauss,  ///< 3 x 3 Gauss-Legendre nodes
-  /// The middle alone: a ninth of the time. Off by h^2/24 times the second derivative of the
-  /// integrand over the cells' side h in radians.
-  midpoint,
+  /// The middle alone of cells about which the integrand is known to vary little, far beyond their
+  /// own borders: a ninth of the time. Off by h^2/24 times the second derivative of the integrand,
+  /// for cells of side h in radians.
+  adaptive,
+};
+
+/// The nodes of one cell.
+enum class CellNodes {
+  middle,  ///< one
+  gauss,   ///< 3 x 3
+  edge,    ///< 3 x 3 for each of the parts into which cells are split that an edge may cross
+};
+
+/// Cells of one row that follow each other, and what lies around them.
+struct CellRun {
+  int begin;         ///< first column
+  int end;           ///< one past the last
+  Direction centre;  ///< the middle of the run
+  double radius;     ///< largest angle between the middle and a point of the run, in radians
 };
 
 /// A quadrature over the sphere by nodes in the texels of a map of one extent. The weights of a
@@ -40,7 +58,7 @@ class SphereQuadrature {
   /// cells than if the whole had this many.
   static constexpr Extent kLeastEdgeCells = {4096, 2048};
 
-  explicit SphereQuadrature(Extent extent, CellRule rule = CellRule::gauss);
+  explicit SphereQuadrature(Extent extent);
 
   Extent extent() const { return extent_; }
   /// Direction of the centre of texel (x, y).
@@ -52,11 +70,21 @@ class SphereQuadrature {
   /// Largest angle between the centre of a texel and a point of it, in radians.
   double radius() const { return radius_; }
 
-  /// Calls visit(Node) for every node of texel (x, y); `split` asks for the finer cells of a texel
-  /// that an edge of the integrand may cross.
+  /// How many runs a row has, and the one of this index in row y.
+  int runs() const { return static_cast<int>(run_columns_.size()); }
+  CellRun run(int index, int y) const {
+    const auto [cos_phi, sin_phi] = run_columns_[static_cast<std::size_t>(index)];
+    const auto [sine, cosine] = centre_rows_[static_cast<std::size_t>(y)];
+    return {index * kRunCells,
+            std::min((index + 1) * kRunCells, extent_.width),
+            {sine * cos_phi, sine * sin_phi, cosine},
+            run_radius_};
+  }
+
+  /// Calls visit(Node) for every node of texel (x, y).
   template <class Visit>
-  void visit(int x, int y, bool split, const Visit& visit) const {
-    const Level& level = split ? fine_ : coarse_;
+  void visit(int x, int y, CellNodes nodes, const Visit& visit) const {
+    const Level& level = levels_[static_cast<std::size_t>(nodes)];
     for (int j = 0; j < level.nodes.height; ++j) {
       const Row& row = level.rows[static_cast<std::size_t>(y * level.nodes.height + j)];
       for (int i = 0; i < level.nodes.width; ++i) {
@@ -88,13 +116,16 @@ class SphereQuadrature {
     std::vector<Column> columns;
   };
 
-  Level make_level(Extent cells_per_texel, CellRule rule) const;
+  static constexpr int kRunCells = 16;
+
+  Level make_level(Extent cells_per_texel, CellNodes nodes) const;
 
   Extent extent_;
   double radius_;
-  Level coarse_;
-  Level fine_;
+  double run_radius_;
+  std::array<Level, 3> levels_;                        ///< by CellNodes
   std::vector<std::array<double, 2>> centre_columns_;  ///< cosine and sine of phi
+  std::vector<std::array<double, 2>> run_columns_;     ///< of the middles of runs
   std::vector<std::array<double, 2>> centre_rows_;     ///< sine and cosine of theta
 };
 
