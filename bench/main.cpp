@@ -72,6 +72,7 @@ int main(int argc, char** argv) {
     lightproof::bench::register_count_benchmarks();
     lightproof::bench::register_error_benchmarks();
     lightproof::bench::register_map_error_benchmarks();
+    lightproof::bench::register_prediction_benchmarks();
     lightproof::bench::register_irradiance_benchmarks();
     lightproof::bench::register_prefilter_benchmarks();
     lightproof::bench::add_context();

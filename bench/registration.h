@@ -19,6 +19,7 @@ void register_histogram_benchmarks();
 void register_count_benchmarks();
 void register_error_benchmarks();
 void register_map_error_benchmarks();
+void register_prediction_benchmarks();
 void register_irradiance_benchmarks();
 void register_prefilter_benchmarks();
 

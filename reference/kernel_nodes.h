@@ -10,11 +10,11 @@ namespace lightproof::reference {
 /// is_wanted(x). Where no edge crosses a cell, or a run of cells, one look tells whether light
 /// arrives in it.
 template <class IsWanted, class Add>
-void visit_kernel_row(const Kernel& kernel, const SphereQuadrature& quadrature, CellRule rule, int y,
-                      const IsWanted& is_wanted, const Add& add) {
-  // How many times as far as a cell reaches there must be no edge if its middle is to do alone. Lobes
-  // are then at least w = 34 cells h wide. Of k ~ r^-n in a lobe's tails, h^2/24 times the Laplacian is
-  // n^2/24 (h/r)^2 of k: 6e-4 for GGX, whose n is 4, and less at the peak.
+void visit_kernel_row(const Kernel& kernel, const SphereQuadrature& quadrature, CellRule rule,
+                      int y, const IsWanted& is_wanted, const Add& add) {
+  // How many times as far as a cell reaches there must be no edge if its middle is to do alone.
+  // Lobes are then at least w = 34 cells h wide. Of k ~ r^-n in a lobe's tails, h^2/24 times the
+  // Laplacian is n^2/24 (h/r)^2 of k: 6e-4 for GGX, whose n is 4, and less at the peak.
   constexpr double kMiddleReach = 16.0;
   const double radius = quadrature.radius();
   const auto is_dark = [&](bool may_have_edge, Direction centre) {

@@ -1,6 +1,6 @@
 // Integrals over the sphere of functions that are smooth inside a texel: 3 x 3 Gauss-Legendre nodes
-// in (phi, theta) for every texel, or its middle alone; texels that straddle an edge of the integrand
-// are split first.
+// in (phi, theta) for every texel, or its middle alone; texels that straddle an edge of the
+// integrand are split first.
 #pragma once
 
 #include <algorithm>

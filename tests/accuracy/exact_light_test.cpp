@@ -17,8 +17,8 @@ using reference::SampledDensity;
 
 class ExactLightOf : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
-// The middle of a cell is off by at most 6e-4 of the kernel, and of its square by four times as much.
-// One bright texel is the worst map: nothing averages over its neighbours.
+// The middle of a cell is off by at most 6e-4 of the kernel, and of its square by four times as
+// much. One bright texel is the worst map: nothing averages over its neighbours.
 TEST_P(ExactLightOf, IsThatOfAllNodes) {
   const auto [map, material_name] = GetParam();
   const Material material = material_of(material_name);
@@ -41,10 +41,11 @@ TEST_P(ExactLightOf, IsThatOfAllNodes) {
 
 INSTANTIATE_TEST_SUITE_P(Maps, ExactLightOf,
                          testing::Combine(testing::Values("one-texel", "sun-sky"),
-                                          testing::Values("lambert", "phong:100", "ggx:0.3", "ggx:0.15")),
+                                          testing::Values("lambert", "phong:100", "ggx:0.3",
+                                                          "ggx:0.15")),
                          [](const auto& of) {
-                           std::string name = std::string(std::get<0>(of.param)) + "_" +
-                                              std::get<1>(of.param);
+                           std::string name =
+                               std::string(std::get<0>(of.param)) + "_" + std::get<1>(of.param);
                            for (char& c : name) {
                              if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
                            }

@@ -92,8 +92,9 @@ TEST(SphereQuadrature, RunsCoverEachRowOnceAndTheirRadiusReachesTheCorners) {
         next = run.end;
         for (const int column : {run.begin, run.end}) {
           for (const int row : {y, y + 1}) {
-            const Direction corner = direction_from_square({static_cast<double>(column) / extent.width,
-                                                            static_cast<double>(row) / extent.height});
+            const Direction corner =
+                direction_from_square({static_cast<double>(column) / extent.width,
+                                       static_cast<double>(row) / extent.height});
             const double cosine = glm::dot(run.centre, corner);
             EXPECT_LE(std::acos(std::clamp(cosine, -1.0, 1.0)), run.radius + 1e-7);
           }

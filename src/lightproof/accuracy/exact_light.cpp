@@ -39,8 +39,8 @@ std::vector<std::vector<reference::LightMoments>> exact_light(
       std::size_t end = first + 1;
       while (end < luminances.size() && luminances[end].extent() == luminances[first].extent())
         ++end;
-      const auto group = reference::light_moments(
-          kernel, luminances.subspan(first, end - first), {}, reference::CellRule::adaptive);
+      const auto group = reference::light_moments(kernel, luminances.subspan(first, end - first),
+                                                  {}, reference::CellRule::adaptive);
       for (std::size_t map = first; map < end; ++map) moments[map][pixel] = group[map - first];
       first = end;
     }
