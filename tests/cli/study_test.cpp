@@ -30,6 +30,7 @@ using testing::StartsWith;
 const Words kStudy = {
     "study",           "constant",       "--size",       "32x16",          "-n", "65536",
     "--no-throughput", "--no-self-test", "--no-regimes", "--no-stability", "-o", "report"};
+constexpr const char* kPlugin = "correct";  // its file, and the name that it gives itself
 constexpr auto kLimit = std::chrono::seconds(1000);
 
 /// A disk of 64 kB, on which an earlier report lies; then what is on it.
@@ -51,7 +52,10 @@ struct Studies {
 
 Studies::Studies() {
   for (const char* name : {"plain", "full", "full/report"}) fs::create_directory(folder / name);
-  Process first(lightproof_command(kStudy, folder / "plain"));
+  Words with_plugin = kStudy;
+  with_plugin.insert(with_plugin.end(),
+                     {"--plugin", std::string(LIGHTPROOF_TEST_PLUGINS) + "/" + kPlugin + ".so"});
+  Process first(lightproof_command(with_plugin, folder / "plain"));
   if (has_mount_namespaces()) {
     Words quiet = kStudy;
     quiet.insert(quiet.end(), {"--progress", "0"});
@@ -156,14 +160,21 @@ TEST_F(Study, WritesJsonThatItsSchemasDescribe) {
 
 TEST_F(Study, LeavesNoPartsBehind) { EXPECT_THAT(parts_in(path("")), IsEmpty()); }
 
-/// Tests of maps, without what depends on the number of all tests: a study has more.
+/// Tests of our samplers on maps, without what depends on the number of all tests: a study has
+/// more.
 std::vector<json> verdicts_on_maps(const json& gate) {
   std::vector<json> tests;
   for (json test : gate.at("tests")) {
     test.erase("minimum_detectable_effect");
-    if (test.at("map") != "directions") tests.push_back(std::move(test));
+    if (test.at("map") == "directions" || test.at("sampler") == kPlugin) continue;
+    tests.push_back(std::move(test));
   }
   return tests;
+}
+
+TEST_F(Study, TestsAPluginBesideTheSamplersOfTheRegistry) {
+  EXPECT_THAT(values_of(json_of(path("results.json")).at("gate"), "sampler"),
+              AllOf(Contains(kPlugin), Contains("alias")));
 }
 
 /// Likewise: a replay names the number of all tests.

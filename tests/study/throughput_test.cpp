@@ -296,6 +296,24 @@ TEST(MeasuredThroughput, OfAnotherProgramOrOtherSizesIsAnother) {
   EXPECT_EQ(files_in(source.cache).size(), 3U);
 }
 
+TEST(MeasuredThroughput, HasThePluginsOrSaysWhyOneIsNotTimed) {
+  const TemporaryFolder folder;
+  ThroughputSource source = small_source(folder);
+  source.plugins = {"wrong.so", "mine.so"};
+  for (int run = 0; run < 2; ++run) {  // the second time the rest is kept
+    const Throughput measured = measure_throughput(source);
+    EXPECT_EQ(measured.samplers.size(), 1U);
+    ASSERT_EQ(measured.directions.size(), 1U);
+    EXPECT_EQ(measured.directions[0].sampler, "mine");
+    EXPECT_EQ(measured.directions[0].order, DrawOrder::batch);
+    EXPECT_EQ(measured.directions[0].ns_per_sample, 3.0);
+    EXPECT_EQ(measured.directions[0].wall_per_cpu, 1.0) << "of its own process";
+    EXPECT_THAT(measured.origin, testing::HasSubstr("plug-in wrong.so is not timed"));
+    EXPECT_THAT(measured.origin, testing::HasSubstr("the first sample is elsewhere"));
+    EXPECT_THAT(measured.origin, testing::Not(testing::HasSubstr("mine.so")));
+  }
+}
+
 TEST(MeasuredThroughput, NeedsNoCache) {
   ThroughputSource source = {LIGHTPROOF_SMALL_BENCHMARK, 256};
   EXPECT_EQ(measure_throughput(source).samplers.size(), 1U);

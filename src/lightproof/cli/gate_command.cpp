@@ -97,10 +97,6 @@ void refuse_untested_maps(const std::vector<TestCase>& test_cases,
   }
 }
 
-void print_notes(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) tell("{}\n", terminal_text(note));
-}
-
 int run(const Options& options) {
   const ThreadLimit threads(options.threads);
   const PluginLibraries plugins = load_plugins(options.plugins, options.seed);

@@ -12,6 +12,7 @@
 #include "lightproof/samplers/registry.h"
 #include "lightproof/self_test/direction_mutant.h"
 #include "lightproof/self_test/mutant.h"
+#include "plugin_options.h"
 
 namespace lightproof::cli {
 namespace {
@@ -107,18 +108,6 @@ void drop_repeated(std::vector<Item>& items, const Key& key) {
   std::erase_if(items, [&](const Item& item) { return !seen.insert(key(item)).second; });
 }
 
-/// Adds samplers of plug-ins, whose names nobody else may have: records tell samplers by them.
-void add_plugins(const std::vector<SamplerUnderTest>& plugins, ChosenSamplers& chosen) {
-  for (const SamplerUnderTest& plugin : plugins) {
-    if (find_named(chosen.of_maps, plugin.name) != chosen.of_maps.end()) {
-      throw InputError(fmt::format(
-          "--plugin: two samplers of this run are called {}: give the plug-in another name",
-          plugin.name));
-    }
-    chosen.of_maps.push_back(plugin);
-  }
-}
-
 /// Throws InputError if a density was asked for that no plug-in declares.
 void refuse_other_density(const SamplerChoice& choice, const ChosenSamplers& chosen) {
   if (choice.plugins.empty() || !chosen.of_maps.empty()) return;
@@ -143,7 +132,7 @@ ChosenSamplers choose_samplers(const SamplerChoice& choice) {
   });
   drop_repeated(chosen.of_directions, [](const DirectionSampler& sampler) { return sampler.name; });
   settle_named_directions(choice, names_of_directions, chosen);
-  add_plugins(choice.plugins, chosen);
+  add_plugins(choice.plugins, chosen.of_maps);
   if (choice.names.empty() && choice.plugins.empty()) {
     chosen.of_maps = all_samplers_under_test();
     if (!choice.with_published) {

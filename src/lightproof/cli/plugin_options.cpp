@@ -4,11 +4,14 @@
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "common.h"
+#include "lightproof/core/error.h"
 #include "lightproof/core/text_escapes.h"
+#include "messages.h"
 #include "whole_number.h"
 
 namespace lightproof::cli {
@@ -58,6 +61,22 @@ std::vector<SamplerUnderTest> samplers_of(const PluginLibraries& libraries,
   std::vector<SamplerUnderTest> samplers;
   for (const auto& library : libraries) samplers.push_back(sampler_under_test(library, notes));
   return samplers;
+}
+
+void add_plugins(const std::vector<SamplerUnderTest>& plugins,
+                 std::vector<SamplerUnderTest>& samplers) {
+  for (const SamplerUnderTest& plugin : plugins) {
+    if (std::ranges::find(samplers, plugin.name, &SamplerUnderTest::name) != samplers.end()) {
+      throw InputError(fmt::format(
+          "--plugin: two samplers of this run are called {}: give the plug-in another name",
+          plugin.name));
+    }
+    samplers.push_back(plugin);
+  }
+}
+
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) tell("{}\n", terminal_text(note));
 }
 
 std::vector<ForeignSampler> foreign_samplers(const PluginLibraries& libraries,

@@ -32,6 +32,14 @@ PluginLibraries load_plugins(const ChosenPlugins& plugins, std::uint64_t seed);
 std::vector<SamplerUnderTest> samplers_of(const PluginLibraries& libraries,
                                           const std::shared_ptr<PluginNotes>& notes);
 
+/// Adds samplers of plug-ins to others. Throws InputError if two have one name: records tell samplers
+/// by their names.
+void add_plugins(const std::vector<SamplerUnderTest>& plugins,
+                 std::vector<SamplerUnderTest>& samplers);
+
+/// Prints notes on samplers as lines on stderr.
+void print_notes(const std::vector<std::string>& notes);
+
 /// How a command line that repeats a run names each plug-in.
 std::vector<ForeignSampler> foreign_samplers(const PluginLibraries& libraries,
                                              const ChosenPlugins& plugins);

@@ -26,6 +26,7 @@
 #include "lightproof/study/study.h"
 #include "lightproof/systems/comparisons.h"
 #include "outputs.h"
+#include "plugin_options.h"
 #include "unfinished_run.h"
 #include "whole_number.h"
 
@@ -48,6 +49,7 @@ struct Options : CommonOptions {
   std::string quality = "draft";
   bool no_accuracy = false;
   bool no_regimes = false;
+  ChosenPlugins plugins;
   StudyOptions study;
 };
 
@@ -140,14 +142,25 @@ std::vector<RunInput> inputs_of(const Options& options, std::span<const Environm
     const auto hash = hash_of_file(options.throughput);
     inputs.push_back({"the content of --throughput", fmt::format("{:016x}", hash.value_or(0))});
   }
+  for (const std::string& plugin : options.plugins.files) {
+    const auto hash = hash_of_file(plugin);
+    inputs.push_back({fmt::format("the content of --plugin {}", plugin),
+                      fmt::format("{:016x}", hash.value_or(0))});
+  }
   return inputs;
 }
 
 int run(Options options, std::vector<RunInput> from_options) {
   const ThreadLimit threads(options.threads);
+  const PluginLibraries plugins = load_plugins(options.plugins, options.seed);
+  const auto plugin_notes = std::make_shared<PluginNotes>();
+  add_plugins(samplers_of(plugins, plugin_notes), options.study.samplers);
   if (const auto program = benchmark_program(options)) {
-    options.study.throughput = {*program, options.largest_width, cache_folder(),
-                                options.measure_again};
+    options.study.throughput = {*program,
+                                options.largest_width,
+                                cache_folder(),
+                                options.measure_again,
+                                {options.plugins.files.begin(), options.plugins.files.end()}};
   }
   options.study.gate.seed = options.study.convergence.seed = options.study.renders.seed =
       options.study.accuracy.seed = options.seed;
@@ -164,10 +177,12 @@ int run(Options options, std::vector<RunInput> from_options) {
   options.study.cache = kept_measurements(description.commit, options.measure_again);
   keeping_parts(unfinished, folder, [&] {
     StudyResult result = run_on(std::move(maps), options, unfinished);
+    result.gate.foreign_samplers = foreign_samplers(plugins, options.plugins);
     if (!throughput.samplers.empty()) set_throughput(result, std::move(throughput));
     write_report(result, options.output, description, overwriting(replaces));
   });
   unfinished.remove();
+  if (!options.quiet) print_notes(plugin_notes->all());
   if (!options.quiet) fmt::print("{}\n", path_text(fs::path(options.output) / "report.html"));
   return kPassed;
 }
@@ -225,6 +240,7 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
                  "measure what is kept of this program and machine: throughput, self-test, first "
                  "tests of warps and materials, costs of levels, point sets")
       ->excludes(file);
+  add_plugin_options(*command, options->plugins);
   add_accuracy_options(*command, *options);
   command->add_flag("--all-pictures", options->study.renders.every_estimator,
                     "picture every estimator in equal time, not one of each kind");

@@ -164,10 +164,10 @@ StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& opti
       });
   result.directions_origin = directions.origin;
   result.gate = unfinished.stage<GateResult>("gate", [&](const Communicator& communicator) {
-    return run_gate(test_cases_of(maps, all_samplers_under_test(), direction_samplers()),
-                    options.gate, part_of(progress, 0.2, 0.5), communicator, directions.value);
+    return run_gate(test_cases_of(maps, options.samplers, direction_samplers()), options.gate,
+                    part_of(progress, 0.2, 0.5), communicator, directions.value);
   });
-  result.gate.left_out = left_out_on(maps, all_samplers_under_test());
+  result.gate.left_out = left_out_on(maps, options.samplers);
   for (EnvironmentMap& map : maps) map = resampled_to_lat_long(std::move(map));
   result.convergence = unfinished.stage<std::vector<ConvergenceRecord>>(
       "convergence", [&](const Communicator& communicator) {

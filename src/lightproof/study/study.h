@@ -8,6 +8,7 @@
 #include "lightproof/core/kept_measurement.h"
 #include "lightproof/core/unfinished_work.h"
 #include "lightproof/gate/gate.h"
+#include "lightproof/gate/sampler_under_test.h"
 #include "lightproof/results/study_result.h"
 #include "lightproof/study/convergence.h"
 #include "lightproof/study/renders.h"
@@ -18,6 +19,7 @@ namespace lightproof {
 /// What a study measures.
 struct StudyOptions {
   GateOptions gate;
+  std::vector<SamplerUnderTest> samplers = all_samplers_under_test();  ///< that the gate tests
   ConvergenceOptions convergence;
   RenderOptions renders;
   /// What is charted of speed against accuracy on every map; no scene: nothing.

@@ -84,7 +84,12 @@ double wall_per_cpu(const std::vector<nlohmann::json>& runs) {
   std::vector<double> ratios;
   for (const nlohmann::json& run : runs) {
     const double cpu = run.value("cpu_time", 0.0);
-    if (cpu > 0.0) ratios.push_back(run.value("real_time", 0.0) / cpu);
+    // What is timed in another process says so itself.
+    if (run.contains("wall_per_cpu")) {
+      ratios.push_back(run.at("wall_per_cpu").get<double>());
+    } else if (cpu > 0.0) {
+      ratios.push_back(run.value("real_time", 0.0) / cpu);
+    }
   }
   return ratios.empty() ? 1.0 : median(std::move(ratios));
 }
@@ -213,7 +218,6 @@ Throughput records_of(const std::string& text) {
       records.tables.push_back(table_of(*name, runs));
     }
   }
-  if (records.samplers.empty()) throw InputError("no benchmark is called sample/…/random");
   const nlohmann::json context = document.value("context", nlohmann::json::object());
   records.caches = {cache_size(context, 2), cache_size(context, 3)};
   records.origin = origin_of(context);
@@ -231,6 +235,25 @@ Throughput records_of(const std::string& text) {
   return records;
 }
 
+/// Of a whole file, which has samplers in it.
+Throughput throughput_of(const std::string& text) {
+  Throughput records = records_of(text);
+  if (records.samplers.empty()) throw InputError("no benchmark is called sample/…/random");
+  return records;
+}
+
+/// The same, with the name of the file, or of the program that wrote it, in errors.
+Throughput from_text(const fs::path& source, const std::string& text) {
+  try {
+    return throughput_of(text);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: not a result of Google Benchmark (--benchmark_out): {}",
+                                 source.string(), error.what()));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", source.string(), error.what()));
+  }
+}
+
 /// Where the throughput is kept: nowhere if the program cannot be read.
 KeptFile kept_file(const ThroughputSource& source, const std::string& filter) {
   const std::optional<std::uint64_t> program = hash_of_file(source.program);
@@ -243,12 +266,63 @@ std::optional<Throughput> kept_throughput(const KeptFile& kept) {
   const std::optional<std::string> text = read_kept(kept);
   if (!text) return std::nullopt;
   try {
-    return records_of(*text);
+    return throughput_of(*text);
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   } catch (const InputError&) {
     return std::nullopt;
   }
+}
+
+std::string_view direction_sizes(std::uint64_t largest_width) {
+  return largest_width >= 8192 ? kDirectionSizes : kTableSize;
+}
+
+/// Runs the benchmarks that the filter names, and returns the content of the file of results.
+std::string run_benchmarks(const ThroughputSource& source, const std::string& filter,
+                           std::vector<std::string> arguments = {}) {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "throughput.json";
+  for (std::string argument :
+       {"--benchmark_filter=" + filter, "--benchmark_out=" + file.string(),
+        std::string("--benchmark_out_format=json"), std::string("--benchmark_repetitions=3"),
+        std::string("--benchmark_min_time=0.1")}) {
+    arguments.push_back(std::move(argument));
+  }
+  run_child(source.program, arguments);
+  return content_of(file).value_or("");
+}
+
+/// Adds the directions of a plug-in, or why there are none.
+void add_plugin(const ThroughputSource& source, const fs::path& plugin, Throughput& measured) {
+  const std::string filter = fmt::format("^directions/[^/]*/[^/]*/({})/[ABC]/batch/manual_time$",
+                                         direction_sizes(source.largest_width));
+  try {
+    const Throughput own =
+        records_of(run_benchmarks(source, filter, {"--plugin", plugin.string()}));
+    measured.directions.insert(measured.directions.end(), own.directions.begin(),
+                               own.directions.end());
+    measured.busy_rows += own.busy_rows;
+    measured.wall_per_cpu = std::max(measured.wall_per_cpu, own.wall_per_cpu);
+  } catch (const InputError& error) {
+    measured.origin +=
+        fmt::format("{}plug-in {} is not timed: {}", measured.origin.empty() ? "" : "; ",
+                    plugin.filename().string(), error.what());
+  }
+}
+
+/// What is kept of the study's own samplers, or what is measured now.
+Throughput own_throughput(const ThroughputSource& source) {
+  const std::string filter = throughput_filter(source.largest_width);
+  const KeptFile kept = kept_file(source, filter);
+  std::optional<Throughput> before;
+  if (!source.measure_again) before = kept_throughput(kept);
+  if (before && before->busy_rows == 0) return *std::move(before);
+  const std::string text = run_benchmarks(source, filter);
+  Throughput measured = from_text(source.program, text);
+  if (before && before->busy_rows <= measured.busy_rows) return *std::move(before);
+  keep(kept, text);
+  return measured;
 }
 
 }  // namespace
@@ -262,38 +336,19 @@ std::string throughput_filter(std::uint64_t largest_width) {
   return fmt::format(
       "^(sample/[^/]*/[^/]*/(({0})x[0-9]*/random|{1}/fused)|"
       "directions/({2})/[^/]*/({3})/[ABC]/(scalar|ahead|fused))$",
-      fmt::join(widths, "|"), kTableSize, kDirectionRows,
-      largest_width >= 8192 ? kDirectionSizes : kTableSize);
+      fmt::join(widths, "|"), kTableSize, kDirectionRows, direction_sizes(largest_width));
 }
 
 Throughput measure_throughput(const ThroughputSource& source) {
-  const std::string filter = throughput_filter(source.largest_width);
-  const KeptFile kept = kept_file(source, filter);
-  std::optional<Throughput> before;
-  if (!source.measure_again) before = kept_throughput(kept);
-  if (before && before->busy_rows == 0) return *std::move(before);
-  const TemporaryFolder folder;
-  const fs::path file = folder / "throughput.json";
-  run_child(source.program, {"--benchmark_filter=" + filter, "--benchmark_out=" + file.string(),
-                             "--benchmark_out_format=json", "--benchmark_repetitions=3",
-                             "--benchmark_min_time=0.1"});
-  Throughput measured = read_throughput(file);
-  if (before && before->busy_rows <= measured.busy_rows) return *std::move(before);
-  keep(kept, content_of(file).value_or(""));
+  Throughput measured = own_throughput(source);
+  for (const fs::path& plugin : source.plugins) add_plugin(source, plugin, measured);
   return measured;
 }
 
 Throughput read_throughput(const fs::path& file) {
   const std::optional<std::string> text = content_of(file);
   if (!text) throw InputError(fmt::format("{}: cannot be read", file.string()));
-  try {
-    return records_of(*text);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: not a result of Google Benchmark (--benchmark_out): {}",
-                                 file.string(), error.what()));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
-  }
+  return from_text(file, *text);
 }
 
 }  // namespace lightproof

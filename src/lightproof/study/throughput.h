@@ -40,13 +40,15 @@ struct ThroughputSource {
   std::uint64_t largest_width = 8192;  ///< width of the largest map that is measured
   std::filesystem::path cache = {};    ///< folder of what was measured before; empty: none
   bool measure_again = false;          ///< whether what is kept is measured anew
+  /// Shared libraries of plug-ins whose directions are timed as well, each time anew.
+  std::vector<std::filesystem::path> plugins = {};
 };
 
 /// Runs the benchmarks of a study and reads what it measured, which is kept in the cache; or
 /// takes what is kept there of the same program, to the last byte, on this machine and up to this
 /// width. What was measured on a busy machine is measured again each time, and the better of both
 /// is kept. Throws InputError if the program cannot be started or fails, Interrupted if it was
-/// interrupted.
+/// interrupted. A plug-in that cannot be timed has no rows, and `origin` says why.
 Throughput measure_throughput(const ThroughputSource& source);
 
 /// Reads a file of Google Benchmark: the rows named `sample/SAMPLER/MAP/WxH/random`, as
