@@ -186,6 +186,26 @@ TEST(ReaderRefuses, BlackMaps) {
               HasSubstr("every texel is black"));
 }
 
+/// Of nodes the last column is the first: what it holds beside is no texel.
+TEST(ReaderRefuses, PicturesWhoseLightIsInNoTexel) {
+  const TemporaryFolder folder;
+  Grid<Rgb> picture({9, 5});
+  picture(8, 2) = Rgb(3.0F);
+  test::write_exr_file(folder / "seam.exr", picture);
+  for (const Repair repair : {Repair::refuse, Repair::zero}) {
+    EXPECT_THAT(
+        refusal(folder / "seam.exr", {.preset = Preset::openexr, .repair = repair}),
+        HasSubstr("every texel is black: the picture's light, up to 3, is in pixels that no "
+                  "texel of preset openexr shows"));
+  }
+  picture(8, 2) = Rgb(std::numeric_limits<float>::infinity());
+  picture(8, 3) = Rgb(3.0F);
+  test::write_exr_file(folder / "infinite.exr", picture);
+  EXPECT_THAT(
+      refusal(folder / "infinite.exr", {.preset = Preset::openexr, .repair = Repair::clamp}),
+      HasSubstr("every texel is black"));
+}
+
 std::uint64_t number_at(const std::string& bytes, std::size_t at, std::size_t count) {
   std::uint64_t number = 0;
   for (std::size_t i = count; i-- > 0;) {

@@ -220,6 +220,18 @@ TEST(PluginInTheGate, ThatLeaksIsRejectedByItsMemory) {
 }
 #endif
 
+/// A batch takes 12 s, each sample alone 3 ms: a search without an end would take 12 s, too.
+TEST(PluginInTheGate, ThatIsSlowIsNotSearchedForLong) {
+  PluginOptions options;
+  options.limits.batch_time = std::chrono::milliseconds{300};
+  const GateResult result = InTheGate("slow", options).judged();
+  ASSERT_EQ(result.rejections.size(), 1U);
+  EXPECT_THAT(
+      result.rejections[0].diagnosis,
+      AllOf(HasSubstr("sample() took longer than 0.3 s, in a batch of "), HasSubstr("; the first "),
+            HasSubstr(" of them alone, in a new process, it answers")));
+}
+
 TEST(PluginInTheGate, ThatFailsIsTheSameVerdictWhateverTheThreads) {
   const auto words = [](int threads) {
     const ThreadLimit limit(threads);
@@ -293,6 +305,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Refused{"other-words", "its density: \"D\" is none of C, A, B"},
                     Refused{"other-columns", "its columns: columns name no sample"},
                     Refused{"strange-name", "its name: \"a/b\""},
+                    Refused{"endless-name", "its name: 999 characters are more than 200"},
+                    Refused{"no-reply", "what is no reply"},
+                    Refused{"endless-reply", "what is no reply"},
+                    Refused{"no-description", "what is no description"},
                     Refused{"crash-at-load", "crashed (signal 6"},
                     Refused{"missing", "there is no such file"}),
     [](const auto& row) { return name_of(row.param.name); });
