@@ -250,14 +250,16 @@ TEST(PluginInTheGate, ThatFailsDisturbsNobodyElse) {
       sampler_under_test(samplers().front(), DensitySpace::sine_weighted)};
   const std::vector<EnvironmentMap> maps = {sun_sky()};
   const GateResult alone = run_gate(maps, ours, {.samples = kSamples});
-  const GateResult beside = InTheGate("crash").judged(false, ours);
   std::vector<double> expected;
-  std::vector<double> found;
   for (const TestRecord& test : alone.tests) expected.push_back(test.statistic);
-  for (const TestRecord& test : beside.tests) {
-    if (test.sampler != "crash") found.push_back(test.statistic);
+  for (const char* name : {"crash", "hang", "exit", "fork", "program", "closes", "prints"}) {
+    const GateResult beside = InTheGate(name, with_little_time()).judged(false, ours);
+    std::vector<double> found;
+    for (const TestRecord& test : beside.tests) {
+      if (test.sampler != name) found.push_back(test.statistic);
+    }
+    EXPECT_EQ(found, expected) << name;
   }
-  EXPECT_EQ(found, expected);
 }
 
 TEST(PluginInTheGate, LeavesNoProcessBehind) {
