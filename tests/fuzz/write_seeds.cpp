@@ -67,6 +67,10 @@ void write_exr_pictures(const Seeds& seeds) {
   test::write_two_part_exr(seeds.path("parts.exr"), picture, picture);
   test::write_deep_exr(seeds.path("deep.exr"), kSize);
   test::write_luminance_chroma_exr(seeds.path("yc.exr"), kSize);
+  // With a white point that is no colour.
+  test::write_exr_file(seeds.path("yc-white.exr"), picture,
+                       {.channels = {"BY", "RY", "Y"},
+                        .chromaticities = {{0.64F, 0.33F, 0.3F, 0.6F, 0.15F, 0.06F, 0.31F, 0.0F}}});
 }
 
 void write_hdr_pictures(const Seeds& seeds) {

@@ -98,6 +98,11 @@ TEST(ReaderRefuses, KindsOfExrThatAreNoFlatRgb) {
   test::write_luminance_chroma_exr(folder / "yc.exr", {8, 4});
   EXPECT_THAT(refusal(folder / "yc.exr"),
               AllOf(HasSubstr("R, G and B needed"), HasSubstr("--to-rgb")));
+  test::write_exr_file(folder / "white.exr", picture,
+                       {.channels = {"BY", "RY", "Y"},
+                        .chromaticities = {{0.64F, 0.33F, 0.3F, 0.6F, 0.15F, 0.06F, 0.31F, 0.0F}}});
+  EXPECT_THAT(refusal(folder / "white.exr", {.allow = {.to_rgb = true}}),
+              HasSubstr("cannot be read as OpenEXR: Bad chromaticities"));
   test::write_uint_exr(folder / "uint.exr", {8, 4});
   EXPECT_THAT(refusal(folder / "uint.exr"), HasSubstr("half or float needed"));
   test::write_exr_file(folder / "xyz.exr", picture, {.xyz = true});
