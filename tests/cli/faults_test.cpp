@@ -119,8 +119,8 @@ struct Chain {
   double seconds;      ///< that an uninterrupted run takes
 };
 
-/// Kills the run at random moments, half of them while it writes, looks at what is there each time,
-/// and lets the last one end.
+/// Kills the run at random moments, the second half of them while it writes, when all is computed,
+/// looks at what is there each time, and lets the last one end.
 void kill_and_resume(const Chain& chain, const fs::path& folder) {
   Moments moments(chain.purpose);
   Words resumed = chain.words;
@@ -128,9 +128,10 @@ void kill_and_resume(const Chain& chain, const fs::path& folder) {
   const fs::path output = folder / chain.output;
   for (int killed = 0; killed < kills();) {
     const Command command = lightproof_command(resumed, folder);
-    const bool while_writing = killed % 2 == 1;
-    const Finished run = while_writing ? killed_while_writing(command, output, moments.within(0.05))
-                                       : killed_after(command, moments.within(0.7 * chain.seconds));
+    const bool while_writing = killed >= kills() / 2;
+    const Finished run = while_writing
+                             ? killed_while_writing(command, output, moments.within(0.05))
+                             : killed_after(command, moments.within(0.35 * chain.seconds));
     for (const std::string& name : results_in(output)) expect_whole(output / name);
     if (run.exit_code == kKilled) {
       ++killed;
