@@ -59,6 +59,7 @@ void write_exr_pictures(const Seeds& seeds) {
                         .missing_columns = 2,
                         .chromaticities = {{0.7F, 0.3F, 0.2F, 0.7F, 0.1F, 0.05F, 0.31F, 0.33F}},
                         .pixel_aspect = 2.0F});
+  test::write_exr_file(seeds.path("tiles-of-lines.exr"), picture, {.tiles_of_lines = 0});
   test::write_exr_file(seeds.path("xyz.exr"), picture, {.bottom_row_first = true, .xyz = true});
   test::write_exr_file(seeds.path("grey.exr"), picture, {.channels = {"Y"}});
   test::write_exr_file(seeds.path("layers.exr"), picture,

@@ -50,6 +50,9 @@ Imf::Header header_of(Extent extent, const ExrOptions& options) {
     const auto& v = *options.chromaticities;
     Imf::addChromaticities(header, {{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}});
   }
+  if (options.tiles_of_lines) {
+    header.setTileDescription({*options.tiles_of_lines, *options.tiles_of_lines});
+  }
   for (const std::string& name : options.channels) {
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   }

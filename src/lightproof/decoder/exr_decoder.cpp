@@ -153,9 +153,9 @@ StoredPicture stored_picture(const Imf::MultiPartInputFile& file, int part) {
   const Imf::Header& header = file.header(std::clamp(part, 0, parts - 1));
   stored.data = window_of(header.dataWindow());
   stored.display = window_of(header.displayWindow());
-  if (header.hasTileDescription()) {
-    stored.tile_width = header.tileDescription().xSize;
-    stored.tile_height = header.tileDescription().ySize;
+  if (const auto tiles = tiles_of(header)) {
+    stored.tile_width = tiles->xSize;
+    stored.tile_height = tiles->ySize;
   }
   stored.channels = channels_of(header.channels());
   stored.compression = info(header.compression()).name;
