@@ -449,13 +449,13 @@ TEST(Reader, ReadsThePartThatIsAskedFor) {
   EXPECT_THAT(map.origin.picture.parts, testing::ElementsAre("first", "second"));
 }
 
-// Of any size: 0 has no end.
+// Of no size there is no end.
 TEST(Reader, TakesNoTilesOfFilesOfLines) {
   const TemporaryFolder folder;
   const Grid<Rgb> picture = test::numbered_picture({32, 16});
   test::write_exr_file(folder / "lines.exr", picture);
   const EnvironmentMap lines = read_environment_map(folder / "lines.exr");
-  for (const unsigned side : {0U, 4U, 1U << 31U}) {
+  for (const unsigned side : {0U, 4U}) {
     test::write_exr_file(folder / "tiles.exr", picture, {.tiles_of_lines = side});
     const EnvironmentMap map = read_environment_map(folder / "tiles.exr");
     EXPECT_TRUE(std::ranges::equal(map.radiance.values(), lines.radiance.values())) << side;
