@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 
-#include "lightproof/core/child_conversation.h"
 #include "lightproof/image/decoder_program.h"
 
 namespace lightproof {
@@ -21,7 +20,7 @@ ChildConversation::ChildConversation(const std::filesystem::path& /*program*/,
                                      const std::vector<std::string>& /*arguments*/,
                                      std::span<const int> files, std::chrono::milliseconds patience)
     : patience_(patience) {
-  current->begin(files.empty() ? -1 : files.front());
+  current->begin(files);
 }
 
 ChildConversation::ChildConversation(const std::filesystem::path& program,
@@ -37,10 +36,8 @@ Exchange ChildConversation::send(std::span<const std::byte> bytes) {
   return Exchange::done;
 }
 
-Exchange ChildConversation::receive(std::span<std::byte> bytes) {
-  return current->give(bytes) ? Exchange::done : Exchange::closed;
-}
+Exchange ChildConversation::receive(std::span<std::byte> bytes) { return current->give(bytes); }
 
-std::optional<ChildEnd> ChildConversation::end() { return ChildEnd{false, 0}; }
+std::optional<ChildEnd> ChildConversation::end() { return current->ending(); }
 
 }  // namespace lightproof

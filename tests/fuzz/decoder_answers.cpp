@@ -9,13 +9,13 @@ namespace {
 class AnyAnswers : public ChildInProcess {
  public:
   void set(std::span<const std::uint8_t> answers) { answers_ = answers; }
-  void begin(int /*file*/) override { left_ = answers_; }
+  void begin(std::span<const int> /*files*/) override { left_ = answers_; }
   void take(std::span<const std::byte> /*bytes*/) override {}
-  bool give(std::span<std::byte> bytes) override {
-    if (bytes.size() > left_.size()) return false;
+  Exchange give(std::span<std::byte> bytes) override {
+    if (bytes.size() > left_.size()) return Exchange::closed;
     std::memcpy(bytes.data(), left_.data(), bytes.size());
     left_ = left_.subspan(bytes.size());
-    return true;
+    return Exchange::done;
   }
   void end() override {}
 

@@ -33,9 +33,9 @@ bool is_small(const StoredPicture& stored) {
 /// What decoder/main.cpp does, a message at a time.
 class DecoderInProcess : public ChildInProcess {
  public:
-  void begin(int file) override {
+  void begin(std::span<const int> files) override {
     end();
-    file_ = file;
+    file_ = files.empty() ? -1 : files.front();
   }
   void end() override {
     decoder_.reset();
@@ -47,12 +47,12 @@ class DecoderInProcess : public ChildInProcess {
   void take(std::span<const std::byte> bytes) override {
     requests_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   }
-  bool give(std::span<std::byte> bytes) override {
+  Exchange give(std::span<std::byte> bytes) override {
     if (answers_.size() - given_ < bytes.size()) answer_next();
-    if (answers_.size() - given_ < bytes.size()) return false;
+    if (answers_.size() - given_ < bytes.size()) return Exchange::closed;
     std::memcpy(bytes.data(), answers_.data() + given_, bytes.size());
     given_ += bytes.size();
-    return true;
+    return Exchange::done;
   }
 
  private:

@@ -16,6 +16,7 @@
 #include "lightproof/core/serialise.h"
 #include "lightproof/image/decoder_messages.h"
 #include "lightproof/image/stored_picture.h"
+#include "lightproof/plugin/plugin_messages.h"
 #include "lightproof/results/recommendation_survey.h"
 #include "tests/dump/files.h"
 #include "tests/image/picture_files.h"
@@ -58,6 +59,7 @@ void write_exr_pictures(const Seeds& seeds) {
                         .missing_columns = 2,
                         .chromaticities = {{0.7F, 0.3F, 0.2F, 0.7F, 0.1F, 0.05F, 0.31F, 0.33F}},
                         .pixel_aspect = 2.0F});
+  test::write_exr_file(seeds.path("tiles-of-lines.exr"), picture, {.tiles_of_lines = 0});
   test::write_exr_file(seeds.path("xyz.exr"), picture, {.bottom_row_first = true, .xyz = true});
   test::write_exr_file(seeds.path("grey.exr"), picture, {.channels = {"Y"}});
   test::write_exr_file(seeds.path("layers.exr"), picture,
@@ -66,6 +68,10 @@ void write_exr_pictures(const Seeds& seeds) {
   test::write_two_part_exr(seeds.path("parts.exr"), picture, picture);
   test::write_deep_exr(seeds.path("deep.exr"), kSize);
   test::write_luminance_chroma_exr(seeds.path("yc.exr"), kSize);
+  // With a white point that is no colour.
+  test::write_exr_file(seeds.path("yc-white.exr"), picture,
+                       {.channels = {"BY", "RY", "Y"},
+                        .chromaticities = {{0.64F, 0.33F, 0.3F, 0.6F, 0.15F, 0.06F, 0.31F, 0.0F}}});
 }
 
 void write_hdr_pictures(const Seeds& seeds) {
@@ -174,6 +180,41 @@ void write_answers(const Seeds& seeds) {
             choices + message(MessageKind::failed, bytes_of(DecoderFailure{.reason = "a reason"})));
 }
 
+/// Of plug-ins that describe themselves, and are done with whatever they are asked, or fail.
+void write_plugin_answers(const Seeds& seeds) {
+  const auto reply = [](PluginStatus status, std::string_view text) {
+    const PluginReply head = {
+        .status = status, .cpu_seconds = 1e-6, .wall_seconds = 2e-6, .text_bytes = text.size()};
+    return std::string(reinterpret_cast<const char*>(&head), sizeof head) + std::string(text);
+  };
+  const auto add = [&](std::string_view name, const PluginDescription& description, char end,
+                       char after, std::string_view then) {
+    // A map, a number of points, timed; how it ends, what follows the answers; four numbers in
+    // steps of one, which make a unit vector and a density; a word.
+    std::string bytes = std::string("\0\x10\0", 3) + end;
+    bytes += after;
+    bytes += std::string("\4\4\5\0\6\0\3", 7) + "ok.";
+    seeds.add(name, bytes + reply(PluginStatus::done, bytes_of(description)) + std::string(then));
+  };
+  const PluginDescription whole = {.name = "mine", .has_sample = true, .has_pdf = true};
+  PluginDescription picture = whole;
+  picture.columns = "u,v,pdf";
+  picture.preset = "exr-area";
+  picture.measure = "square";
+  picture.density = "A";
+  picture.luminance = "average";
+  picture.rounding = 1e-4;
+  PluginDescription in_order = {.columns = "x,y,z", .axes = "x,-z,y", .has_draw = true};
+  const std::string done = reply(PluginStatus::done, "");
+  add("whole", whole, 6, 0, done);
+  add("picture", picture, 6, 0, done);
+  add("in-order", in_order, 6, 0, done + done);
+  add("crash", whole, 0, 1, done);
+  add("silent", whole, 1, 2, done + done);
+  add("failed", whole, 6, 0, done + reply(PluginStatus::failed, "a reason"));
+  add("refused", picture, 4, 0, reply(PluginStatus::failed, "returned no sampler: a reason"));
+}
+
 void write_kept(const Seeds& seeds) {
   const auto add = [&](std::string_view name, char kind, std::string_view bytes) {
     seeds.add(name, std::string(1, kind) + std::string(bytes));
@@ -246,6 +287,7 @@ void write_numbers(const Seeds& seeds) {
 void write_all(const fs::path& root) {
   write_pictures({root, "read_picture"});
   write_answers({root, "decoder_answers"});
+  write_plugin_answers({root, "plugin_answers"});
   write_numbers({root, "build_sampler"});
   write_numbers({root, "draw_sample"});
   write_json({root, "json_file"});

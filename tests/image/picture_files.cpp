@@ -50,6 +50,9 @@ Imf::Header header_of(Extent extent, const ExrOptions& options) {
     const auto& v = *options.chromaticities;
     Imf::addChromaticities(header, {{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}});
   }
+  if (options.tiles_of_lines) {
+    header.setTileDescription({*options.tiles_of_lines, *options.tiles_of_lines});
+  }
   for (const std::string& name : options.channels) {
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   }
@@ -74,10 +77,17 @@ Imf::FrameBuffer buffer_of(const Grid<Rgb>& picture, const std::vector<float>& z
 void write_exr_file(const fs::path& file, const Grid<Rgb>& picture, const ExrOptions& options) {
   const Imf::Header header = header_of(picture.extent(), options);
   const std::vector<float> zeros(picture.values().size());
-  Imf::OutputFile out(file.c_str(), header);
-  out.setFrameBuffer(buffer_of(picture, zeros, options, header.dataWindow()));
-  // DECREASING_Y takes the lines from the last one up, whatever the frame buffer.
-  out.writePixels(picture.extent().height);
+  {
+    Imf::OutputFile out(file.c_str(), header);
+    out.setFrameBuffer(buffer_of(picture, zeros, options, header.dataWindow()));
+    // DECREASING_Y takes the lines from the last one up, whatever the frame buffer.
+    out.writePixels(picture.extent().height);
+  }
+  if (!options.tiles_of_lines) return;
+  // OpenEXR takes the file for one of tiles then, and sets the second byte of the version's flags.
+  std::fstream flags(file, std::ios::in | std::ios::out | std::ios::binary);
+  flags.seekp(5);
+  flags.put('\0');
 }
 
 void write_compressed_exr(const fs::path& file, const Grid<Rgb>& picture, std::size_t compression,

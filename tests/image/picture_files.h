@@ -32,6 +32,8 @@ struct ExrOptions {
   /// Red, green, blue and white, x and y of each.
   std::optional<std::array<float, 8>> chromaticities = std::nullopt;
   float pixel_aspect = 1.0F;
+  /// Side of tiles of which the header speaks, though the file is of lines.
+  std::optional<unsigned> tiles_of_lines = std::nullopt;
 };
 
 /// 32-bit float scanlines; row 0 of the picture at the top. Channels beyond three hold 0.

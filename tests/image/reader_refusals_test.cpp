@@ -98,6 +98,11 @@ TEST(ReaderRefuses, KindsOfExrThatAreNoFlatRgb) {
   test::write_luminance_chroma_exr(folder / "yc.exr", {8, 4});
   EXPECT_THAT(refusal(folder / "yc.exr"),
               AllOf(HasSubstr("R, G and B needed"), HasSubstr("--to-rgb")));
+  test::write_exr_file(folder / "white.exr", picture,
+                       {.channels = {"BY", "RY", "Y"},
+                        .chromaticities = {{0.64F, 0.33F, 0.3F, 0.6F, 0.15F, 0.06F, 0.31F, 0.0F}}});
+  EXPECT_THAT(refusal(folder / "white.exr", {.allow = {.to_rgb = true}}),
+              HasSubstr("cannot be read as OpenEXR: Bad chromaticities"));
   test::write_uint_exr(folder / "uint.exr", {8, 4});
   EXPECT_THAT(refusal(folder / "uint.exr"), HasSubstr("half or float needed"));
   test::write_exr_file(folder / "xyz.exr", picture, {.xyz = true});
@@ -184,6 +189,26 @@ TEST(ReaderRefuses, BlackMaps) {
   test::write_exr_file(folder / "negative.exr", Grid<Rgb>({8, 4}, Rgb(-1.0F)));
   EXPECT_THAT(refusal(folder / "negative.exr", {.repair = Repair::zero}),
               HasSubstr("every texel is black"));
+}
+
+/// Of nodes the last column is the first: what it holds beside is no texel.
+TEST(ReaderRefuses, PicturesWhoseLightIsInNoTexel) {
+  const TemporaryFolder folder;
+  Grid<Rgb> picture({9, 5});
+  picture(8, 2) = Rgb(3.0F);
+  test::write_exr_file(folder / "seam.exr", picture);
+  for (const Repair repair : {Repair::refuse, Repair::zero}) {
+    EXPECT_THAT(
+        refusal(folder / "seam.exr", {.preset = Preset::openexr, .repair = repair}),
+        HasSubstr("every texel is black: the picture's light, up to 3, is in pixels that no "
+                  "texel of preset openexr shows"));
+  }
+  picture(8, 2) = Rgb(std::numeric_limits<float>::infinity());
+  picture(8, 3) = Rgb(3.0F);
+  test::write_exr_file(folder / "infinite.exr", picture);
+  EXPECT_THAT(
+      refusal(folder / "infinite.exr", {.preset = Preset::openexr, .repair = Repair::clamp}),
+      HasSubstr("every texel is black"));
 }
 
 std::uint64_t number_at(const std::string& bytes, std::size_t at, std::size_t count) {

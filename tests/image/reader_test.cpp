@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -446,6 +447,19 @@ TEST(Reader, ReadsThePartThatIsAskedFor) {
   EXPECT_TRUE(is_flipped(map, second));
   EXPECT_THAT(map.notes, Contains(HasSubstr("Part 1 of 0 to 1 was read (second)")));
   EXPECT_THAT(map.origin.picture.parts, testing::ElementsAre("first", "second"));
+}
+
+// Of no size there is no end.
+TEST(Reader, TakesNoTilesOfFilesOfLines) {
+  const TemporaryFolder folder;
+  const Grid<Rgb> picture = test::numbered_picture({32, 16});
+  test::write_exr_file(folder / "lines.exr", picture);
+  const EnvironmentMap lines = read_environment_map(folder / "lines.exr");
+  for (const unsigned side : {0U, 4U}) {
+    test::write_exr_file(folder / "tiles.exr", picture, {.tiles_of_lines = side});
+    const EnvironmentMap map = read_environment_map(folder / "tiles.exr");
+    EXPECT_TRUE(std::ranges::equal(map.radiance.values(), lines.radiance.values())) << side;
+  }
 }
 
 // The display window is the picture; what of it is not stored is black, and what is stored beyond

@@ -7,6 +7,8 @@
 #undef lightproof_plugin_describe
 
 #include <string.h>
+#include <sys/socket.h>
+#include <time.h>
 #include <unistd.h>
 
 LIGHTPROOF_PLUGIN_EXPORT const lightproof_plugin* lightproof_plugin_describe(void);
@@ -51,6 +53,7 @@ static void changed_sample(void* pointer, size_t count, const double* u, double*
   for (size_t i = 0; i < count; ++i) {
     double* row = rows + 4 * i;
     if (is_struck(u + 2 * i)) strike();
+    if (is("slow") && (count == 1 || count > 1000)) nanosleep(&(struct timespec){0, 3000000}, NULL);
     if (is("nan") && is_struck(u + 2 * i)) row[0] = NAN;
     if (is("no-jacobian")) row[3] *= hypot(row[0], row[1]);
     if (is("flipped-t")) row[2] = -row[2];
@@ -167,8 +170,20 @@ static void changed_destroy(void* pointer) {
   if (is("crash-at-the-end")) abort();
 }
 
+/* Answers in the place of the program that loaded it: five numbers of eight bytes, of which the
+ * last is the length of the text that follows. */
+static void answer(const uint64_t* reply, const char* text) {
+  for (int descriptor = 0; descriptor < 64; ++descriptor) {
+    if (send(descriptor, reply, 5 * sizeof *reply, MSG_NOSIGNAL) <= 0) continue;
+    send(descriptor, text, strlen(text), MSG_NOSIGNAL);
+  }
+}
+
 __attribute__((constructor)) static void at_load(void) {
   if (is("crash-at-load")) abort();
+  if (is("no-reply")) answer((const uint64_t[]){7, 0, 0, 0, 3}, "abc");
+  if (is("endless-reply")) answer((const uint64_t[]){0, 0, 0, 0, UINT64_MAX}, "abc");
+  if (is("no-description")) answer((const uint64_t[]){0, 0, 0, 0, 3}, "abc");
 }
 
 const lightproof_plugin* lightproof_plugin_describe(void) {
@@ -187,6 +202,9 @@ const lightproof_plugin* lightproof_plugin_describe(void) {
   if (is("other-words")) plugin.density = "D";
   if (is("other-columns")) plugin.columns = "x,y";
   if (is("strange-name")) plugin.name = "a/b";
+  static char endless[1000];
+  memset(endless, 'n', sizeof endless - 1);
+  if (is("endless-name")) plugin.name = endless;
   if (is("y-up")) plugin.axes = "x,-z,y";
   if (is("rounded")) plugin.rounding = 1e-4;
   if (is("picture")) {

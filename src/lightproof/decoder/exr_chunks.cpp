@@ -1,7 +1,7 @@
 #include "lightproof/decoder/exr_chunks.h"
 
 #include <ImfChannelList.h>
-#include <ImfTileDescription.h>
+#include <ImfPartType.h>
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -44,6 +44,7 @@ std::uint64_t bytes_of(const Imf::Header& header, const Imath::Box2i& box) {
 /// Rectangles of this many columns and rows, cut at the edges of the data window.
 template <class Visit>
 void for_each_chunk(const Imath::Box2i& window, int columns, int rows, const Visit& visit) {
+  if (columns < 1 || rows < 1) refuse("cannot be read as OpenEXR: tiles without a size");
   for (std::int64_t y = window.min.y; y <= window.max.y; y += rows) {
     for (std::int64_t x = window.min.x; x <= window.max.x; x += columns) {
       visit(Imath::Box2i({static_cast<int>(x), static_cast<int>(y)},
@@ -100,6 +101,12 @@ void check_tiles(Imf::InputPart& part) {
 
 }  // namespace
 
+std::optional<Imf::TileDescription> tiles_of(const Imf::Header& header) {
+  const bool is_tiled = header.hasType() && Imf::isTiled(header.type());
+  if (!is_tiled || !header.hasTileDescription()) return std::nullopt;
+  return header.tileDescription();
+}
+
 void expect_chunks_of(const Imf::Header& header) {
   expected_sizes.clear();
   const bool is_zip = header.compression() == Imf::ZIP_COMPRESSION;
@@ -107,9 +114,9 @@ void expect_chunks_of(const Imf::Header& header) {
   const Imath::Box2i& window = header.dataWindow();
   int columns = window.max.x - window.min.x + 1;
   int rows = is_zip ? kRowsOfZip : 1;
-  if (header.hasTileDescription()) {
-    columns = static_cast<int>(header.tileDescription().xSize);
-    rows = static_cast<int>(header.tileDescription().ySize);
+  if (const auto tiles = tiles_of(header)) {
+    columns = static_cast<int>(tiles->xSize);
+    rows = static_cast<int>(tiles->ySize);
   }
   for_each_chunk(window, columns, rows, [&](const Imath::Box2i& box) {
     const std::uint64_t bytes = bytes_of(header, box);
@@ -124,7 +131,7 @@ void check_chunks(Imf::InputPart& part, int first, int last) {
     return;
   }
   const Imath::Box2i& window = header.dataWindow();
-  if (header.hasTileDescription()) {
+  if (tiles_of(header)) {
     if (first == window.min.y) check_tiles(part);
     return;
   }

@@ -5,8 +5,15 @@
 
 #include <ImfHeader.h>
 #include <ImfInputPart.h>
+#include <ImfTileDescription.h>
+
+#include <optional>
 
 namespace lightproof {
+
+/// The tiles of a part that is stored in tiles; a part of lines may have the attribute, too, of any
+/// size, which means nothing.
+std::optional<Imf::TileDescription> tiles_of(const Imf::Header& header);
 
 /// From now on ZIP chunks that do not hold as much as one of this part must, do not decompress.
 void expect_chunks_of(const Imf::Header& header);

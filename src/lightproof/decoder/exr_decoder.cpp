@@ -7,6 +7,7 @@
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
 #include <ImfRgbaFile.h>
+#include <ImfRgbaYca.h>
 #include <ImfStandardAttributes.h>
 #include <ImfThreading.h>
 #include <ImfTileDescription.h>
@@ -152,9 +153,9 @@ StoredPicture stored_picture(const Imf::MultiPartInputFile& file, int part) {
   const Imf::Header& header = file.header(std::clamp(part, 0, parts - 1));
   stored.data = window_of(header.dataWindow());
   stored.display = window_of(header.displayWindow());
-  if (header.hasTileDescription()) {
-    stored.tile_width = header.tileDescription().xSize;
-    stored.tile_height = header.tileDescription().ySize;
+  if (const auto tiles = tiles_of(header)) {
+    stored.tile_width = tiles->xSize;
+    stored.tile_height = tiles->ySize;
   }
   stored.channels = channels_of(header.channels());
   stored.compression = info(header.compression()).name;
@@ -263,12 +264,19 @@ class ExrDecoder : public PictureDecoder {
     });
   }
 
+  /// Throws what Imf::RgbaInputFile throws for primaries that make no colours, which forgets to
+  /// close the file then.
+  static void expect_primaries(const Imf::Header& header) {
+    if (Imf::hasChromaticities(header)) Imf::RgbaYca::computeYw(Imf::chromaticities(header));
+  }
+
   void read_luminance_chroma(const TakeRows& take) {
     if (part_ != 0) {
       refuse(
           "cannot be read as OpenEXR: luminance and chroma are converted in the first part only");
     }
     expect_chunks_of(file_->header(0));
+    expect_primaries(file_->header(0));
     file_.reset();
     stream_.seekg(0);
     Imf::RgbaInputFile file(stream_, threads_to_use());

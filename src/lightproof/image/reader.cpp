@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -129,6 +130,31 @@ std::string zero_note(const TexelScan& scan) {
                                   : "");
 }
 
+bool is_lit(Rgb rgb) {
+  const auto is_light = [](float v) {
+    return v >= std::numeric_limits<float>::min() && std::isfinite(v);
+  };
+  return is_light(rgb.r) || is_light(rgb.g) || is_light(rgb.b);
+}
+
+/// Refuses a picture without light, and one whose light no texel of the map shows: the last column
+/// of nodes stands for the first one, and where pixels are resampled, the nearest ones may leave
+/// others out. Returns whether the map is black.
+bool refuse_black(EnvironmentMap& map, float brightest_of_picture) {
+  if (std::ranges::any_of(map.radiance.values(), is_lit)) return false;
+  const std::string reason =
+      brightest_of_picture < std::numeric_limits<float>::min()
+          ? fmt::format("every texel is black (the greatest value is {}): no light to sample",
+                        brightest_of_picture)
+          : fmt::format(
+                "every texel is black: the picture's light, up to {}, is in pixels that no "
+                "texel of preset {} shows: choose another --preset NAME",
+                brightest_of_picture, info(map.origin.preset).name);
+  map.origin.faults.push_back({.kind = "black", .message = reason});
+  refuse_later(map.origin, reason);
+  return true;
+}
+
 /// Makes every value a radiance, and brings the picture into the frame of the map.
 void take_pixels(EnvironmentMap& map, Grid<Rgb> picture, Repair repair) {
   const TexelScan scan = scan_texels(picture);
@@ -144,15 +170,10 @@ void take_pixels(EnvironmentMap& map, Grid<Rgb> picture, Repair repair) {
   const bool clamps = repair == Repair::clamp && scan.count_of(kInfiniteValues) > 0;
   const Grid<Rgb> infinite = clamps ? infinite_channels(picture) : Grid<Rgb>();
   if (!scan.clean()) repair_texels(picture, clamps ? scan.brightest : 0.0F);
-  if (scan.brightest < std::numeric_limits<float>::min()) {
-    const std::string reason = fmt::format(
-        "every texel is black (the greatest value is {}): no light to sample", scan.brightest);
-    map.origin.faults.push_back({.kind = "black", .message = reason});
-    refuse_later(map.origin, reason);
-  }
   map.radiance = texels_of(map, picture);
+  const bool is_black = refuse_black(map, scan.brightest);
   if (clamps) {
-    map.notes.push_back(clamp_note(map, scan, infinite));
+    if (!is_black) map.notes.push_back(clamp_note(map, scan, infinite));
   } else if (!scan.clean() && repair != Repair::refuse) {
     map.notes.push_back(zero_note(scan));
   }

@@ -19,6 +19,8 @@ namespace lightproof {
 namespace {
 
 constexpr std::size_t kLongestName = 64;
+/// More than any words that mean something have.
+constexpr std::size_t kLongestText = 200;
 /// What single precision leaves of a direction: some units in the last place of its components.
 constexpr double kRoundingOfFloats = 5e-7;
 constexpr double kMostRounding = 1e-2;
@@ -48,7 +50,18 @@ PluginDescription description_of(const std::filesystem::path& file, const Plugin
     throw InputError(fmt::format(
         "{}: there is no such file: --plugin takes the path of a shared library", file.string()));
   }
-  return PluginProcess(file, options.limits, nullptr).describe();
+  PluginDescription description = PluginProcess(file, options.limits, nullptr).describe();
+  const std::pair<std::string_view, const std::string*> texts[] = {
+      {"name", &description.name},          {"columns", &description.columns},
+      {"axes", &description.axes},          {"preset", &description.preset},
+      {"measure", &description.measure},    {"density", &description.density},
+      {"luminance", &description.luminance}};
+  for (const auto& [what, text] : texts) {
+    if (text->size() > kLongestText) {
+      refuse(file, what, fmt::format("{} characters are more than {}", text->size(), kLongestText));
+    }
+  }
+  return description;
 }
 
 std::string name_of(const std::filesystem::path& file, const PluginDescription& description) {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <csignal>
 #include <cstring>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -14,11 +16,13 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/core/serialise.h"
+#include "lightproof/core/text_escapes.h"
 
 namespace lightproof {
 namespace {
 
 using std::chrono::milliseconds;
+using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t kUsualMemory = std::uint64_t{1} << 30U;
 constexpr std::uint64_t kMemoryOfTexel = 64;
@@ -26,7 +30,10 @@ constexpr std::uint64_t kMemoryOfTexel = 64;
 /// more, so that a leak is found by measuring it.
 constexpr std::uint64_t kHeadroom = std::uint64_t{64} << 20U;
 constexpr int kCreateBatches = 10;
+/// The time for a search for an item that fails alone, in that of a batch.
+constexpr int kSearchBatches = 10;
 constexpr std::size_t kLongestPrint = 200;
+constexpr std::size_t kLongestReason = 1000;
 
 std::filesystem::path host_program() {
   return find_companion(
@@ -46,6 +53,26 @@ std::string megabytes(std::uint64_t bytes) {
 
 std::string seconds_text(milliseconds time) {
   return fmt::format("{:g} s", 1e-3 * static_cast<double>(time.count()));
+}
+
+/// What a plug-in chose to say, in one line that every output can hold.
+std::string one_line(std::string text, std::size_t longest) {
+  text.resize(std::min(text.size(), longest));
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  const std::size_t last = text.find_last_not_of(' ');
+  text.resize(last == std::string::npos ? 0 : last + 1);
+  return terminal_text(text);
+}
+
+bool is_time(double seconds) { return std::isfinite(seconds) && seconds >= 0.0; }
+
+/// Whether the program that runs plug-ins could have sent it. A plug-in that got hold of the socket
+/// may send anything.
+bool is_reply(const PluginReply& reply) {
+  return (reply.status == PluginStatus::done || reply.status == PluginStatus::failed) &&
+         is_time(reply.cpu_seconds) && is_time(reply.wall_seconds) &&
+         reply.text_bytes <= kLongestPluginText;
 }
 
 std::span<const std::byte> bytes_of(const PluginRequest& request) {
@@ -84,12 +111,8 @@ std::span<const double> PluginProcess::outputs() const {
 std::string PluginProcess::printed() const {
   const std::span<std::byte> bytes = log_.bytes();
   std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  text.resize(std::min({text.find('\0'), text.size(), kLongestPrint}));
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  const std::size_t last = text.find_last_not_of(' ');
-  text.resize(last == std::string::npos ? 0 : last + 1);
-  return text;
+  text.resize(std::min(text.find('\0'), text.size()));
+  return one_line(std::move(text), kLongestPrint);
 }
 
 void PluginProcess::end_group() const {
@@ -140,8 +163,10 @@ PluginAnswer PluginProcess::ask(const PluginRequest& request, milliseconds patie
     return false;
   };
   if (!went(child_->send(bytes_of(request)))) return answer;
+  const auto deadline = Clock::now() + kSearchBatches * patience;
   if (request.one_by_one != 0) {
     for (; answer.items_done < request.count; ++answer.items_done) {
+      if (Clock::now() > deadline) return answer;
       auto item = PluginItem::failed;
       if (!went(child_->receive(std::as_writable_bytes(std::span(&item, 1))))) return answer;
       if (item != PluginItem::done) break;
@@ -149,14 +174,18 @@ PluginAnswer PluginProcess::ask(const PluginRequest& request, milliseconds patie
   }
   PluginReply reply;
   if (!went(child_->receive(std::as_writable_bytes(std::span(&reply, 1))))) return answer;
-  std::string words(std::min(reply.text_bytes, kLongestPluginText), '\0');
+  if (!is_reply(reply)) {
+    answer.failure = "sent to the socket of its process what is no reply";
+    end_group();
+    return answer;
+  }
+  std::string words(reply.text_bytes, '\0');
   if (!went(child_->receive(std::as_writable_bytes(std::span(words))))) return answer;
   answer.cpu_seconds = reply.cpu_seconds;
   answer.wall_seconds = reply.wall_seconds;
   answer.held_bytes = reply.held_bytes;
   if (reply.status != PluginStatus::done) {
-    std::ranges::replace_if(
-        words, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    words = one_line(std::move(words), kLongestReason);
     answer.failure = words.empty() ? "failed without a reason" : words;
     end_group();
   } else if (text != nullptr) {
@@ -175,7 +204,13 @@ PluginDescription PluginProcess::describe() {
   if (!answer.is_done()) {
     throw InputError(fmt::format("{}: the plug-in {}", library_.string(), answer.failure));
   }
-  return ValueReader(text).value<PluginDescription>();
+  try {
+    return ValueReader(text).value<PluginDescription>();
+  } catch (const std::out_of_range&) {
+    throw InputError(
+        fmt::format("{}: the plug-in sent to the socket of its process what is no description",
+                    library_.string()));
+  }
 }
 
 PluginAnswer PluginProcess::create(PluginRequest request, std::size_t texels) {

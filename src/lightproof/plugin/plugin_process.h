@@ -36,7 +36,8 @@ struct PluginAnswer {
   double wall_seconds = 0.0;     ///< time that passed meanwhile
   std::uint64_t held_bytes = 0;  ///< private memory of the process afterwards
   bool is_over_memory = false;   ///< it was answered, but by a process that holds too much by now
-  /// Of a call item by item: how many were done before the one that failed.
+  /// Of a call item by item: how many were done before the one that failed, or before there was no
+  /// more time.
   std::size_t items_done = 0;
 
   bool is_done() const { return failure.empty(); }
@@ -61,7 +62,8 @@ class PluginProcess {
   /// rows and positions are in the request.
   PluginAnswer create(PluginRequest request, std::size_t texels);
 
-  /// Has sample, draw or pdf called.
+  /// Has sample, draw or pdf called. Item by item, each may take the time of a batch, and all
+  /// together ten times as long; then those that were done are counted, and the rest is left.
   PluginAnswer call(const PluginRequest& request);
 
   /// What goes into a batch, and what comes out of it.

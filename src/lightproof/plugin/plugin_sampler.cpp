@@ -294,12 +294,19 @@ class PluginSampler {
     put(process->inputs());
     const PluginAnswer answer = process->call(request);
     if (!answer.is_done()) {
-      const std::vector<double> inputs(process->inputs().begin(), process->inputs().end());
       retire(*process);
       process.reset();
+      // The plug-in may have written over what it was given.
+      std::vector<double> inputs(kPluginInputs);
+      put(inputs);
       throw SamplerFailure(words_of(request, answer, inputs));
     }
-    get(process->outputs());
+    // A copy, which no thread of the plug-in changes while it is looked at.
+    const std::size_t each = request.call == PluginCall::pdf ? 1 : library_->rows().columns().count;
+    const auto first = process->outputs().begin();
+    const std::vector<double> outputs(first,
+                                      first + static_cast<std::ptrdiff_t>(each * request.count));
+    get(outputs);
     give_back(std::move(process));
   }
 
@@ -321,8 +328,8 @@ class PluginSampler {
   /// new process, or the whole batch.
   std::string words_of(const PluginRequest& request, const PluginAnswer& failed,
                        std::span<const double> inputs) const {
-    const bool is_alone = request.call != PluginCall::draw && !failed.is_over_memory;
-    if (is_alone) {
+    std::string alone;
+    if (request.call != PluginCall::draw && !failed.is_over_memory) {
       PluginRequest again = request;
       again.one_by_one = 1;
       const std::unique_ptr<PluginProcess> process = map_.start();
@@ -332,10 +339,13 @@ class PluginSampler {
         return fmt::format("{} {} at {}, alone in a new process", name_of(request.call),
                            answer.failure, input_text(request, inputs, answer.items_done));
       }
+      alone = fmt::format("; {} of them alone, in a new process, it answers",
+                          answer.items_done < request.count
+                              ? fmt::format("the first {}", answer.items_done)
+                              : "each");
     }
     return fmt::format("{} {}, in a batch of {} from {} on{}", name_of(request.call),
-                       failed.failure, request.count, input_text(request, inputs, 0),
-                       is_alone ? "; each of them alone, in a new process, it answers" : "");
+                       failed.failure, request.count, input_text(request, inputs, 0), alone);
   }
 
   std::shared_ptr<const PluginLibrary> library_;
