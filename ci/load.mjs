@@ -122,14 +122,14 @@ function empty(name) {
   return path;
 }
 
-/** Small maps that differ. */
+/** Maps that differ, each 0.4 MB as float RGB: all of them together are many times what a run keeps. */
 function smallMaps(count) {
   const small = join(folder, "small");
   mkdirSync(small, { recursive: true });
   return Array.from({ length: count }, (_, i) => {
     const file = join(small, `map-${i}.exr`);
     if (!existsSync(file)) {
-      writeFileSync(file, exr([64, 32], (x, y) => [1 + ((x * 7 + y * 13 + i) % 32), 1 + (i % 5), 1]));
+      writeFileSync(file, exr([256, 128], (x, y) => [1 + ((x * 7 + y * 13 + i) % 32), 1 + (i % 5), 1]));
     }
     return file;
   });
