@@ -63,5 +63,17 @@ TEST_F(Memory, ThatABenchmarkDoesNotFitIntoIsLacking) {
   EXPECT_THAT(finished.err, HasSubstr("not enough memory"));
 }
 
+// 256 x 128 texels of 12 bytes are 0.4 MB: 180 maps more are 71 MB, of which 25 are kept.
+TEST_F(Memory, OfManyMapsIsBoundedWhateverTheirNumber) {
+  const std::string file = (folder_ / "sky.exr").string();
+  write_map(file, {256, 128});
+  const auto peak_of = [&](std::size_t maps) {
+    Words words = {"gate", "-n", "1024", "--sampler", "alias", "--density", "A", "-q"};
+    words.insert(words.end(), maps, file);
+    return peak_kilobytes_of(words);
+  };
+  EXPECT_LT(peak_of(200) - peak_of(20), 45000);
+}
+
 }  // namespace
 }  // namespace lightproof::test
