@@ -53,8 +53,8 @@ class InterpolatedTexels {
 Grid<double> bilinear_masses(const EnvironmentMap& map, TargetDensity target, Extent cells);
 
 /// The Rosenblatt transform of the density over the square that is proportional to what is
-/// interpolated bilinearly, see interpolated_by(), under B times sin(pi t). Of the sums along rows it
-/// keeps every eighth, and adds up the others from there when they are asked for.
+/// interpolated bilinearly, see interpolated_by(), under B times sin(pi t). Of the sums along rows
+/// it keeps every eighth, and adds up the others from there when they are asked for.
 class BilinearTransform {
  public:
   /// Integrates the map once; it must not be black, and outlives this.
@@ -89,8 +89,8 @@ class BilinearTransform {
   MapMeasure measure_;  ///< in which the density is that of the interpolation
   InterpolatedTexels luminance_;
   std::vector<double> row_means_;
-  std::vector<double> marginal_;  ///< mass below the lower edge of every row of patches, and 1
-  std::vector<double> columns_;   ///< luminance of the columns, weighted as their rows are
+  std::vector<double> marginal_;     ///< mass below the lower edge of every row of patches, and 1
+  std::vector<double> columns_;      ///< luminance of the columns, weighted as their rows are
   std::vector<double> column_sums_;  ///< up to each edge of the patches across: W + 2
   Grid<double> sums_;                ///< up to every kStep-th edge, for every row of texels
   double total_ = 0.0;

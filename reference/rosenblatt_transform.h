@@ -25,9 +25,9 @@ struct RosenblattPoint {
   double share_of_cell = 0.0;  ///< share of the mass in its cell at its t that lies to its left
 };
 
-/// The Rosenblatt transform of a density that is given by the masses of texels. It keeps the sums of
-/// a row up to every eighth texel alone, and adds the masses from there on: an eighth of the memory
-/// of all sums, and their bits.
+/// The Rosenblatt transform of a density that is given by the masses of texels. It keeps the sums
+/// of a row up to every eighth texel alone, and adds the masses from there on: an eighth of the
+/// memory of all sums, and their bits.
 class RosenblattTransform {
  public:
   /// The transform of a density given by texel masses that sum to 1; uniform inside a texel in s,

@@ -136,9 +136,8 @@ TEST(MapStore, RefusesAFileThatHasChanged) {
 
 TEST(MapStore, PassesOnThatAFileIsGone) {
   MapStore store(1);
-  const MapSource source = store.add(StoredMaps::map_of(0), []() -> EnvironmentMap {
-    throw InputError("sky.exr: no such file");
-  });
+  const MapSource source = store.add(
+      StoredMaps::map_of(0), []() -> EnvironmentMap { throw InputError("sky.exr: no such file"); });
   store.add(StoredMaps::map_of(2), [] { return StoredMaps::map_of(2); });
   EXPECT_THAT([&] { source.load(); }, ThrowsMessage<InputError>(HasSubstr("no such file")));
 }

@@ -417,7 +417,8 @@ TEST(CressieRead, OfAGridIsThatOfItsSerpentine) {
         counts.values()[i] = std::min(samples - counted, samples * (i % 3) / extent.count());
         counted += counts.values()[i];
       }
-      const GoodnessOfFit along = cressie_read(serpentine(counts), serpentine(probability), samples);
+      const GoodnessOfFit along =
+          cressie_read(serpentine(counts), serpentine(probability), samples);
       const GoodnessOfFit of_grid = cressie_read(counts, probability, samples);
       EXPECT_EQ(of_grid.statistic, along.statistic);
       EXPECT_EQ(of_grid.dof, along.dof);

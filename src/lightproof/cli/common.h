@@ -82,8 +82,8 @@ enum class TexelsOfMaps { own, lat_long };
 std::vector<EnvironmentMap> load_maps(const CommonOptions& options,
                                       TexelsOfMaps texels = TexelsOfMaps::own);
 
-/// Maps that are read one by one, all of them once before it returns, so that what is wrong with any
-/// is said first; few are in memory at once. The order, the notes and the refusals are those of
+/// Maps that are read one by one, all of them once before it returns, so that what is wrong with
+/// any is said first; few are in memory at once. The order, the notes and the refusals are those of
 /// load_maps().
 struct CheckedMaps {
   std::vector<MapSource> sources;

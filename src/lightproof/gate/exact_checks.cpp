@@ -209,9 +209,7 @@ constexpr std::size_t kRowsAtOnce = 32;
 /// The masses of the pieces between these edges in s, and between two edges in t.
 std::vector<double> masses_of_row(const BoundSampler& sampler, std::span<const double> across,
                                   double bottom, double top) {
-  const auto piece_at = [&](std::size_t i) {
-    return Piece{across[i], across[i + 1], bottom, top};
-  };
+  const auto piece_at = [&](std::size_t i) { return Piece{across[i], across[i + 1], bottom, top}; };
   DensitiesInOrder densities(sampler);
   for (std::size_t i = 0; i + 1 < across.size(); ++i) {
     integral_over(piece_at(i), [&](SquarePoint at) {

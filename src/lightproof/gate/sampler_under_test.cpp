@@ -45,8 +45,8 @@ SamplerInstance instance_of(const SamplerUnderTest& under_test, const MapSource&
                 return on(source, name + " on", [&](const auto& map) { return bind(*map); });
               },
           .resolution = under_test.resolution,
-          .rounding = under_test.rounding != nullptr ? under_test.rounding(source.extent)
-                                                     : MassRounding{},
+          .rounding =
+              under_test.rounding != nullptr ? under_test.rounding(source.extent) : MassRounding{},
           .inverts_rows = under_test.inverts_rows,
           .claims_reference_texels = under_test.inverts_shared_cdf};
 }

@@ -99,8 +99,7 @@ Finding watch_answering(const TestRun& run, const Expectation& expectation,
   const auto failure = failure_of([&] {
     const double minimum_detectable = evidence.minimum_detectable_effect(enough, most);
     if (std::isfinite(minimum_detectable)) record.minimum_detectable_effect = minimum_detectable;
-    record.effect =
-        cressie_read(draws.bins, expectation.bins, draws.samples).effect;
+    record.effect = cressie_read(draws.bins, expectation.bins, draws.samples).effect;
   });
   require_power(record, options.must_detect);
   if (failure && record.outcome == Outcome::accept) {
