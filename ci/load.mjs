@@ -12,9 +12,9 @@ const options = rest.slice(end + 1);
 /** Of resident memory of the program and what it starts, in bytes. */
 const kMost = 8e9;
 const kLarge = [16384, 8192];
-/** Memory of many maps over that of few: of a run that forgets what it has done, next to 1. */
+/** Memory of many maps over that of few, which fill what a run keeps: next to 1 but for their records. */
 const kFlat = 1.5;
-const kFew = 20;
+const kFew = 100;
 const kMany = 1000;
 
 const gigabytes = (bytes) => `${(bytes / 1e9).toFixed(2)} GB`;

@@ -341,7 +341,7 @@ class TwoStages {
   std::atomic<std::size_t> kept_bytes_ = 0;  ///< of draws
 
   /// Of draws that are kept from one stage to the next.
-  static constexpr std::size_t kMostKeptBytes = std::size_t{1} << 26U;
+  static constexpr std::size_t kMostKeptBytes = std::size_t{1} << 24U;
 };
 
 }  // namespace
