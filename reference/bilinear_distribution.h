@@ -59,6 +59,7 @@ class BilinearTransform {
  public:
   /// Integrates the map once; it must not be black, and outlives this.
   BilinearTransform(const EnvironmentMap& map, TargetDensity target);
+  BilinearTransform(EnvironmentMap&& map, TargetDensity target) = delete;
 
   /// The transformed coordinates of a position; its row is one of patches, of which there are
   /// H + 1 between the centres of texels and beyond the outermost of them.

@@ -66,6 +66,7 @@ class SharedGrid {
   explicit(false) SharedGrid(Grid<T> grid)
       : grid_(std::make_shared<const Grid<T>>(std::move(grid))) {}
 
+  // NOLINTNEXTLINE(google-explicit-constructor): the check does not know explicit(false) here.
   explicit(false) operator const Grid<T>&() const { return *grid_; }
   const Grid<T>& grid() const { return *grid_; }
   Extent extent() const { return grid_->extent(); }
