@@ -12,9 +12,9 @@ const options = rest.slice(end + 1);
 /** Of resident memory of the program and what it starts, in bytes. */
 const kMost = 8e9;
 const kLarge = [16384, 8192];
-/** Memory of many maps over that of few: of a run that forgets what it has done, next to 1. */
+/** Memory of many maps over that of few, which fill what a run keeps: next to 1 but for their records. */
 const kFlat = 1.5;
-const kFew = 20;
+const kFew = 100;
 const kMany = 1000;
 
 const gigabytes = (bytes) => `${(bytes / 1e9).toFixed(2)} GB`;
@@ -122,14 +122,14 @@ function empty(name) {
   return path;
 }
 
-/** Small maps that differ. */
+/** Maps that differ, each 0.4 MB as float RGB: all of them together are many times what a run keeps. */
 function smallMaps(count) {
   const small = join(folder, "small");
   mkdirSync(small, { recursive: true });
   return Array.from({ length: count }, (_, i) => {
     const file = join(small, `map-${i}.exr`);
     if (!existsSync(file)) {
-      writeFileSync(file, exr([64, 32], (x, y) => [1 + ((x * 7 + y * 13 + i) % 32), 1 + (i % 5), 1]));
+      writeFileSync(file, exr([256, 128], (x, y) => [1 + ((x * 7 + y * 13 + i) % 32), 1 + (i % 5), 1]));
     }
     return file;
   });

@@ -65,12 +65,13 @@ std::vector<std::vector<TentPart>> parts_of_cells(int cells, int texels, bool wr
 
 double one(double /*s*/) { return 1.0; }
 
-/// ∫ of the interpolation around a line of texels, from the lower edge of a patch to a place in it.
-double since_edge(std::span<const double> line, int patch, double position) {
-  const auto texels = static_cast<int>(line.size());
+/// ∫ of the interpolation around a line of so many texels, whose values are line(x), from the lower
+/// edge of a patch to a place in it.
+template <class Line>
+double since_edge(const Line& line, int texels, int patch, double position) {
   const auto [first, second] = ends_of(patch, texels, true);
-  const double low = line[static_cast<std::size_t>(first)];
-  const double high = line[static_cast<std::size_t>(second)];
+  const double low = line(first);
+  const double high = line(second);
   const auto value = [&](double at) {
     const double rising = std::clamp(at * texels + 0.5 - patch, 0.0, 1.0);
     return (1.0 - rising) * low + rising * high;
@@ -81,13 +82,28 @@ double since_edge(std::span<const double> line, int patch, double position) {
 }
 
 /// 0, then the same from 0 to the upper edge of every patch.
-std::vector<double> sums_over(std::span<const double> line) {
-  const auto texels = static_cast<int>(line.size());
+template <class Line>
+std::vector<double> sums_over(const Line& line, int texels) {
   std::vector<double> sums = {0.0};
   for (int patch = 0; patch <= texels; ++patch) {
-    sums.push_back(sums.back() + since_edge(line, patch, patch_edge(patch + 1, texels)));
+    sums.push_back(sums.back() + since_edge(line, texels, patch, patch_edge(patch + 1, texels)));
   }
   return sums;
+}
+
+/// The values of a line of columns.
+auto values_of(const std::vector<double>& line) {
+  return [&line](int x) { return line[static_cast<std::size_t>(x)]; };
+}
+
+/// The values of a row of texels.
+auto values_of(const InterpolatedTexels& texels, int y) {
+  return [&texels, y](int x) { return texels(x, y); };
+}
+
+/// What a texel of row y weighs in a density that weighs texels, up to a constant factor.
+double factor_of_row(int y, int height) {
+  return height * (cos_theta((y + 1.0) / height) - cos_theta(static_cast<double>(y) / height));
 }
 
 }  // namespace
@@ -123,17 +139,22 @@ Grid<double> interpolated_by(DensitySpace density_space, Grid<double> luminance)
   if (!weighs_texels(density_space)) return luminance;
   const int height = luminance.extent().height;
   for (int y = 0; y < height; ++y) {
-    const double solid_angle =
-        cos_theta((y + 1.0) / height) - cos_theta(static_cast<double>(y) / height);
-    for (double& value : luminance.row(y)) value *= height * solid_angle;
+    const double factor = factor_of_row(y, height);
+    for (double& value : luminance.row(y)) value *= factor;
   }
   return luminance;
 }
 
+InterpolatedTexels::InterpolatedTexels(const EnvironmentMap& map, TargetDensity target)
+    : luminance_(map, target.weights) {
+  if (!weighs_texels(target.density_space)) return;
+  const int height = extent().height;
+  for (int y = 0; y < height; ++y) factors_.push_back(factor_of_row(y, height));
+}
+
 Grid<double> bilinear_masses(const EnvironmentMap& map, TargetDensity target, Extent cells) {
   const Extent extent = map.radiance.extent();
-  const Grid<double> luminance =
-      interpolated_by(target.density_space, luminance_of(map, target.weights));
+  const InterpolatedTexels luminance(map, target);
   const auto across = parts_of_cells(cells.width, extent.width, true, one);
   const auto along = parts_of_cells(cells.height, extent.height, false,
                                     weight_function(position_measure(target.density_space)));
@@ -165,12 +186,18 @@ Grid<double> bilinear_masses(const EnvironmentMap& map, TargetDensity target, Ex
 BilinearTransform::BilinearTransform(const EnvironmentMap& map, TargetDensity target)
     : extent_(map.radiance.extent()),
       measure_(position_measure(target.density_space)),
-      luminance_(interpolated_by(target.density_space, luminance_of(map, target.weights))),
-      columns_(static_cast<std::size_t>(extent_.width)) {
-  for (int y = 0; y < extent_.height; ++y) {
-    sums_.push_back(sums_over(luminance_.row(y)));
-    row_means_.push_back(sums_.back().back());
-  }
+      luminance_(map, target),
+      row_means_(static_cast<std::size_t>(extent_.height)),
+      columns_(static_cast<std::size_t>(extent_.width)),
+      sums_({extent_.width / kStep + 1, extent_.height}) {
+  parallel_for(static_cast<std::size_t>(extent_.height), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    const std::vector<double> sums = sums_over(values_of(luminance_, y), extent_.width);
+    for (int patch = 0; patch <= extent_.width; patch += kStep) {
+      sums_(patch / kStep, y) = sums[static_cast<std::size_t>(patch)];
+    }
+    row_means_[row] = sums.back();
+  });
   marginal_.push_back(0.0);
   for (int row = 0; row <= extent_.height; ++row) {
     const double low = patch_edge(row, extent_.height);
@@ -183,12 +210,20 @@ BilinearTransform::BilinearTransform(const EnvironmentMap& map, TargetDensity ta
       columns_[static_cast<std::size_t>(x)] += part.integral * luminance_(x, part.texel);
     }
   }
-  column_sums_ = sums_over(columns_);
+  column_sums_ = sums_over(values_of(columns_), extent_.width);
 }
 
-double BilinearTransform::below(const Sums& sums, std::span<const double> line, double s) const {
-  const int patch = patch_at(s, extent_.width);
-  return sums[static_cast<std::size_t>(patch)] + since_edge(line, patch, s);
+BilinearTransform::SumsAt BilinearTransform::sums_at(int y, double s) const {
+  const int width = extent_.width;
+  const auto line = values_of(luminance_, y);
+  const auto upper_edge = [width](int patch) { return patch_edge(patch + 1, width); };
+  const int patch = patch_at(s, width);
+  double left = sums_(patch / kStep, y);
+  for (int before = patch - patch % kStep; before < patch; ++before) {
+    left += since_edge(line, width, before, upper_edge(before));
+  }
+  return {left, left + since_edge(line, width, patch, s),
+          left + since_edge(line, width, patch, upper_edge(patch))};
 }
 
 double BilinearTransform::marginal_mass(double low, double high) const {
@@ -221,17 +256,20 @@ RosenblattPoint BilinearTransform::operator()(SquarePoint at) const {
   const double marginal = (marginal_[index] + before) / total_;
   const auto mix = [&](double a, double b) { return (1.0 - rising) * a + rising * b; };
   const double whole = mix(row_means_[low], row_means_[high]);
-  const double left = mix(below(sums_[low], luminance_.row(first), at.s),
-                          below(sums_[high], luminance_.row(second), at.s));
-  const auto patch = static_cast<std::size_t>(patch_at(at.s, extent_.width));
-  const double patch_left = mix(sums_[low][patch], sums_[high][patch]);
-  const double patch_right = mix(sums_[low][patch + 1], sums_[high][patch + 1]);
+  const SumsAt of_low = sums_at(first, at.s);
+  const SumsAt of_high = sums_at(second, at.s);
+  const double left = mix(of_low.below, of_high.below);
+  const double patch_left = mix(of_low.patch_left, of_high.patch_left);
+  const double patch_right = mix(of_low.patch_right, of_high.patch_right);
+  const int patch = patch_at(at.s, extent_.width);
+  const double below = column_sums_[static_cast<std::size_t>(patch)] +
+                       since_edge(values_of(columns_), extent_.width, patch, at.s);
   const auto share = [](double part, double of) {
     return of > 0.0 ? std::clamp(part / of, 0.0, 1.0) : 0.0;
   };
   return {std::min(marginal, 1.0),
           share(left, whole),
-          share(below(column_sums_, columns_, at.s), column_sums_.back()),
+          share(below, column_sums_.back()),
           row,
           share(before, marginal_[index + 1] - marginal_[index]),
           share(left - patch_left, patch_right - patch_left)};

@@ -9,6 +9,7 @@
 
 #include "lightproof/core/grid.h"
 #include "lightproof/image/target_density.h"
+#include "lightproof/image/texel_luminance.h"
 #include "reference/rosenblatt_transform.h"
 
 namespace lightproof::reference {
@@ -30,16 +31,35 @@ std::vector<TentPart> tent_parts(double low, double high, int texels, bool wraps
 /// to a constant factor.
 Grid<double> interpolated_by(DensitySpace density_space, Grid<double> luminance);
 
+/// interpolated_by() of a map's texels, each computed when it is asked for.
+class InterpolatedTexels {
+ public:
+  /// The map outlives this.
+  InterpolatedTexels(const EnvironmentMap& map, TargetDensity target);
+
+  Extent extent() const { return luminance_.extent(); }
+  double operator()(int x, int y) const {
+    const double luminance = luminance_(x, y);
+    return factors_.empty() ? luminance : luminance * factors_[static_cast<std::size_t>(y)];
+  }
+
+ private:
+  TexelLuminance luminance_;
+  std::vector<double> factors_;  ///< of the rows; empty: 1
+};
+
 /// Probability of every cell of a `cells` grid laid over the square; they sum to 1. Throws
 /// InputError if the map is black.
 Grid<double> bilinear_masses(const EnvironmentMap& map, TargetDensity target, Extent cells);
 
 /// The Rosenblatt transform of the density over the square that is proportional to what is
-/// interpolated bilinearly, see interpolated_by(), under B times sin(pi t).
+/// interpolated bilinearly, see interpolated_by(), under B times sin(pi t). Of the sums along rows
+/// it keeps every eighth, and adds up the others from there when they are asked for.
 class BilinearTransform {
  public:
-  /// Integrates the map once; it must not be black.
+  /// Integrates the map once; it must not be black, and outlives this.
   BilinearTransform(const EnvironmentMap& map, TargetDensity target);
+  BilinearTransform(EnvironmentMap&& map, TargetDensity target) = delete;
 
   /// The transformed coordinates of a position; its row is one of patches, of which there are
   /// H + 1 between the centres of texels and beyond the outermost of them.
@@ -52,21 +72,28 @@ class BilinearTransform {
   double total() const { return total_; }
 
  private:
-  using Sums = std::vector<double>;  ///< up to each edge of the patches across: W + 2
+  /// Patches of a row from one sum that is kept to the next.
+  static constexpr int kStep = 8;
 
-  /// ∫ from 0 to s of the interpolation around a line of texels.
-  double below(const Sums& sums, std::span<const double> line, double s) const;
+  /// ∫ of the interpolation around a row of texels from 0 to s, and to the edges of the patch in
+  /// which s lies.
+  struct SumsAt {
+    double patch_left;
+    double below;
+    double patch_right;
+  };
+  SumsAt sums_at(int y, double s) const;
   /// ∫ of the marginal over t between two positions of one row of patches.
   double marginal_mass(double low, double high) const;
 
   Extent extent_;
-  MapMeasure measure_;      ///< in which the density is that of the interpolation
-  Grid<double> luminance_;  ///< as interpolated_by() says
+  MapMeasure measure_;  ///< in which the density is that of the interpolation
+  InterpolatedTexels luminance_;
   std::vector<double> row_means_;
-  std::vector<double> marginal_;  ///< mass below the lower edge of every row of patches, and 1
-  std::vector<double> columns_;   ///< luminance of the columns, weighted as their rows are
-  Sums column_sums_;
-  std::vector<Sums> sums_;  ///< those of every row of texels
+  std::vector<double> marginal_;     ///< mass below the lower edge of every row of patches, and 1
+  std::vector<double> columns_;      ///< luminance of the columns, weighted as their rows are
+  std::vector<double> column_sums_;  ///< up to each edge of the patches across: W + 2
+  Grid<double> sums_;                ///< up to every kStep-th edge, for every row of texels
   double total_ = 0.0;
 };
 

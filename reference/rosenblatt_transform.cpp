@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "reference/texel_masses.h"
 
@@ -10,33 +11,47 @@ namespace lightproof::reference {
 namespace {
 
 /// 0, then the sums so far over the whole; all 0 if the whole is.
-template <class Entries>
-void write_entries(std::span<const double> masses, Entries&& entries) {
+std::vector<double> entries_of(std::span<const double> masses) {
   const double total = std::accumulate(masses.begin(), masses.end(), 0.0);
+  std::vector<double> entries = {0.0};
   double sum = 0.0;
-  entries[0] = 0.0;
-  for (std::size_t i = 0; i < masses.size(); ++i) {
-    sum += masses[i];
-    entries[i + 1] = total > 0.0 ? sum / total : 0.0;
+  for (const double mass : masses) {
+    sum += mass;
+    entries.push_back(total > 0.0 ? sum / total : 0.0);
   }
+  return entries;
 }
 
 double between(double low, double high, double share) { return low + (high - low) * share; }
 
 }  // namespace
 
-RosenblattTransform::RosenblattTransform(const Grid<double>& masses, MapMeasure positions)
-    : extent_(masses.extent()),
+RosenblattTransform::RosenblattTransform(SharedGrid<double> masses, MapMeasure positions)
+    : masses_(std::move(masses)),
       measure_(positions),
-      rows_(static_cast<std::size_t>(extent_.height) + 1),
-      columns_(static_cast<std::size_t>(extent_.width) + 1),
-      within_({extent_.width + 1, extent_.height}) {
-  write_entries(row_marginal(masses), rows_);
-  write_entries(column_marginal(masses), columns_);
-  for (int y = 0; y < extent_.height; ++y) write_entries(masses.row(y), within_.row(y));
-  for (int y = 0; y <= extent_.height; ++y) {
-    heights_.push_back(cos_theta(static_cast<double>(y) / extent_.height));
+      rows_(entries_of(row_marginal(masses_))),
+      columns_(entries_of(column_marginal(masses_))),
+      sums_({(masses_.extent().width + kStep - 1) / kStep, masses_.extent().height}) {
+  const Extent extent = masses_.extent();
+  for (int y = 0; y < extent.height; ++y) {
+    double sum = 0.0;
+    for (int x = 0; x < extent.width; ++x) {
+      if (x % kStep == 0) sums_(x / kStep, y) = sum;
+      sum += masses_(x, y);
+    }
+    row_masses_.push_back(sum);
   }
+  for (int y = 0; y <= extent.height; ++y) {
+    heights_.push_back(cos_theta(static_cast<double>(y) / extent.height));
+  }
+}
+
+std::array<double, 2> RosenblattTransform::entries_around(int x, int y) const {
+  const double total = row_masses_[static_cast<std::size_t>(y)];
+  if (!(total > 0.0)) return {0.0, 0.0};
+  double sum = sums_(x / kStep, y);
+  for (int before = x - x % kStep; before < x; ++before) sum += masses_(before, y);
+  return {sum / total, (sum + masses_(x, y)) / total};
 }
 
 RosenblattPoint RosenblattTransform::operator()(SquarePoint at, int x, int y) const {
@@ -46,14 +61,16 @@ RosenblattPoint RosenblattTransform::operator()(SquarePoint at, int x, int y) co
 RosenblattPoint RosenblattTransform::operator()(SquarePoint at, double cosine, int x, int y) const {
   const auto column = static_cast<std::size_t>(x);
   const auto row = static_cast<std::size_t>(y);
-  const double share_of_cell = std::clamp(at.s * extent_.width - x, 0.0, 1.0);
+  const Extent extent = masses_.extent();
+  const double share_of_cell = std::clamp(at.s * extent.width - x, 0.0, 1.0);
   const double low = heights_[row];
   const double share_of_row =
       measure_ == MapMeasure::square
-          ? std::clamp(at.t * extent_.height - y, 0.0, 1.0)
+          ? std::clamp(at.t * extent.height - y, 0.0, 1.0)
           : std::clamp((cosine - low) / (heights_[row + 1] - low), 0.0, 1.0);
+  const auto [left, right] = entries_around(x, y);
   return {between(rows_[row], rows_[row + 1], share_of_row),
-          between(within_(x, y), within_(x + 1, y), share_of_cell),
+          between(left, right, share_of_cell),
           between(columns_[column], columns_[column + 1], share_of_cell),
           y,
           share_of_row,

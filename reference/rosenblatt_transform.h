@@ -2,6 +2,8 @@
 // uniform and independent (Rosenblatt 1952).
 #pragma once
 
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "lightproof/core/grid.h"
@@ -23,17 +25,19 @@ struct RosenblattPoint {
   double share_of_cell = 0.0;  ///< share of the mass in its cell at its t that lies to its left
 };
 
-/// The Rosenblatt transform of a density that is given by the masses of texels.
+/// The Rosenblatt transform of a density that is given by the masses of texels. It keeps the sums
+/// of a row up to every eighth texel alone, and adds the masses from there on: an eighth of the
+/// memory of all sums, and their bits.
 class RosenblattTransform {
  public:
   /// The transform of a density given by texel masses that sum to 1; uniform inside a texel in s,
   /// and in t or cos(theta) by position_measure() of the density.
-  RosenblattTransform(const Grid<double>& masses, DensitySpace density_space)
-      : RosenblattTransform(masses, position_measure(density_space)) {}
+  RosenblattTransform(SharedGrid<double> masses, DensitySpace density_space)
+      : RosenblattTransform(std::move(masses), position_measure(density_space)) {}
   /// The transform of a distribution with these masses of texels, uniform inside a texel in this
   /// measure; in solid angle only in rows of latitude and longitude. Coordinates are those of the
   /// square of any mapping.
-  RosenblattTransform(const Grid<double>& masses, MapMeasure positions);
+  RosenblattTransform(SharedGrid<double> masses, MapMeasure positions);
 
   /// The transformed coordinates of `at`, which lies in texel (x, y).
   RosenblattPoint operator()(SquarePoint at, int x, int y) const;
@@ -43,12 +47,19 @@ class RosenblattTransform {
   RosenblattPoint operator()(SquarePoint at, double cosine, int x, int y) const;
 
  private:
-  Extent extent_;
-  MapMeasure measure_;           ///< in which positions are uniform
-  std::vector<double> rows_;     ///< CDF entries
-  std::vector<double> columns_;  ///< CDF entries
-  Grid<double> within_;          ///< CDF entries of every row, W + 1
-  std::vector<double> heights_;  ///< cos(theta) at the rows' edges
+  /// Texels of a row from one sum that is kept to the next: one line of the cache.
+  static constexpr int kStep = 8;
+
+  /// The CDF entries of row y on both sides of texel x.
+  std::array<double, 2> entries_around(int x, int y) const;
+
+  SharedGrid<double> masses_;
+  MapMeasure measure_;              ///< in which positions are uniform
+  std::vector<double> rows_;        ///< CDF entries
+  std::vector<double> columns_;     ///< CDF entries
+  Grid<double> sums_;               ///< of the masses of a row before every kStep-th texel
+  std::vector<double> row_masses_;  ///< of the rows, summed from left to right
+  std::vector<double> heights_;     ///< cos(theta) at the rows' edges
 };
 
 }  // namespace lightproof::reference

@@ -278,11 +278,17 @@ Grid<double> texel_integrals(const PeakedDensity& density, Extent extent) {
     columns.emplace_back((x + 0.5) / extent.width, 1.0 / extent.width);
   }
   Grid<double> integrals(extent);
-  for (int y = 0; y < extent.height; ++y) {
-    const WithNodes<Band> row((y + 0.5) / extent.height, 1.0 / extent.height);
-    std::ranges::transform(columns, integrals.row(y).begin(),
-                           [&](const auto& column) { return integral(density, row, column); });
-  }
+  const std::size_t rows_at_once =
+      std::max<std::size_t>(1, kTaskCells / static_cast<std::size_t>(extent.width));
+  parallel_chunks(static_cast<std::size_t>(extent.height), rows_at_once,
+                  [&](std::size_t /*chunk*/, std::size_t first, std::size_t end) {
+                    for (int y = static_cast<int>(first); y < static_cast<int>(end); ++y) {
+                      const WithNodes<Band> row((y + 0.5) / extent.height, 1.0 / extent.height);
+                      std::ranges::transform(
+                          columns, integrals.row(y).begin(),
+                          [&](const auto& column) { return integral(density, row, column); });
+                    }
+                  });
   return integrals;
 }
 

@@ -3,14 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <tuple>
 #include <variant>
 
 #include "lightproof/core/enumeration.h"
+#include "lightproof/core/error.h"
 #include "lightproof/core/grid.h"
 #include "lightproof/core/moments.h"
 #include "lightproof/core/random.h"
@@ -283,6 +287,79 @@ TEST(Serialised, NumbersThatAreNoValueOfTheirTypeAreRefused) {
     ValueReader reader(bytes);
     EXPECT_THROW(reader.value<Grid<float>>(), std::out_of_range);
   }
+}
+
+/// How many of its holders there are at once.
+class Holders {
+ public:
+  class Holder {
+   public:
+    explicit Holder(Holders& all) : all_(all) {
+      const int now = ++all_.now_;
+      int most = all_.most_;
+      while (most < now && !all_.most_.compare_exchange_weak(most, now)) continue;
+    }
+    ~Holder() { --all_.now_; }
+    Holder(const Holder&) = delete;
+    Holder& operator=(const Holder&) = delete;
+
+   private:
+    Holders& all_;
+  };
+  int now() const { return now_; }
+  int most() const { return most_; }
+
+ private:
+  std::atomic<int> now_ = 0;
+  std::atomic<int> most_ = 0;
+};
+
+TEST(WorkGroups, WhoseCellsAreLargeHaveOneCellAtATimeAndNoOtherGroupBesides) {
+  const ThreadLimit limit(4);
+  Holders large;
+  Holders all;
+  std::atomic<int> inner = 0;
+  std::vector<WorkGroup<int, int>> groups;
+  for (int g = 0; g < 6; ++g) {
+    WorkGroup<int, int> group;
+    group.one_at_a_time = g % 2 == 0;
+    group.prepare = [g] { return g; };
+    for (int cell = 0; cell < 4; ++cell) {
+      group.cells.push_back({"cell " + std::to_string(4 * g + cell), [&, cell](const int& shared) {
+                               std::optional<Holders::Holder> one;
+                               if (shared % 2 == 0) {
+                                 one.emplace(large);
+                                 EXPECT_EQ(all.now(), 0);
+                               }
+                               const Holders::Holder any(all);
+                               parallel_for(8, [&](std::size_t) {
+                                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                                 ++inner;
+                               });
+                               return 4 * shared + cell;
+                             }});
+    }
+    groups.push_back(std::move(group));
+  }
+  const auto results = compute_groups<int, int>(groups);
+  EXPECT_EQ(large.most(), 1);
+  EXPECT_EQ(inner, 24 * 8);
+  ASSERT_EQ(results.size(), 24U);
+  for (const auto& [key, result] : results) EXPECT_EQ(key, "cell " + std::to_string(result));
+}
+
+TEST(WorkGroups, WhoseCellsAreLargeStopBetweenThem) {
+  int computed = 0;
+  WorkGroup<int, int> group{[] { return 0; }, {}, true};
+  for (const char* key : {"a", "b", "c"}) {
+    group.cells.push_back({key, [&](const int&) {
+                             if (++computed == 2) request_interrupt();
+                             return 0;
+                           }});
+  }
+  EXPECT_THROW((compute_groups<int, int>({&group, 1})), Interrupted);
+  EXPECT_EQ(computed, 2);
+  withdraw_interrupt();
 }
 
 }  // namespace

@@ -133,6 +133,23 @@ TEST(ScreenedRuns, AreNotScreenedAgain) {
   EXPECT_GT(bound, 2 * again);
 }
 
+// Runs that are computed one at a time, as those of large maps are, find the same.
+TEST(RunsOfALargeMap, FindWhatThoseOfASmallOneDo) {
+  const EnvironmentMap map = make_synthetic_map("sun-sky", {16, 8});
+  const std::vector<TestCase> test_cases = test_cases_of({&map, 1}, samplers_under_test());
+  std::vector<TestCase> large = test_cases;
+  for (TestCase& test_case : large) {
+    EXPECT_FALSE(test_case.is_large());
+    test_case.texels = std::size_t{1} << 27U;
+    EXPECT_TRUE(test_case.is_large());
+  }
+  const GateOptions options = {.samples = kSamples, .screening_level = 0.1};
+  EXPECT_TRUE(bytes_of_result(run_gate(large, options)) ==
+              bytes_of_result(run_gate(test_cases, options)));
+  EXPECT_TRUE(bytes_of_result(run_sequential_gate(large, options)) ==
+              bytes_of_result(run_sequential_gate(test_cases, options)));
+}
+
 TEST(SharedRuns, OfOneNameAreRefused) {
   const EnvironmentMap map = make_synthetic_map("constant", {8, 4});
   const SamplerUnderTest alias =

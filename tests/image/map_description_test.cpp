@@ -8,7 +8,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "lightproof/core/error.h"
 #include "lightproof/core/measure.h"
+#include "lightproof/core/parallel.h"
+#include "lightproof/image/map_identity.h"
 #include "lightproof/image/reader.h"
 #include "lightproof/image/synthetic.h"
 #include "tests/image/picture_files.h"
@@ -22,6 +25,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
+
+TEST(Figures, AreNotAddedUpToTheEndOnceTheRunIsInterrupted) {
+  const EnvironmentMap map = make_synthetic_map("constant", {64, 32});
+  request_interrupt();
+  EXPECT_THROW(figures_of(map), Interrupted);
+  EXPECT_THROW(identity_of(map), Interrupted);
+  withdraw_interrupt();
+}
 
 TEST(Figures, AreThoseOfClosedForms) {
   const MapFigures constant = figures_of(make_synthetic_map("constant", {64, 32}));

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "lightproof/core/error.h"
+#include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
 #include "lightproof/warp/lat_long.h"
 
@@ -101,6 +103,26 @@ TEST(LocalSums, OfAHemisphereHaveTheMeanOfALinearMap) {
     EXPECT_NEAR(local_sum(map, hemisphere, 1.0, axis).x, 1.0 + 0.5 * axis.x,
                 std::pow(kPi / 64.0, 2) / 6.0);
   }
+}
+
+TEST(TexelStencil, OfALargeMapStopsWithinATenthOfItsWork) {
+  int calls = 0;
+  int stop_at = -1;
+  const ZonalKernel kernel = {[&](double) {
+                                if (calls++ == stop_at) request_interrupt();
+                                return 1.0;
+                              },
+                              {1.0},
+                              {1.5},
+                              true};
+  const auto make = [&] { return TexelStencil(kernel, {256, 128}, {0.001, 0.5}, 1.0); };
+  make();
+  const int all = calls;
+  calls = 0;
+  stop_at = all / 4;
+  EXPECT_THROW(make(), Interrupted);
+  withdraw_interrupt();
+  EXPECT_LE(calls, stop_at + all / 10);
 }
 
 }  // namespace

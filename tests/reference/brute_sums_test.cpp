@@ -255,7 +255,8 @@ TEST(RosenblattTransform, IsThatOfABruteSum) {
 
 TEST(BilinearTransform, IsThatOfABruteSum) {
   for (const DensitySpace density_space : kDensitySpaces) {
-    const BilinearTransform transform(uneven_map(), {density_space, kRec709, Lookup::bilinear});
+    const EnvironmentMap map = uneven_map();
+    const BilinearTransform transform(map, {density_space, kRec709, Lookup::bilinear});
     expect_transform(test::interpolated_value, density_space, transform);
   }
 }

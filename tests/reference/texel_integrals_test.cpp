@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "lightproof/core/error.h"
 #include "lightproof/core/measure.h"
+#include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
 #include "lightproof/warp/lat_long.h"
 #include "reference/cosine_lobes.h"
@@ -99,6 +101,28 @@ TEST(Reflected, OfAWhiteMapIsTheReflectance) {
         1.0, normal, false};
     EXPECT_NEAR(reflected(map, lambert).x, 0.7, 1e-5);
   }
+}
+
+TEST(TexelIntegrals, OfALargeMapStopWithinAQuarterOfTheirWork) {
+  const ThreadLimit limit(1);
+  int calls = 0;
+  int stop_at = -1;
+  const PeakedDensity density = {[&](Direction) {
+                                   if (calls++ == stop_at) request_interrupt();
+                                   return 1.0;
+                                 },
+                                 {0.0, 0.0, 1.0},
+                                 3.0,
+                                 {0.0, 0.0, 1.0},
+                                 false};
+  const auto integrate = [&] { return texel_integrals(density, {1024, 512}); };
+  integrate();
+  const int all = calls;
+  calls = 0;
+  stop_at = all / 4;
+  EXPECT_THROW(integrate(), Interrupted);
+  withdraw_interrupt();
+  EXPECT_LE(calls, stop_at + all / 4);
 }
 
 }  // namespace

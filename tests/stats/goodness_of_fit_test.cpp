@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "all_counts.h"
+#include "lightproof/core/random.h"
 #include "lightproof/stats/tails.h"
 
 namespace lightproof {
@@ -396,6 +397,38 @@ TEST(TwoSampleFit, OfNoSampleOnOneSideIsOpenAndIsANumber) {
   EXPECT_EQ(fit.dof, 0.0);
   EXPECT_EQ(fit.effect, 0.0);
   EXPECT_GT(fit.possible_cells, 1U) << "it would count as accepted";
+}
+
+TEST(CressieRead, OfAGridIsThatOfItsSerpentine) {
+  const RandomStream stream("CressieRead.OfAGrid", 1);
+  for (const Extent extent : {Extent{1, 1}, Extent{7, 1}, Extent{1, 6}, Extent{16, 9}}) {
+    for (const std::uint64_t samples : {1U, 30U, 1000U, 100000U}) {
+      Grid<double> probability(extent);
+      Grid<std::uint64_t> counts(extent);
+      double sum = 0.0;
+      for (std::size_t i = 0; i < extent.count(); ++i) {
+        const double share = i % 5 == 3 ? 0.0 : 0.1 + stream.point(i).s;
+        probability.values()[i] = share;
+        sum += share;
+      }
+      std::uint64_t counted = 0;
+      for (std::size_t i = 0; i < extent.count(); ++i) {
+        probability.values()[i] /= sum;
+        counts.values()[i] = std::min(samples - counted, samples * (i % 3) / extent.count());
+        counted += counts.values()[i];
+      }
+      const GoodnessOfFit along =
+          cressie_read(serpentine(counts), serpentine(probability), samples);
+      const GoodnessOfFit of_grid = cressie_read(counts, probability, samples);
+      EXPECT_EQ(of_grid.statistic, along.statistic);
+      EXPECT_EQ(of_grid.dof, along.dof);
+      EXPECT_EQ(of_grid.log10_p, along.log10_p);
+      EXPECT_EQ(of_grid.effect, along.effect);
+      EXPECT_EQ(of_grid.possible_cells, along.possible_cells);
+      EXPECT_EQ(of_grid.impossible_hits, along.impossible_hits);
+      EXPECT_EQ(of_grid.first_impossible, along.first_impossible);
+    }
+  }
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "lightproof/core/error.h"
 #include "lightproof/core/out_of_memory.h"
 #include "lightproof/core/text_escapes.h"
+#include "lightproof/image/map_description.h"
 #include "lightproof/image/reader.h"
 #include "lightproof/image/synthetic.h"
 #include "messages.h"
@@ -50,16 +51,14 @@ EnvironmentMap load_map(const std::string& input, Extent size, const ReadOptions
   }
 }
 
-/// Two files of the same name in different folders must stay apart in tables and file names.
-void make_names_unique(std::vector<EnvironmentMap>& maps) {
-  std::set<std::string> taken;
-  for (EnvironmentMap& map : maps) {
-    std::string name = map.name;
-    for (int number = 2; !taken.insert(name).second; ++number) {
-      name = fmt::format("{}-{}", map.name, number);
-    }
-    map.name = name;
+/// Two files of the same name in different folders must stay apart in tables and file names: a name
+/// that nobody has so far, which is taken from now on.
+std::string unique_name(const std::string& wanted, std::set<std::string>& taken) {
+  std::string name = wanted;
+  for (int number = 2; !taken.insert(name).second; ++number) {
+    name = fmt::format("{}-{}", wanted, number);
   }
+  return name;
 }
 
 /// A flag that accepts what is refused without; the refusal mentions it.
@@ -202,7 +201,12 @@ Extent parse_size(const std::string& text) {
       fmt::format("--size: '{}' is not WIDTHxHEIGHT with sides from 1 to {}", text, kLargestSide));
 }
 
-std::vector<EnvironmentMap> load_maps(const CommonOptions& options, TexelsOfMaps texels) {
+namespace {
+
+/// Reads all maps in their order, and hands each on as take(map, size, read): how the map can be
+/// read again.
+template <class Take>
+void read_maps(const CommonOptions& options, TexelsOfMaps texels, const Take& take) {
   std::vector<std::string> inputs = options.maps;
   if (inputs.empty()) {
     for (const SyntheticMap& map : synthetic_maps()) inputs.emplace_back(map.name);
@@ -216,20 +220,49 @@ std::vector<EnvironmentMap> load_maps(const CommonOptions& options, TexelsOfMaps
         "maps have Lightproof's own axes");
   }
   if (texels == TexelsOfMaps::lat_long) read.resample = true;
-  std::vector<EnvironmentMap> maps;
+  std::set<std::string> taken;
   for (const std::string& input : inputs) {
+    std::optional<EnvironmentMap> map;
     try {
-      maps.push_back(load_map(input, size, read));
+      map = load_map(input, size, read);
     } catch (const InputError& error) {
       refuse(error, input, options);
     }
-    maps.back().source = input;
-    if (options.quiet) continue;
-    for (const std::string& note : maps.back().notes) {
-      tell("{}\n", terminal_text(fmt::format("{}: {}", input, note)));
+    map->source = input;
+    map->name = unique_name(map->name, taken);
+    if (!options.quiet) {
+      for (const std::string& note : map->notes) {
+        tell("{}\n", terminal_text(fmt::format("{}: {}", input, note)));
+      }
     }
+    take(*std::move(map), size, read);
   }
-  make_names_unique(maps);
+}
+
+}  // namespace
+
+std::vector<EnvironmentMap> load_maps(const CommonOptions& options, TexelsOfMaps texels) {
+  std::vector<EnvironmentMap> maps;
+  read_maps(options, texels, [&](EnvironmentMap map, Extent /*size*/, const ReadOptions& /*read*/) {
+    maps.push_back(std::move(map));
+  });
+  return maps;
+}
+
+CheckedMaps check_maps(const CommonOptions& options) {
+  CheckedMaps maps;
+  MapStore store;
+  read_maps(options, TexelsOfMaps::own,
+            [&](EnvironmentMap map, Extent size, const ReadOptions& read) {
+              maps.descriptions.push_back(json_of(describe(map)));
+              const auto read_again = [input = map.source, name = map.name, size, read] {
+                EnvironmentMap again = load_map(input, size, read);
+                again.source = input;
+                again.name = name;
+                return again;
+              };
+              maps.sources.push_back(store.add(std::move(map), read_again));
+            });
   return maps;
 }
 

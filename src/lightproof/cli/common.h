@@ -13,6 +13,7 @@
 #include "lightproof/core/failure.h"
 #include "lightproof/core/progress.h"
 #include "lightproof/image/environment_map.h"
+#include "lightproof/image/map_store.h"
 
 namespace lightproof::cli {
 
@@ -80,6 +81,15 @@ Extent parse_size(const std::string& text);
 enum class TexelsOfMaps { own, lat_long };
 std::vector<EnvironmentMap> load_maps(const CommonOptions& options,
                                       TexelsOfMaps texels = TexelsOfMaps::own);
+
+/// Maps that are read one by one, all of them once before it returns, so that what is wrong with
+/// any is said first; few are in memory at once. The order, the notes and the refusals are those of
+/// load_maps().
+struct CheckedMaps {
+  std::vector<MapSource> sources;
+  std::vector<std::string> descriptions;  ///< one JSON object each, RunDescription::maps
+};
+CheckedMaps check_maps(const CommonOptions& options);
 
 /// The options with which load_maps() would read the same maps again, each after a space.
 std::string input_options(const CommonOptions& options);

@@ -106,10 +106,10 @@ int run(const Options& options) {
                        !options.maps.empty(), samplers_of(plugins, plugin_notes)});
   const bool stdout_is_taken = check_verdict_outputs(options.outputs);
   if (!options.quiet) print_notes(chosen.notes);
-  const std::vector<EnvironmentMap> maps = load_maps(options);
+  CheckedMaps maps = check_maps(options);
   const std::vector<TestCase> test_cases =
-      test_cases_of(maps, chosen.of_maps, chosen.of_directions);
-  std::vector<LeftOut> left_out = left_out_on(maps, chosen.of_maps);
+      test_cases_of(maps.sources, chosen.of_maps, chosen.of_directions);
+  std::vector<LeftOut> left_out = left_out_on(maps.sources, chosen.of_maps);
   refuse_untested_maps(test_cases, left_out);
   if (!options.rejections.empty()) {
     check_folder(options.rejections, options.force, names_of_rejections(test_cases),
@@ -120,7 +120,7 @@ int run(const Options& options) {
   judged.result.foreign_samplers = foreign_samplers(plugins, options.plugins);
   if (!options.quiet) print_notes(plugin_notes->all());
   print_verdict(options, options.outputs, judged, stdout_is_taken);
-  const RunDescription description = describe_run(options, maps);
+  const RunDescription description = describe_run(options, std::move(maps.descriptions));
   write_verdict(options.outputs, judged, description);
   if (!options.rejections.empty()) {
     write_rejections(split_gate(judged.result, judged.verdict.count_known_defects).deciding,

@@ -29,6 +29,7 @@ template <class Result>
 struct WorkCell {
   std::string key;
   std::function<Result()> compute;
+  bool one_at_a_time = false;  ///< see WorkGroup
 };
 
 /// Cells that share what is expensive to make, the exact side of a test for example. It is made
@@ -41,6 +42,9 @@ struct WorkGroup {
   };
   std::function<Shared()> prepare;
   std::vector<Cell> cells;
+  /// Whether its cells take so much memory that each is computed when no other is: the parallel
+  /// loops inside of it have all threads then.
+  bool one_at_a_time = false;
 };
 
 /// The part of all cells that one process computes. In the order of their keys they are cut into
@@ -118,9 +122,9 @@ CellResults<Result> compute_groups(std::span<const WorkGroup<Shared, Result>> gr
   const std::set<std::string_view> mine = keys_of_share(std::move(keys), share);
   CellResults<Result> results;
   std::mutex mutex;
-  parallel_for(groups.size(), [&](std::size_t g) {
+  const auto compute_group = [&](const WorkGroup<Shared, Result>& group) {
     std::vector<const typename WorkGroup<Shared, Result>::Cell*> cells;
-    for (const auto& cell : groups[g].cells) {
+    for (const auto& cell : group.cells) {
       if (!mine.contains(cell.key)) continue;
       if (std::optional<Result> known = kept_result<Result>(kept, cell.key)) {
         const std::lock_guard lock(mutex);
@@ -130,8 +134,9 @@ CellResults<Result> compute_groups(std::span<const WorkGroup<Shared, Result>> gr
       }
     }
     if (cells.empty()) return;
-    const Shared shared = groups[g].prepare();
-    parallel_for(cells.size(), [&](std::size_t i) {
+    const Shared shared = group.prepare();
+    const auto compute_cell = [&](std::size_t i) {
+      throw_if_interrupted();
       Result result = cells[i]->compute(shared);
       if (kept.keep) {
         ValueWriter writer;
@@ -143,8 +148,18 @@ CellResults<Result> compute_groups(std::span<const WorkGroup<Shared, Result>> gr
       if (progress) {
         progress(step, static_cast<double>(results.size()) / static_cast<double>(mine.size()));
       }
-    });
-  });
+    };
+    if (!group.one_at_a_time) return parallel_for(cells.size(), compute_cell);
+    for (std::size_t i = 0; i < cells.size(); ++i) compute_cell(i);
+  };
+  std::vector<const WorkGroup<Shared, Result>*> together;
+  for (const auto& group : groups) {
+    if (!group.one_at_a_time) together.push_back(&group);
+  }
+  parallel_for(together.size(), [&](std::size_t g) { compute_group(*together[g]); });
+  for (const auto& group : groups) {
+    if (group.one_at_a_time) compute_group(group);
+  }
   return results;
 }
 
@@ -157,7 +172,8 @@ CellResults<Result> compute_cells(std::span<const WorkCell<Result>> cells, WorkS
   std::vector<WorkGroup<Nothing, Result>> groups;
   for (const WorkCell<Result>& cell : cells) {
     groups.push_back({[] { return Nothing(); },
-                      {{cell.key, [&cell](const Nothing&) { return cell.compute(); }}}});
+                      {{cell.key, [&cell](const Nothing&) { return cell.compute(); }}},
+                      cell.one_at_a_time});
   }
   return compute_groups<Nothing, Result>(groups, share, progress, step, kept);
 }

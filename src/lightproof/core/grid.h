@@ -3,7 +3,9 @@
 
 #include <cassert>
 #include <cstddef>
+#include <memory>
 #include <span>
+#include <utility>
 
 #include "lightproof/core/huge_pages.h"
 
@@ -53,6 +55,27 @@ class Grid {
 
   Extent extent_;
   TableVector<T> values_;
+};
+
+/// A grid that nobody writes to any more, and that its readers share: a copy takes no memory, and
+/// lasts as long as any of them.
+template <class T>
+class SharedGrid {
+ public:
+  SharedGrid() : SharedGrid(Grid<T>()) {}
+  explicit(false) SharedGrid(Grid<T> grid)
+      : grid_(std::make_shared<const Grid<T>>(std::move(grid))) {}
+
+  // NOLINTNEXTLINE(google-explicit-constructor): the check does not know explicit(false) here.
+  explicit(false) operator const Grid<T>&() const { return *grid_; }
+  const Grid<T>& grid() const { return *grid_; }
+  Extent extent() const { return grid_->extent(); }
+  const T& operator()(int x, int y) const { return (*grid_)(x, y); }
+  std::span<const T> row(int y) const { return grid_->row(y); }
+  std::span<const T> values() const { return grid_->values(); }
+
+ private:
+  std::shared_ptr<const Grid<T>> grid_;
 };
 
 }  // namespace lightproof

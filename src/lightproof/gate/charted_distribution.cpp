@@ -21,8 +21,9 @@ Grid<double> even_masses(Extent cells) {
 /// Moments of the estimators over the square as a map of radiance 1.
 void add_estimators(Expectation& expectation) {
   const auto never = [](Direction, double) { return false; };
+  const Grid<double> even(kCells, 1.0);
   const auto moments_of = [&](const reference::Kernel& kernel) {
-    return reference::light_moments(kernel, {&expectation.luminance, 1})[0];
+    return reference::light_moments(kernel, {&even, 1})[0];
   };
   for (std::size_t i = 0; i < kMeanCaseCount; ++i) {
     // The horizons of both normals are edges of cells.

@@ -18,7 +18,8 @@ constexpr Direction kUp = {0.0, 0.0, 1.0};
 /// Both irradiances of the distribution itself, taken as radiance that is constant in each cell;
 /// only where that is at least a tenth of its mean, since light over density grows beyond all
 /// bounds where a lobe ends.
-void add_estimators(Expectation& expectation, const CosineLobes& distribution) {
+void add_estimators(Expectation& expectation, const Grid<double>& radiance,
+                    const CosineLobes& distribution) {
   const auto density = [&distribution](Direction d) { return reference::density(distribution, d); };
   // The horizons of both normals are edges of cells.
   const auto never = [](Direction, double) { return false; };
@@ -28,13 +29,13 @@ void add_estimators(Expectation& expectation, const CosineLobes& distribution) {
                                         return reference::KernelValue{cosine.at(d).k, density(d)};
                                       },
                                       never};
-    const auto moments = reference::light_moments(kernel, {&expectation.luminance, 1});
+    const auto moments = reference::light_moments(kernel, {&radiance, 1});
     expectation.estimators[i] = moments[0][reference::SampledDensity::material];
     expectation.uniform[i] = moments[0][reference::SampledDensity::uniform];
   }
-  Grid<double> bright(expectation.luminance.extent());
+  Grid<double> bright(radiance.extent());
   for (std::size_t i = 0; i < bright.values().size(); ++i) {
-    bright.values()[i] = expectation.luminance.values()[i] > 0.0 ? 1.0 : 0.0;
+    bright.values()[i] = radiance.values()[i] > 0.0 ? 1.0 : 0.0;
   }
   const reference::Kernel one = {[&](Direction d) {
                                    return reference::KernelValue{1.0, density(d)};
@@ -146,22 +147,23 @@ std::shared_ptr<const Expectation> expectation_of(const CosineLobes& distributio
   expectation.density = [distribution](SquarePoint at) {
     return to_square({reference::density(distribution, direction_from_square(at))}, at).value;
   };
-  expectation.luminance = Grid<double>(cells);
+  Grid<double> radiance(cells);
   double sum = 0.0;
   for (int y = 0; y < cells.height; ++y) {
     for (int x = 0; x < cells.width; ++x) {
-      expectation.luminance(x, y) = expectation.masses(x, y) / texel_solid_angle(cells, y);
-      sum += expectation.luminance(x, y);
+      radiance(x, y) = expectation.masses(x, y) / texel_solid_angle(cells, y);
+      sum += radiance(x, y);
     }
   }
   expectation.mean_luminance = sum / static_cast<double>(cells.count());
   for (int y = 0; y < cells.height; ++y) {
     for (int x = 0; x < cells.width; ++x) {
-      if (!expectation.is_bright(expectation.luminance(x, y))) expectation.luminance(x, y) = 0.0;
+      if (!expectation.is_bright(radiance(x, y))) radiance(x, y) = 0.0;
     }
   }
+  expectation.luminance = radiance;
   expectation.set_flags();
-  add_estimators(expectation, distribution);
+  add_estimators(expectation, radiance, distribution);
   return std::make_shared<const Expectation>(std::move(expectation));
 }
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "lightproof/core/parallel.h"
-#include "lightproof/gate/sampler_failure.h"
+#include "lightproof/gate/sampler_rows.h"
 #include "lightproof/samplers/cdf_lines.h"
 #include "lightproof/warp/lat_long.h"
 #include "lightproof/warp/mapping.h"
@@ -190,13 +189,7 @@ DensityComparison compare_density(const BoundSampler& sampler, const Expectation
   const auto compare = [&](std::size_t y) {
     rows[y] = compare_row({&expectation, cells, static_cast<int>(y)}, sampler, rounding);
   };
-  try {
-    parallel_for(rows.size(), compare);
-  } catch (const SamplerFailure&) {
-    // Which row failed first is chance: the first one in their order is not.
-    for (std::size_t y = 0; y < rows.size(); ++y) compare(y);
-    throw;
-  }
+  for_rows(rows.size(), compare);
   DensityComparison all;
   double excess = 0.0;
   for (const RowComparison& row : rows) merge(all, excess, row);

@@ -215,6 +215,12 @@ std::vector<TestCase> test_cases_of(std::span<const DirectionSampler> samplers) 
 std::vector<TestCase> test_cases_of(std::span<const EnvironmentMap> maps,
                                     std::span<const SamplerUnderTest> samplers_under_test,
                                     std::span<const DirectionSampler> samplers) {
+  return test_cases_of(sources_of(maps), samplers_under_test, samplers);
+}
+
+std::vector<TestCase> test_cases_of(std::span<const MapSource> maps,
+                                    std::span<const SamplerUnderTest> samplers_under_test,
+                                    std::span<const DirectionSampler> samplers) {
   std::vector<TestCase> test_cases = test_cases_of(maps, samplers_under_test);
   for (TestCase& test_case : test_cases_of(samplers)) test_cases.push_back(std::move(test_case));
   return test_cases;

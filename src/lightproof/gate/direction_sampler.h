@@ -54,6 +54,9 @@ BoundSampler bound_directions(const DirectionSampler& sampler);
 std::vector<TestCase> test_cases_of(std::span<const DirectionSampler> samplers);
 
 /// The test cases of all samplers under test on all maps, then those of samplers of directions.
+std::vector<TestCase> test_cases_of(std::span<const MapSource> maps,
+                                    std::span<const SamplerUnderTest> samplers_under_test,
+                                    std::span<const DirectionSampler> samplers);
 std::vector<TestCase> test_cases_of(std::span<const EnvironmentMap> maps,
                                     std::span<const SamplerUnderTest> samplers_under_test,
                                     std::span<const DirectionSampler> samplers);

@@ -34,6 +34,11 @@ double log_likelihood_gain(const Draws& draws, const Grid<double>& log_ratios) {
   return gain;
 }
 
+double log10_p(const Grid<std::uint64_t>& counts, const Grid<double>& masses,
+               std::uint64_t samples) {
+  return cressie_read(counts, masses, samples).log10_p;
+}
+
 double log10_p(std::span<const std::uint64_t> counts, std::span<const double> masses,
                std::uint64_t samples) {
   return cressie_read(counts, masses, samples).log10_p;
@@ -61,8 +66,8 @@ Grid<Value> over_blocks(const Grid<Value>& texels) {
 /// texel.
 std::vector<double> log10_ps(const Grid<std::uint64_t>& texels, const Grid<double>& masses,
                              std::uint64_t samples) {
-  return {log10_p(serpentine(over_blocks(texels)), serpentine(over_blocks(masses)), samples),
-          log10_p(serpentine(texels), serpentine(masses), samples),
+  return {log10_p(over_blocks(texels), over_blocks(masses), samples),
+          log10_p(texels, masses, samples),
           log10_p(row_counts(texels), reference::row_marginal(masses), samples),
           log10_p(column_counts(texels), reference::column_marginal(masses), samples),
           worst_cell(texels.values(), masses.values(), samples).log10_p};

@@ -340,6 +340,11 @@ void Draws::merge(const Draws& other) {
   zero_density.merge(other.zero_density);
 }
 
+std::size_t Draws::bytes() const {
+  return (texels.values().size() + marginal.size() + column_marginal.size()) *
+         sizeof(std::uint64_t);
+}
+
 bool is_on_map(const TexelSample& sample, Extent map) {
   const bool in_square = sample.at.s >= 0.0 && sample.at.s < 1.0 && sample.at.t >= 0.0 &&
                          sample.at.t < 1.0;  // false for NaN

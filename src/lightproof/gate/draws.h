@@ -63,6 +63,8 @@ struct Draws {
   InvalidSamples zero_density;   ///< samples in a texel without light
 
   void merge(const Draws& other);
+  /// What it takes of memory, about: the counts of texels and of uniform coordinates.
+  std::size_t bytes() const;
 };
 
 /// Bins of the pair of transformed coordinates, which are uniform and independent.

@@ -10,6 +10,7 @@
 #include "lightproof/core/gauss_rule.h"
 #include "lightproof/core/parallel.h"
 #include "lightproof/gate/draws.h"
+#include "lightproof/gate/sampler_rows.h"
 #include "reference/mapped_texels.h"
 
 namespace lightproof {
@@ -194,7 +195,6 @@ class DensitiesInOrder {
     taken_ = 0;
   }
   double take() { return densities_[taken_++].value; }
-  void clear() { positions_.clear(); }
 
  private:
   const BoundSampler* sampler_;
@@ -202,6 +202,29 @@ class DensitiesInOrder {
   std::vector<PerSquare> densities_;
   std::size_t taken_ = 0;
 };
+
+/// Rows of pieces whose masses are held at once.
+constexpr std::size_t kRowsAtOnce = 32;
+
+/// The masses of the pieces between these edges in s, and between two edges in t.
+std::vector<double> masses_of_row(const BoundSampler& sampler, std::span<const double> across,
+                                  double bottom, double top) {
+  const auto piece_at = [&](std::size_t i) { return Piece{across[i], across[i + 1], bottom, top}; };
+  DensitiesInOrder densities(sampler);
+  for (std::size_t i = 0; i + 1 < across.size(); ++i) {
+    integral_over(piece_at(i), [&](SquarePoint at) {
+      densities.name(at);
+      return 0.0;
+    });
+  }
+  densities.ask();
+  std::vector<double> masses;
+  for (std::size_t i = 0; i + 1 < across.size(); ++i) {
+    masses.push_back(
+        integral_over(piece_at(i), [&](SquarePoint /*at*/) { return densities.take(); }));
+  }
+  return masses;
+}
 
 }  // namespace
 
@@ -248,26 +271,21 @@ OwnDensity integrate_pdf(const BoundSampler& sampler, Extent cells, const Mappin
   const int pieces = (kFewestPieces + cells.height - 1) / cells.height;
   const std::vector<double> along = edges(cells.height * pieces, kGateBins.height);
   OwnDensity own{0.0, Grid<double>(kGateBins)};
-  DensitiesInOrder densities(sampler);
-  for (std::size_t j = 0; j + 1 < along.size(); ++j) {
-    const auto piece_at = [&](std::size_t i) {
-      return Piece{across[i], across[i + 1], along[j], along[j + 1]};
-    };
-    densities.clear();
-    for (std::size_t i = 0; i + 1 < across.size(); ++i) {
-      integral_over(piece_at(i), [&](SquarePoint at) {
-        densities.name(at);
-        return 0.0;
-      });
-    }
-    densities.ask();
-    for (std::size_t i = 0; i + 1 < across.size(); ++i) {
-      const Piece piece = piece_at(i);
-      const double mass =
-          integral_over(piece, [&](SquarePoint /*at*/) { return densities.take(); });
-      own.integral += mass;
-      const auto [s, t] = piece.centre();
-      own.bins(cell_of(s, kGateBins.width), cell_of(t, kGateBins.height)) += mass;
+  const std::size_t rows = along.size() - 1;
+  std::array<std::vector<double>, kRowsAtOnce> masses;
+  for (std::size_t first = 0; first < rows; first += kRowsAtOnce) {
+    const std::size_t count = std::min(kRowsAtOnce, rows - first);
+    for_rows(count, [&](std::size_t row) {
+      masses[row] = masses_of_row(sampler, across, along[first + row], along[first + row + 1]);
+    });
+    for (std::size_t row = 0; row < count; ++row) {
+      for (std::size_t i = 0; i + 1 < across.size(); ++i) {
+        const double mass = masses[row][i];
+        own.integral += mass;
+        const auto [s, t] =
+            Piece{across[i], across[i + 1], along[first + row], along[first + row + 1]}.centre();
+        own.bins(cell_of(s, kGateBins.width), cell_of(t, kGateBins.height)) += mass;
+      }
     }
   }
   if (!is_plain(mapping)) {

@@ -1,7 +1,7 @@
 #include "lightproof/gate/expectation.h"
 
 #include <memory>
-#include <numeric>
+#include <utility>
 
 #include "lightproof/image/look_up.h"
 #include "lightproof/stats/goodness_of_fit.h"
@@ -54,10 +54,11 @@ double largest_sine(Extent extent, int y) {
 
 /// First and second moment of 1/p(omega) over the bright texels. Under A and C the density over
 /// (s,t) is constant in a texel and 1/p(omega) = 2 pi^2 sin(theta) / p(s,t); under B p(omega) is.
-reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) {
+reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation,
+                                                const Grid<double>& luminance) {
   if (expectation.lookup == Lookup::bilinear) {
     return reference::bilinear_inverse_pdf(
-        expectation.luminance, expectation.density_space,
+        luminance, expectation.density_space,
         [&](double radiance) { return expectation.is_bright(radiance); });
   }
   if (expectation.mapping.kind != MappingKind::lat_long) {
@@ -71,7 +72,7 @@ reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) 
     const double square = 4.0 * kPi * kPi * kPi * kPi * squared_sine_area(extent, y) /
                           static_cast<double>(extent.count());
     for (int x = 0; x < extent.width; ++x) {
-      if (!expectation.is_bright(expectation.luminance(x, y))) continue;
+      if (!expectation.is_bright(luminance(x, y))) continue;
       const double mass = expectation.masses(x, y);
       moments.raw[0] += solid_angle;
       const double flat =
@@ -84,12 +85,21 @@ reference::EstimatorMoments inverse_pdf_moments(const Expectation& expectation) 
 }
 
 /// The moments of the estimators with a cosine kernel.
-reference::LightMoments light_moments(const Expectation& expectation, Direction normal) {
+reference::LightMoments light_moments(const Expectation& expectation, const Grid<double>& luminance,
+                                      Direction normal) {
   const reference::Kernel kernel = reference::cosine_kernel(normal);
   return expectation.lookup == Lookup::bilinear
-             ? reference::bilinear_light_moments(kernel, expectation.luminance)
-             : reference::light_moments(kernel, {&expectation.luminance, 1},
-                                        expectation.mapping)[0];
+             ? reference::bilinear_light_moments(kernel, luminance)
+             : reference::light_moments(kernel, {&luminance, 1}, expectation.mapping)[0];
+}
+
+double mean_of(const TexelLuminance& luminance) {
+  const Extent extent = luminance.extent();
+  double sum = 0.0;
+  for (int y = 0; y < extent.height; ++y) {
+    for (int x = 0; x < extent.width; ++x) sum += luminance(x, y);
+  }
+  return sum / static_cast<double>(extent.count());
 }
 
 void set_transform(Expectation& expectation, const EnvironmentMap& map, TargetDensity target) {
@@ -114,12 +124,11 @@ void set_transform(Expectation& expectation, const EnvironmentMap& map, TargetDe
     for (std::size_t i = 0; i < samples.size(); ++i) points[i] = (*transform)(samples[i].at);
   };
   set_smooth_rows(expectation, transform->rows());
-  const auto interpolated = std::make_shared<const Grid<double>>(
-      reference::interpolated_by(target.density_space, expectation.luminance));
   const MapMeasure measure = position_measure(target.density_space);
-  expectation.density = [interpolated, total = transform->total(), measure](SquarePoint at) {
+  expectation.density = [interpolated = reference::InterpolatedTexels(map, target),
+                         total = transform->total(), measure](SquarePoint at) {
     const double weight = measure == MapMeasure::square ? 1.0 : sin_theta(at.t);
-    return look_up_bilinear(*interpolated, at) * weight / total;
+    return look_up_bilinear(interpolated, at) * weight / total;
   };
 }
 
@@ -138,11 +147,14 @@ Grid<double> Expectation::bins_of(const Grid<double>& texel_masses) const {
 }
 
 void Expectation::set_flags() {
-  flags = Grid<std::uint8_t>(masses.extent());
-  for (std::size_t i = 0; i < flags.values().size(); ++i) {
-    const int of_mass = masses.values()[i] > 0.0 ? has_mass : 0;
-    const int of_radiance = is_bright(luminance.values()[i]) ? counts_as_bright : 0;
-    flags.values()[i] = static_cast<std::uint8_t>(of_mass + of_radiance);
+  const Extent extent = masses.extent();
+  flags = Grid<std::uint8_t>(extent);
+  for (int y = 0; y < extent.height; ++y) {
+    for (int x = 0; x < extent.width; ++x) {
+      const int of_mass = masses(x, y) > 0.0 ? has_mass : 0;
+      const int of_radiance = is_bright(luminance(x, y)) ? counts_as_bright : 0;
+      flags(x, y) = static_cast<std::uint8_t>(of_mass + of_radiance);
+    }
   }
 }
 
@@ -156,14 +168,12 @@ Expectation texel_expectation_of(const EnvironmentMap& map, TargetDensity target
   expectation.density_space = target.density_space;
   expectation.mapping = map.mapping;
   expectation.lookup = target.lookup;
-  expectation.luminance = luminance_of(map, target.weights);
+  expectation.luminance = TexelLuminance(map, target.weights);
   expectation.masses = reference::texel_masses(map, target);
   expectation.rows = reference::row_marginal(expectation.masses);
   expectation.columns = reference::column_marginal(expectation.masses);
   set_transform(expectation, map, target);
-  const auto values = expectation.luminance.values();
-  expectation.mean_luminance =
-      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  expectation.mean_luminance = mean_of(expectation.luminance);
   expectation.is_summed = true;
   expectation.set_flags();
   return expectation;
@@ -182,13 +192,25 @@ Expectation expectation_of(const EnvironmentMap& map, TargetDensity target) {
   expectation.bins = target.lookup == Lookup::bilinear
                          ? reference::bin_masses(map, target, kGateBins)
                          : expectation.bins_of(expectation.masses);
+  const Grid<double> luminance = luminance_of(map, target.weights);
   for (std::size_t i = 0; i < kMeanCaseCount; ++i) {
-    const auto moments = light_moments(expectation, kMeanCases[i].normal);
+    const auto moments = light_moments(expectation, luminance, kMeanCases[i].normal);
     expectation.estimators[i] = moments[reference::sampled_density(target.density_space)];
     expectation.uniform[i] = moments[reference::SampledDensity::uniform];
   }
-  expectation.inverse_pdf = inverse_pdf_moments(expectation);
+  expectation.inverse_pdf = inverse_pdf_moments(expectation, luminance);
   return expectation;
+}
+
+std::shared_ptr<const Expectation> shared_expectation_of(std::shared_ptr<const EnvironmentMap> map,
+                                                         TargetDensity target) {
+  struct OnMap {
+    std::shared_ptr<const EnvironmentMap> map;
+    Expectation expectation;
+  };
+  Expectation expectation = expectation_of(*map, target);
+  const auto both = std::make_shared<const OnMap>(std::move(map), std::move(expectation));
+  return {both, &both->expectation};
 }
 
 void set_smooth_rows(Expectation& expectation, std::vector<double> masses) {

@@ -13,6 +13,7 @@
 #include "lightproof/core/grid.h"
 #include "lightproof/gate/row_bands.h"
 #include "lightproof/image/target_density.h"
+#include "lightproof/image/texel_luminance.h"
 #include "lightproof/samplers/sampler.h"
 #include "reference/estimator_moments.h"
 #include "reference/mapped_texels.h"
@@ -37,8 +38,8 @@ struct Expectation {
   DensitySpace density_space = DensitySpace::solid_angle;  ///< how the mass lies inside a texel
   Mapping mapping = {};             ///< how the square of the texels lies on the sphere
   Lookup lookup = Lookup::nearest;  ///< how the estimators look `luminance` up
-  Grid<double> luminance;           ///< radiance that the estimators gather
-  Grid<double> masses;              ///< probabilities of texels
+  TexelLuminance luminance;         ///< radiance that the estimators gather
+  SharedGrid<double> masses;        ///< probabilities of texels
   Grid<double> bins;                ///< probabilities of kGateBins, over (phi, theta)
   std::vector<double> rows;         ///< probabilities of the rows of texels
   std::vector<double> columns;      ///< probabilities of the columns of texels
@@ -109,12 +110,19 @@ void set_smooth_rows(Expectation& expectation, std::vector<double> masses);
 /// The effect of rounding on a distribution, 0 where its masses are not summed.
 RoundingEffect rounding_effect(const Expectation& expectation, std::uint64_t samples);
 
-/// The part of the exact side of a target density on a map that says how texels are drawn: masses,
-/// rows, columns, density, transform and flags. It has no bins and no moments, which take long.
-/// Throws InputError if the map is black.
+/// The part of the exact side of a target density on a map, which outlives it, that says how texels
+/// are drawn: masses, rows, columns, density, transform and flags. It has no bins and no moments,
+/// which take long. Throws InputError if the map is black.
 Expectation texel_expectation_of(const EnvironmentMap& map, TargetDensity target);
+Expectation texel_expectation_of(EnvironmentMap&& map, TargetDensity target) = delete;
 
-/// The exact side of a target density on a map. Throws InputError if the map is black.
+/// The exact side of a target density on a map, which outlives it. Throws InputError if the map is
+/// black.
 Expectation expectation_of(const EnvironmentMap& map, TargetDensity target);
+Expectation expectation_of(EnvironmentMap&& map, TargetDensity target) = delete;
+
+/// expectation_of() a map that lasts as long as it.
+std::shared_ptr<const Expectation> shared_expectation_of(std::shared_ptr<const EnvironmentMap> map,
+                                                         TargetDensity target);
 
 }  // namespace lightproof

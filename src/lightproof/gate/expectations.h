@@ -23,8 +23,8 @@ class Expectations {
   std::shared_ptr<const Expectation> of(std::size_t test_case);
 
  private:
-  /// About 60 bytes are kept of a texel: half a gibibyte.
-  static constexpr std::size_t kMostTexels = std::size_t{1} << 23U;
+  /// About 12 bytes are kept of a texel, and the map: 6 MB.
+  static constexpr std::size_t kMostTexels = std::size_t{1} << 18U;
 
   std::span<const TestCase> test_cases_;
   std::vector<std::shared_ptr<const Expectation>> kept_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -103,7 +104,11 @@ std::vector<Measured> screen_answering(const TestRun& run, const SharedDraws& sh
   const bool clean = std::all_of(tests.begin(), tests.end(), [&](const Measured& test) {
     return is_clean(test, screening_level);
   });
-  if (!clean) state.draws = std::move(draws);
+  if (clean) {
+    state.inspection.reset();
+  } else {
+    state.draws = std::move(draws);
+  }
   return tests;
 }
 
@@ -186,7 +191,8 @@ class TwoStages {
       state.is_confirmed =
           std::any_of(state.tests.begin(), state.tests.end(), judge.confirmation()) &&
           state.tests.front().stages.confirmation > 0;
-      if (state.is_confirmed) state.draws.reset();  // whoever draws the second stage has its own
+      // Whoever draws the second stage has its own.
+      if (state.is_confirmed) let_go_of_draws(state);
     });
     run_stage(
         {"confirmation", kSecondStage * options_.samples}, {},
@@ -239,6 +245,7 @@ class TwoStages {
                                          const IsConcerned& is_concerned, const Compute& compute) {
     const TestCase& test_case = test_cases_[i];
     WorkGroup<SharedDraws, Tests> group;
+    group.one_at_a_time = test_case.is_large();
     bool with_reference = false;
     states_.for_each_of(i, [&](RunIndex at, RunState& state) {
       if (!is_concerned(state)) return;
@@ -246,7 +253,9 @@ class TwoStages {
       with_reference = with_reference || run.instance->claims_reference_texels;
       group.cells.push_back({run.key(stage.name), [&, run](const SharedDraws& shared) {
                                return with_memory_for_gate(test_case, run.instance->name, [&] {
-                                 return compute(run, shared, state);
+                                 Tests tests = compute(run, shared, state);
+                                 keep_few(state);
+                                 return tests;
                                });
                              }});
     });
@@ -278,6 +287,18 @@ class TwoStages {
     });
   }
 
+  /// Lets go of what was drawn if there is enough of that: it can be drawn again.
+  void keep_few(RunState& state) {
+    if (!state.draws) return;
+    const std::size_t bytes = state.draws->bytes();
+    if (kept_bytes_.fetch_add(bytes) + bytes > kMostKeptBytes) let_go_of_draws(state);
+  }
+  void let_go_of_draws(RunState& state) {
+    if (!state.draws) return;
+    kept_bytes_.fetch_sub(state.draws->bytes());
+    state.draws.reset();
+  }
+
   std::size_t count_p_values() {
     std::size_t count = 0;
     states_.for_each([&](RunIndex /*at*/, const RunState& state) {
@@ -297,8 +318,10 @@ class TwoStages {
 
   GateResult collect() {
     ByRun<std::vector<TestRecord>> records(test_cases_);
-    states_.for_each([&](RunIndex at, const RunState& state) {
-      for (const Measured& test : state.tests) records[at].push_back(test.record);
+    states_.for_each([&](RunIndex at, RunState& state) {
+      for (Measured& test : state.tests) records[at].push_back(std::move(test.record));
+      // A diagnosis asks for the numbers of samples alone.
+      if (!state.tests.empty()) state.tests.erase(state.tests.begin() + 1, state.tests.end());
     });
     GateResult result{options_.family_alpha, options_.samples, options_.seed, {}, {}};
     result.must_detect = options_.must_detect;
@@ -315,6 +338,10 @@ class TwoStages {
   const Communicator& communicator_;
   Expectations expectations_;
   ByRun<RunState> states_;
+  std::atomic<std::size_t> kept_bytes_ = 0;  ///< of draws
+
+  /// Of draws that are kept from one stage to the next.
+  static constexpr std::size_t kMostKeptBytes = std::size_t{1} << 24U;
 };
 
 }  // namespace

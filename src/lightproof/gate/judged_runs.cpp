@@ -77,9 +77,11 @@ void add_judged(GateResult& result, const JudgedRuns& runs, Expectations& expect
     std::vector<RunIndex> rejected = rejected_in(runs, i);
     if (rejected.empty()) continue;
     keys.push_back(rejected.front().in(runs.test_cases, runs.seed).key("diagnosis"));
-    cells.push_back({keys.back(), [&runs, &expectations, rejected = std::move(rejected)] {
+    cells.push_back({keys.back(),
+                     [&runs, &expectations, rejected = std::move(rejected)] {
                        return diagnose_together(runs, rejected, expectations);
-                     }});
+                     },
+                     runs.test_cases[i].is_large()});
   }
   auto rejections = gather(
       compute_cells<std::vector<Rejection>>(cells, communicator.share, {}, {}, communicator.kept),

@@ -23,7 +23,7 @@ double chi_square_log10_p(double statistic, double dof) {
 }
 
 GoodnessOfFit fit_of_bins(const Expectation& expectation, const Draws& draws) {
-  return cressie_read(serpentine(draws.bins), serpentine(expectation.bins), draws.samples);
+  return cressie_read(draws.bins, expectation.bins, draws.samples);
 }
 
 /// Whether nearly all samples lie at one position inside their texels: a lattice that has nothing

@@ -54,8 +54,17 @@ void Records::attempt(TestId test, const std::function<void()>& run) {
 
 void Records::add_fit(TestId test, std::span<const std::uint64_t> observed,
                       std::span<const double> probability) {
+  add_fit(test, [&] { return cressie_read(observed, probability, samples_); });
+}
+
+void Records::add_fit(TestId test, const Grid<std::uint64_t>& observed,
+                      const Grid<double>& probability) {
+  add_fit(test, [&] { return cressie_read(observed, probability, samples_); });
+}
+
+void Records::add_fit(TestId test, const std::function<GoodnessOfFit()>& compute) {
   attempt(test, [&] {
-    const GoodnessOfFit fit = cressie_read(observed, probability, samples_);
+    const GoodnessOfFit fit = compute();
     Measured& added = add(test);
     TestRecord& record = added.record;
     if (fit.dof > 0.0) added.detectable = EffectOnCells{fit.dof};

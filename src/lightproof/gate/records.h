@@ -38,6 +38,9 @@ class Records {
   void add_fit(TestId test, std::span<const std::uint64_t> observed,
                std::span<const double> probability);
 
+  /// The same of cells in a grid, along its serpentine(); no copy of either is made.
+  void add_fit(TestId test, const Grid<std::uint64_t>& observed, const Grid<double>& probability);
+
   /// Adds a fit, judged already, of `fit_samples` of the samples or of what is made of them.
   void add_partial_fit(TestId test, const GoodnessOfFit& fit, std::uint64_t fit_samples);
 
@@ -74,6 +77,8 @@ class Records {
   std::vector<Measured> take() { return std::move(records_); }
 
  private:
+  void add_fit(TestId test, const std::function<GoodnessOfFit()>& compute);
+
   const TestRun* run_;
   std::uint64_t samples_;
   std::vector<Measured> records_;

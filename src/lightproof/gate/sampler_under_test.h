@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lightproof/gate/test_case.h"
+#include "lightproof/image/map_store.h"
 #include "lightproof/results/gate_result.h"
 #include "lightproof/samplers/registry.h"
 
@@ -32,11 +33,17 @@ struct SamplerUnderTest {
   std::function<std::string_view(const Mapping&)> why_meaningless = {};
 };
 
-/// Empty if a sampler is tested on a map; else why not: its density cannot be declared there, or it
-/// has no meaning.
-std::string_view why_left_out(const SamplerUnderTest& under_test, const EnvironmentMap& map);
+/// Empty if a sampler is tested on maps of this mapping; else why not: its density cannot be
+/// declared there, or it has no meaning.
+std::string_view why_left_out(const SamplerUnderTest& under_test, const Mapping& mapping);
+inline std::string_view why_left_out(const SamplerUnderTest& under_test,
+                                     const EnvironmentMap& map) {
+  return why_left_out(under_test, map.mapping);
+}
 
 /// The samplers under test that are left out on some of these maps.
+std::vector<LeftOut> left_out_on(std::span<const MapSource> maps,
+                                 std::span<const SamplerUnderTest> samplers_under_test);
 std::vector<LeftOut> left_out_on(std::span<const EnvironmentMap> maps,
                                  std::span<const SamplerUnderTest> samplers_under_test);
 
@@ -47,8 +54,11 @@ SamplerUnderTest sampler_under_test(const SamplerInfo& sampler, DensitySpace den
 std::vector<SamplerUnderTest> all_samplers_under_test();
 
 /// The test cases of every sampler under test on every map that it is not left out on, one for each
-/// map and target density.
-/// The maps must outlive them.
+/// map and target density. A map is loaded when one of them asks for it, and lasts as long as the
+/// exact side: whoever binds a sampler holds that.
+std::vector<TestCase> test_cases_of(std::span<const MapSource> maps,
+                                    std::span<const SamplerUnderTest> samplers_under_test);
+/// The same of maps that outlive them.
 std::vector<TestCase> test_cases_of(std::span<const EnvironmentMap> maps,
                                     std::span<const SamplerUnderTest> samplers_under_test);
 

@@ -99,8 +99,7 @@ Finding watch_answering(const TestRun& run, const Expectation& expectation,
   const auto failure = failure_of([&] {
     const double minimum_detectable = evidence.minimum_detectable_effect(enough, most);
     if (std::isfinite(minimum_detectable)) record.minimum_detectable_effect = minimum_detectable;
-    record.effect =
-        cressie_read(serpentine(draws.bins), serpentine(expectation.bins), draws.samples).effect;
+    record.effect = cressie_read(draws.bins, expectation.bins, draws.samples).effect;
   });
   require_power(record, options.must_detect);
   if (failure && record.outcome == Outcome::accept) {
@@ -179,12 +178,15 @@ class Watches {
     std::vector<WorkGroup<Shared, OfRun>> groups(test_cases_.size());
     kept_.for_each([&](RunIndex at, std::optional<DrawnRun>& kept) {
       const TestRun run = run_at(at);
+      groups[at.test_case].one_at_a_time = run.test_case->is_large();
       groups[at.test_case].prepare = [this, at] { return expectations_.of(at.test_case); };
       groups[at.test_case].cells.push_back(
           {run.key("sequential"), [this, run, &kept](const Shared& expectation) {
              return with_memory_for_gate(*run.test_case, run.instance->name, [&] {
                Finding finding = watch(run, *expectation, options_, enough_);
-               if (is_any_rejected(finding.records)) kept = std::move(finding.drawn);
+               if (is_any_rejected(finding.records) && !run.test_case->is_large()) {
+                 kept = std::move(finding.drawn);
+               }
                return std::move(finding.records);
              });
            }});

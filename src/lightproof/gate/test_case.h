@@ -1,6 +1,7 @@
 // What the gate tests: a distribution, and the samplers that claim to draw it.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -54,6 +55,11 @@ struct TestCase {
   std::vector<SamplerInstance> instances;
   /// A sampler that others are held against; there if any instance has a reference implementation.
   std::function<BoundSampler()> reference_implementation = {};
+  std::size_t texels = 0;  ///< of the map
+
+  /// Whether the map has so many texels that one run alone takes half a gigabyte: one is done after
+  /// the other, and what it drew is drawn again rather than kept.
+  bool is_large() const { return texels > std::size_t{1} << 22U; }
 };
 
 /// A test case for many runs: the inspection of each instance, which no seed changes, is made by

@@ -217,10 +217,10 @@ std::vector<Measured> test_draws(const TestRun& run, const Expectation& expectat
                                  const UniformEstimates& uniform) {
   const OwnDensity& own = inspection.own;
   Records records(run, draws.samples);
-  records.add_fit(TestId::bins, serpentine(draws.bins), serpentine(expectation.bins));
+  records.add_fit(TestId::bins, draws.bins, expectation.bins);
   const std::vector<std::uint64_t> rows = row_counts(draws.texels);
   const std::vector<std::uint64_t> columns = column_counts(draws.texels);
-  records.add_fit(TestId::texels, serpentine(draws.texels), serpentine(expectation.masses));
+  records.add_fit(TestId::texels, draws.texels, expectation.masses);
   const RoundingEffect rounding = rounding_effect(expectation, draws.samples);
   records.set_resolution_floor(rounding.texels * run.instance->resolution);
   records.add_fit(TestId::rows, rows, expectation.rows);
@@ -232,7 +232,7 @@ std::vector<Measured> test_draws(const TestRun& run, const Expectation& expectat
   if (!inspection.has_pdf) {
     records.add_not_run(TestId::own_pdf_bins, kNoPdf);
   } else if (std::isfinite(own.integral) && own.integral > 0.0) {
-    records.add_fit(TestId::own_pdf_bins, serpentine(draws.bins), serpentine(own.bins));
+    records.add_fit(TestId::own_pdf_bins, draws.bins, own.bins);
   } else {
     records.add_not_run(TestId::own_pdf_bins,
                         fmt::format("the pdf has the integral {:.3g} over the square: it gives no "

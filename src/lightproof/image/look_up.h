@@ -11,8 +11,10 @@
 namespace lightproof {
 
 /// The map's value at a point of [0,1]^2, interpolated between the centres of texels: s wraps
-/// around, t is clamped, so that the half rows at the poles are constant in t.
-inline double look_up_bilinear(const Grid<double>& luminance, SquarePoint at) {
+/// around, t is clamped, so that the half rows at the poles are constant in t. `Texels` is a Grid,
+/// or whatever else has an extent and a value for each texel.
+template <class Texels>
+double look_up_bilinear(const Texels& luminance, SquarePoint at) {
   const auto [width, height] = luminance.extent();
   const double column = std::floor(at.s * width - 0.5);
   const double row = std::floor(at.t * height - 0.5);
@@ -27,15 +29,16 @@ inline double look_up_bilinear(const Grid<double>& luminance, SquarePoint at) {
 }
 
 /// The value of the texel that `at` lies in; a coordinate of exactly 1 belongs to the last.
-template <class Value>
-Value look_up_nearest(const Grid<Value>& values, SquarePoint at) {
+template <class Texels>
+auto look_up_nearest(const Texels& values, SquarePoint at) {
   const auto [width, height] = values.extent();
   return values(std::clamp(static_cast<int>(at.s * width), 0, width - 1),
                 std::clamp(static_cast<int>(at.t * height), 0, height - 1));
 }
 
 /// The map's value at a point of [0,1]^2 by either look-up.
-inline double look_up(const Grid<double>& luminance, Lookup lookup, SquarePoint at) {
+template <class Texels>
+double look_up(const Texels& luminance, Lookup lookup, SquarePoint at) {
   return lookup == Lookup::nearest ? look_up_nearest(luminance, at)
                                    : look_up_bilinear(luminance, at);
 }

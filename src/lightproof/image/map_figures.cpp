@@ -1,6 +1,7 @@
 #include "lightproof/image/map_figures.h"
 
 #include "lightproof/core/measure.h"
+#include "lightproof/core/parallel.h"
 #include "lightproof/warp/mapping.h"
 
 namespace lightproof {
@@ -10,9 +11,12 @@ MapFigures figures_of(const EnvironmentMap& map) {
   double first = 0.0;
   double second = 0.0;
   const Extent extent = map.radiance.extent();
+  const bool has_rows = rows_are_parallels(map.mapping);
   for (int y = 0; y < extent.height; ++y) {
+    throw_if_interrupted();
+    const double of_row = texel_solid_angle(map.mapping, extent, 0, y);
     for (int x = 0; x < extent.width; ++x) {
-      const double solid_angle = texel_solid_angle(map.mapping, extent, x, y);
+      const double solid_angle = has_rows ? of_row : texel_solid_angle(map.mapping, extent, x, y);
       const double luminance = luminance_of(map.radiance(x, y), map.weights);
       first += luminance * solid_angle;
       second += luminance * luminance * solid_angle;

@@ -1,7 +1,9 @@
 #include "lightproof/image/map_identity.h"
 
 #include <span>
+#include <vector>
 
+#include "lightproof/core/parallel.h"
 #include "lightproof/core/random.h"
 #include "lightproof/core/serialise.h"
 
@@ -20,9 +22,21 @@ std::string identity_of(const EnvironmentMap& map) {
     writer.add(info(map.mapping.kind).name);
     writer.add(map.mapping.shift);
   }
-  const std::span<const Rgb> texels = map.radiance.values();
-  writer.add(hash_text({reinterpret_cast<const char*>(texels.data()), texels.size_bytes()}));
+  writer.add(hash_of(map.radiance));
   return writer.take();
+}
+
+std::uint64_t hash_of(const Grid<Rgb>& radiance) {
+  const auto hash_bytes = [](auto values) {
+    return hash_text({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+  };
+  const std::span<const Rgb> texels = radiance.values();
+  std::vector<std::uint64_t> hashes(chunks_of(texels.size(), kTaskCells));
+  parallel_chunks(texels.size(), kTaskCells,
+                  [&](std::size_t chunk, std::size_t first, std::size_t end) {
+                    hashes[chunk] = hash_bytes(texels.subspan(first, end - first));
+                  });
+  return hash_bytes(std::span<const std::uint64_t>(hashes));
 }
 
 }  // namespace lightproof

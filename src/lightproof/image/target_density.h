@@ -132,9 +132,12 @@ constexpr std::string_view why_not_declared(TargetDensity target, const Mapping&
 
 /// The density that is declared on this map: by the map's own luminance weights, unless weights
 /// other than Rec. 709 were declared.
-inline TargetDensity on_map(TargetDensity declared, const EnvironmentMap& map) {
-  if (declared.weights == kRec709) declared.weights = map.weights;
+inline TargetDensity on_map(TargetDensity declared, LuminanceWeights of_map) {
+  if (declared.weights == kRec709) declared.weights = of_map;
   return declared;
+}
+inline TargetDensity on_map(TargetDensity declared, const EnvironmentMap& map) {
+  return on_map(declared, map.weights);
 }
 
 }  // namespace lightproof

@@ -3,17 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 
-#include "lightproof/core/random.h"
+#include "lightproof/image/map_identity.h"
 
 namespace lightproof {
 namespace {
-
-std::uint64_t hash_of(const Grid<Rgb>& radiance) {
-  const std::span<const Rgb> texels = radiance.values();
-  return hash_text({reinterpret_cast<const char*>(texels.data()), texels.size_bytes()});
-}
 
 std::string name_of(PrefilterMethod method) {
   return std::string(

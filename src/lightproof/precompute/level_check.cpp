@@ -33,6 +33,9 @@ reference::Lobe reference_lobe(const Lobe& lobe) {
   return std::visit(Convert{}, lobe);
 }
 
+/// Texels of a map up to which exact values are computed several at a time: 32 MB each.
+constexpr std::size_t kMostTexelsTogether = std::size_t{1} << 22U;
+
 /// How much of [low, high) each of `cells` equal parts of [0, 1) covers, from the first on that it
 /// touches.
 struct Overlaps {
@@ -88,11 +91,13 @@ glm::dvec3 exact_value(const EnvironmentMap& map, Projection projection, const L
 
 glm::dvec3 mean_radiance(const Grid<Rgb>& map) {
   const Extent extent = map.extent();
+  std::vector<glm::dvec3> rows(static_cast<std::size_t>(extent.height), glm::dvec3(0.0));
+  parallel_for(rows.size(), [&](std::size_t y) {
+    for (const Rgb& texel : map.row(static_cast<int>(y))) rows[y] += glm::dvec3(texel);
+  });
   glm::dvec3 sum(0.0);
   for (int y = 0; y < extent.height; ++y) {
-    glm::dvec3 row(0.0);
-    for (const Rgb& texel : map.row(y)) row += glm::dvec3(texel);
-    sum += texel_solid_angle(extent, y) * row;
+    sum += texel_solid_angle(extent, y) * rows[static_cast<std::size_t>(y)];
   }
   return sum / (4.0 * kPi);
 }
@@ -124,11 +129,17 @@ LevelError check_level(const EnvironmentMap& map, Projection projection, const L
                        const MapLevel& level, const RandomStream& stream, std::size_t texels) {
   require_lat_long(map, "a map for real-time rendering");
   std::vector<glm::dvec3> differences(texels);
-  parallel_for(texels, [&](std::size_t i) {
+  const auto compare = [&](std::size_t i) {
     const LevelTexel texel = texel_at(projection, plan.extent, uniform_direction(stream.point(i)));
     const Rgb& value = level.faces[static_cast<std::size_t>(texel.face)](texel.column, texel.row);
     differences[i] = glm::dvec3(value) - exact_value(map, projection, plan, texel);
-  });
+  };
+  // An exact value takes a number for each of the map's texels, and is computed in parallel itself.
+  if (map.radiance.extent().count() <= kMostTexelsTogether) {
+    parallel_for(texels, compare);
+  } else {
+    for (std::size_t i = 0; i < texels; ++i) compare(i);
+  }
   const glm::dvec3 mean = mean_radiance(map.radiance);
   LevelError worst{0.0, 0.0, 0.0, texels};
   for (int channel = 0; channel < 3; ++channel) {

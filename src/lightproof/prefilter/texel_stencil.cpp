@@ -163,6 +163,7 @@ TexelStencil::TexelStencil(const ZonalKernel& kernel, Extent extent, SquarePoint
       std::min(extent.height - 1, static_cast<int>((axis.t + reach_t) * extent.height));
   double sum = 0.0;
   for (int y = first_row; y <= last_row; ++y) {
+    throw_if_interrupted();  // of a large map the weights of one stencil take seconds
     const double t_low = static_cast<double>(y) / extent.height;
     const double t_high = (y + 1.0) / extent.height;
     const double reach_s = reach_in_turns(kernel.support.value, axis, t_low, t_high);
@@ -212,6 +213,7 @@ Grid<glm::dvec3> local_sums(const Grid<Rgb>& map, const ZonalKernel& kernel, dou
                  const TexelStencil stencil(kernel, map.extent(),
                                             {position, (y + 0.5) / extent.height}, whole);
                  for (int x = first; x < extent.width; x += phases) {
+                   throw_if_interrupted();
                    sums(x, y) = stencil.sum(map, phase_of(x, width, extent.width).column);
                  }
                });

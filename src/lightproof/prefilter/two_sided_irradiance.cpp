@@ -133,6 +133,7 @@ ChunkSums sums_of_rows(const EnvironmentMap& source, const FoldedLattice& lattic
   FoldedRow row(lattice);
   std::vector<double> weights;
   for (std::size_t k = first; k < last; ++k) {
+    throw_if_interrupted();  // a chunk of a large map takes seconds
     row.fold(source, static_cast<int>(k));
     sums.rows.push_back(row.folded());
     sums.lower += row.lower();

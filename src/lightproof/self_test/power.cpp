@@ -30,7 +30,7 @@ std::vector<PowerRecord> predictions(const Trial& trial, std::uint64_t samples) 
                        fit_power(p, q, kPowerLevel, samples), false});
   };
   add_fit(TestId::bins, serpentine(declared.bins), serpentine(bins));
-  add_fit(TestId::texels, serpentine(declared.masses), serpentine(trial.drawn));
+  add_fit(TestId::texels, serpentine(declared.masses.grid()), serpentine(trial.drawn));
   add_fit(TestId::rows, declared.rows, rows);
   add_fit(TestId::columns, declared.columns, columns);
   const auto n = static_cast<double>(samples);

@@ -7,7 +7,7 @@
 namespace lightproof {
 
 Trial::Trial(const EnvironmentMap& map, Grid<double> masses)
-    : expectation(std::make_shared<const Expectation>(expectation_of(map, kTrialTarget))),
+    : expectation(shared_expectation_of(std::make_shared<const EnvironmentMap>(map), kTrialTarget)),
       drawn(std::move(masses)) {
   const auto sampler = std::make_shared<const BoundSampler>(
       bound(DiscreteSampler(drawn, DensitySpace::solid_angle)));

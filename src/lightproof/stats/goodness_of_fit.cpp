@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "lightproof/core/memo.h"
 #include "lightproof/stats/tails.h"
@@ -43,6 +44,55 @@ std::vector<Pool> pool_cells(std::span<const Count> observed, std::span<const do
   return pools;
 }
 
+/// cressie_read() of cells that are added one after the other, whose pools are not kept.
+class CressieRead {
+ public:
+  explicit CressieRead(std::uint64_t samples) : samples_(static_cast<double>(samples)) {}
+
+  void add(std::uint64_t observed, double probability) {
+    const std::size_t cell = cells_++;
+    if (probability > 0.0) {
+      ++fit_.possible_cells;
+    } else if (observed > 0) {
+      fit_.impossible_hits += observed;
+      if (!fit_.first_impossible) fit_.first_impossible = cell;
+    }
+    if (probability <= 0.0) return;
+    open_.observed += static_cast<double>(observed);
+    open_.expected += probability * samples_;
+    if (open_.expected < kPooledExpectation) return;
+    if (pools_ > 0) fit_.statistic += cell_divergence(last_);
+    ++pools_;
+    last_ = open_;
+    open_ = {};
+  }
+
+  GoodnessOfFit fit() && {
+    if (open_.expected > 0.0) {
+      pools_ = std::max<std::size_t>(pools_, 1);
+      last_.observed += open_.observed;
+      last_.expected += open_.expected;
+    }
+    if (pools_ > 0) fit_.statistic += cell_divergence(last_);
+    fit_.dof = pools_ == 0 ? 0.0 : static_cast<double>(pools_ - 1);
+    if (fit_.impossible_hits > 0) {
+      fit_.log10_p = -INFINITY;
+    } else {
+      judge_fit(fit_);
+    }
+    fit_.effect = std::sqrt(std::max(0.0, fit_.statistic - fit_.dof) / samples_);
+    return fit_;
+  }
+
+ private:
+  double samples_;
+  GoodnessOfFit fit_;
+  std::size_t cells_ = 0;
+  std::size_t pools_ = 0;
+  Pool open_;
+  Pool last_;  ///< the last whole pool, which takes what is left over
+};
+
 double sum_of(std::span<const std::uint64_t> counts) {
   return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
 }
@@ -71,24 +121,24 @@ GoodnessOfFit cressie_read(std::span<const std::uint64_t> observed,
   assert(observed.size() == probability.size());
   assert(std::abs(std::accumulate(probability.begin(), probability.end(), 0.0) - 1.0) <= 1e-9);
   assert(std::accumulate(observed.begin(), observed.end(), std::uint64_t{0}) <= samples);
-  GoodnessOfFit fit;
-  for (std::size_t i = 0; i < observed.size(); ++i) {
-    if (probability[i] > 0.0) ++fit.possible_cells;
-    if (probability[i] > 0.0 || observed[i] == 0) continue;
-    fit.impossible_hits += observed[i];
-    if (!fit.first_impossible) fit.first_impossible = i;
+  CressieRead fit(samples);
+  for (std::size_t i = 0; i < observed.size(); ++i) fit.add(observed[i], probability[i]);
+  return std::move(fit).fit();
+}
+
+GoodnessOfFit cressie_read(const Grid<std::uint64_t>& observed, const Grid<double>& probability,
+                           std::uint64_t samples) {
+  const auto [width, height] = probability.extent();
+  assert(observed.extent() == probability.extent());
+  CressieRead fit(samples);
+  for (int y = 0; y < height; ++y) {
+    const bool forwards = y % 2 == 0;
+    for (int i = 0; i < width; ++i) {
+      const int x = forwards ? i : width - 1 - i;
+      fit.add(observed(x, y), probability(x, y));
+    }
   }
-  const auto n = static_cast<double>(samples);
-  const std::vector<Pool> pools = pool_cells(observed, probability, n);
-  for (const Pool& pool : pools) fit.statistic += cell_divergence(pool);
-  fit.dof = pools.empty() ? 0.0 : static_cast<double>(pools.size() - 1);
-  if (fit.impossible_hits > 0) {
-    fit.log10_p = -INFINITY;
-  } else {
-    judge_fit(fit);
-  }
-  fit.effect = std::sqrt(std::max(0.0, fit.statistic - fit.dof) / n);
-  return fit;
+  return std::move(fit).fit();
 }
 
 GoodnessOfFit two_sample_fit(std::span<const std::uint64_t> first,

@@ -85,6 +85,11 @@ double critical_count(double mean, double level);
 double minimum_detectable_excess(const WorstCell& worst, double level, double power,
                                  double samples);
 
+/// cressie_read() of counts over the cells of a grid, in the order of serpentine(); no copy of
+/// either is made.
+GoodnessOfFit cressie_read(const Grid<std::uint64_t>& observed, const Grid<double>& probability,
+                           std::uint64_t samples);
+
 /// The values of a grid row by row, every second row backwards, so that consecutive cells touch.
 template <class T>
 std::vector<T> serpentine(const Grid<T>& grid) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -29,12 +30,16 @@ constexpr std::uint64_t kDrawnPoints = 400;
 
 }  // namespace
 
-MapRecord describe_map(EnvironmentMap own, std::uint64_t seed) {
+namespace {
+
+/// The record of a map, but for the map.
+MapRecord describe_without_map(const EnvironmentMap& own, std::uint64_t seed) {
   MapRecord record;
   record.own_mapping = own.mapping;
   record.own_texels = own.radiance.extent();
-  record.map = resampled_to_lat_long(std::move(own));
-  const EnvironmentMap& map = record.map;
+  std::optional<EnvironmentMap> resampled;
+  if (!is_plain(own.mapping)) resampled = resampled_to_lat_long(own);
+  const EnvironmentMap& map = resampled ? *resampled : own;
   record.source = map.name;
   const MapFigures figures = figures_of(map);
   record.mean_luminance = figures.mean_luminance;
@@ -45,6 +50,14 @@ MapRecord describe_map(EnvironmentMap own, std::uint64_t seed) {
   for (std::uint64_t i = 0; i < kDrawnPoints; ++i) {
     record.drawn.push_back(sampler.sample(stream.point(i)).at);
   }
+  return record;
+}
+
+}  // namespace
+
+MapRecord describe_map(EnvironmentMap own, std::uint64_t seed) {
+  MapRecord record = describe_without_map(own, seed);
+  record.map = resampled_to_lat_long(std::move(own));
   return record;
 }
 
@@ -155,7 +168,7 @@ StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& opti
                    }));
   }
   for (const EnvironmentMap& map : maps) {
-    result.maps.push_back(describe_map(map, options.gate.seed));
+    result.maps.push_back(describe_without_map(map, options.gate.seed));
   }
   const auto directions = unfinished.stage<KeptMeasurement<ScreenedRuns>>(
       "directions", [&](const Communicator& communicator) {
@@ -181,6 +194,8 @@ StudyResult run_study(std::vector<EnvironmentMap> maps, const StudyOptions& opti
       "split-sum", [&](const Communicator& communicator) {
         return study_split_sum(maps, {}, part_of(progress, 0.98, 1.0), communicator);
       });
+  // Last, so that there is one copy of each.
+  for (std::size_t i = 0; i < maps.size(); ++i) result.maps[i].map = std::move(maps[i]);
   return result;
 }
 
