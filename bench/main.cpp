@@ -11,23 +11,10 @@
 #include "bench/registration.h"
 #include "bench/reporter.h"
 #include "lightproof/core/failure.h"
+#include "lightproof/core/heap.h"
 #include "lightproof/core/spawn.h"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 namespace {
-
-/// Tables get their memory from the system, as in a program that builds a table once. Left to
-/// itself the heap keeps blocks of up to 32 MB as soon as one of that size has been freed, and what
-/// ran before decides what a build takes (Vose's of 2048x1024 texels: 13 or 27 ms).
-void keep_no_freed_memory() {
-#ifdef __GLIBC__
-  constexpr int kFromTheSystem = 128 << 10;  // bytes: glibc's own threshold, but fixed
-  mallopt(M_MMAP_THRESHOLD, kFromTheSystem);
-#endif
-}
 
 /// Takes `--plugin FILE` and `--plugin=FILE`, of which Google Benchmark knows nothing, out of the
 /// arguments, and returns the files.
@@ -60,7 +47,9 @@ bool writes_file(std::span<char*> arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  keep_no_freed_memory();
+  // Tables get their memory from the system, as in a program that builds a table once: Vose's of
+  // 2048x1024 texels else takes 13 or 27 ms.
+  lightproof::keep_no_freed_memory();
   lightproof::end_with_parent();
   try {
     lightproof::bench::register_sample_benchmarks();

@@ -23,8 +23,8 @@ class Expectations {
   std::shared_ptr<const Expectation> of(std::size_t test_case);
 
  private:
-  /// About 12 bytes are kept of a texel, and the map: 6 MB.
-  static constexpr std::size_t kMostTexels = std::size_t{1} << 18U;
+  /// About 12 bytes are kept of a texel, and the map: 24 MB.
+  static constexpr std::size_t kMostTexels = std::size_t{1} << 20U;
 
   std::span<const TestCase> test_cases_;
   std::vector<std::shared_ptr<const Expectation>> kept_;

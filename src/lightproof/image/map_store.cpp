@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lightproof/core/error.h"
+#include "lightproof/core/heap.h"
 #include "lightproof/image/map_identity.h"
 
 namespace lightproof {
@@ -55,12 +56,14 @@ struct MapStore::State {
   /// Lets go of what was asked for longest ago, until so many texels fit in or nothing is left.
   void make_room(std::size_t texels) {
     const std::lock_guard lock(mutex);
+    const bool is_full = !kept.empty() && kept_texels + texels > most_texels;
     while (!kept.empty() && kept_texels + texels > most_texels) {
       const Kept& last = kept.back();
       if (last.entry->identity.empty()) last.entry->identity = identity_of(*last.map);
       kept_texels -= last.entry->texels;
       kept.pop_back();
     }
+    if (is_full) give_back_freed_memory();
   }
 
   /// The map was asked for last.
