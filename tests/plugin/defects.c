@@ -168,6 +168,11 @@ static void* changed_create(const lightproof_map* map, char* error, size_t error
 static void changed_destroy(void* pointer) {
   destroy(pointer);
   if (is("crash-at-the-end")) abort();
+  if (is("exit-at-the-end")) exit(3);
+  if (is("fork-at-the-end")) fork();
+  if (is("hang-at-the-end")) {
+    for (;;) pause();
+  }
 }
 
 /* Answers in the place of the program that loaded it: five numbers of eight bytes, of which the

@@ -94,8 +94,8 @@ TEST_P(Correct, IsAcceptedByAllTests) {
 
 /// As it is written; with rounding to floats; with a coarser
 /// one that it declares; with other axes; in the coordinates and the measure
-/// of a picture; in an order of its own, without weights and pdf; with words on both streams; with
-/// an end that crashes.
+/// of a picture; in an order of its own, without weights and pdf; with words on both streams;
+/// with an end that crashes.
 INSTANTIATE_TEST_SUITE_P(PluginInTheGate, Correct,
                          testing::Values("correct", "floats", "rounded", "y-up", "picture",
                                          "in-order", "prints", "crash-at-the-end"));
@@ -126,17 +126,48 @@ TEST(PluginInTheGate, WithoutPdfAndWeightsIsNotAskedForThem) {
   }
 }
 
-TEST(PluginInTheGate, NotesWhatIsPrintedAndWhatHappensAtTheEnd) {
+TEST(PluginInTheGate, NotesWhatIsPrinted) {
   InTheGate printing("prints");
   printing.judged();
   EXPECT_THAT(printing.notes(), testing::Contains(HasSubstr("printed: drew")));
-  InTheGate crashing("crash-at-the-end");
-  crashing.judged();
-  EXPECT_THAT(crashing.notes(), testing::Contains(HasSubstr("crashed at the end (signal 6")));
   InTheGate silent("correct");
   silent.judged();
   EXPECT_THAT(silent.notes(), IsEmpty());
 }
+
+/// What destroy() does, and the note of it.
+struct End {
+  const char* name;
+  const char* note;
+};
+
+class Ending : public testing::TestWithParam<End> {};
+
+TEST_P(Ending, IsNotedOnce) {
+  const auto& [name, note] = GetParam();
+  InTheGate ending(name);
+  ending.judged();
+  EXPECT_THAT(ending.notes(), testing::ElementsAre(HasSubstr(note)));
+}
+
+/// At exit() the address sanitizer looks for leaks, for which it starts another process.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr const char* kNoteOfExit = "the plug-in started another process or program at the end";
+constexpr const char* kWordsOfExit = "sample() started another process";
+#else
+constexpr const char* kNoteOfExit = "the plug-in ended its process with status 3 at the end";
+constexpr const char* kWordsOfExit = "sample() ended its process with status 3";
+#endif
+
+INSTANTIATE_TEST_SUITE_P(
+    PluginInTheGate, Ending,
+    testing::Values(End{"crash-at-the-end", "the plug-in crashed at the end (signal 6"},
+                    End{"hang-at-the-end", "the plug-in did not end within a moment"},
+                    End{"exit-at-the-end", kNoteOfExit},
+                    End{"fork-at-the-end",
+                        "the plug-in started another process or program at the end"},
+                    End{"throws-at-the-end", "the plug-in threw an exception at the end"}),
+    [](const auto& row) { return name_of(row.param.name); });
 
 /// A defect of the samples, and a test that must see it.
 struct Defect {
@@ -179,21 +210,17 @@ struct Failure {
 class Failing : public testing::TestWithParam<Failure> {};
 
 TEST_P(Failing, IsRejectedWithTheInputAtFault) {
-  const GateResult result = InTheGate(GetParam().name, with_little_time()).judged();
+  InTheGate failing(GetParam().name, with_little_time());
+  const GateResult result = failing.judged();
   EXPECT_THAT(rejected_tests(result), testing::ElementsAre("check/every call returns"));
   ASSERT_EQ(result.rejections.size(), 1U);
   EXPECT_EQ(result.rejections[0].looks_like, "no answer");
+  // The verdict has said it.
+  EXPECT_THAT(failing.notes(), IsEmpty());
   for (const char* words : GetParam().words) {
     EXPECT_THAT(result.rejections[0].diagnosis, HasSubstr(words));
   }
 }
-
-/// At exit() the address sanitizer looks for leaks, for which it starts another process.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr const char* kWordsOfExit = "sample() started another process";
-#else
-constexpr const char* kWordsOfExit = "sample() ended its process with status 3";
-#endif
 
 INSTANTIATE_TEST_SUITE_P(
     PluginInTheGate, Failing,

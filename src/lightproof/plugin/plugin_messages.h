@@ -33,6 +33,13 @@ inline constexpr int kPluginBatchFile = 3;
 inline constexpr int kPluginLogFile = 4;
 inline constexpr int kPluginMapFile = 5;  ///< not there before there is a map
 
+/// Exit statuses of the host once nobody asks any more; any other is the plug-in's own.
+enum PluginEnd : int {
+  kPluginDestroyed = 0,  ///< destroy() has returned
+  kPluginStuck = 124,    ///< it did not return in time
+  kPluginThrew = 125,    ///< it threw an exception
+};
+
 /// What the host is asked to do.
 enum class PluginCall : std::uint32_t {
   describe,  ///< answered by a PluginDescription

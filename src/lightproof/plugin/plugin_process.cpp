@@ -75,6 +75,22 @@ bool is_reply(const PluginReply& reply) {
          reply.text_bytes <= kLongestPluginText;
 }
 
+/// What was wrong with a process that nobody asked any more, and that nobody here ended.
+std::string words_of_destroy(const ChildEnd& end) {
+  if (!end.by_signal) {
+    if (end.code == kPluginDestroyed) return "";
+    if (end.code == kPluginThrew) return "threw an exception at the end";
+    return end.code == kPluginStuck
+               ? "did not end within a moment"
+               : fmt::format("ended its process with status {} at the end", end.code);
+  }
+  if (end.code == SIGKILL) return "did not end within a moment";
+  if (end.code == SIGSYS) {
+    return "started another process or program at the end, which a plug-in may not";
+  }
+  return fmt::format("crashed at the end (signal {}, {})", end.code, ::strsignal(end.code));
+}
+
 std::span<const std::byte> bytes_of(const PluginRequest& request) {
   return std::as_bytes(std::span(&request, 1));
 }
@@ -115,8 +131,9 @@ std::string PluginProcess::printed() const {
   return one_line(std::move(text), kLongestPrint);
 }
 
-void PluginProcess::end_group() const {
+void PluginProcess::end_group() {
   // It has not been waited for: the number is still its own.
+  is_killed_ = true;
   if (child_->id() > 0) ::kill(-child_->id(), SIGKILL);
 }
 
@@ -245,10 +262,8 @@ std::string PluginProcess::end() {
   if (!child_) return "";
   if (child_->id() <= 0) return "";
   const std::optional<ChildEnd> end = child_->end();
-  if (!end || !end->by_signal) return "";
-  return end->code == SIGKILL
-             ? "did not end within a moment"
-             : fmt::format("crashed at the end (signal {}, {})", end->code, ::strsignal(end->code));
+  if (!end || is_killed_) return "";
+  return words_of_destroy(*end);
 }
 
 }  // namespace lightproof

@@ -73,7 +73,8 @@ class PluginProcess {
   /// What the plug-in has printed, in one line, shortened; empty if nothing.
   std::string printed() const;
 
-  /// Has the sampler destroyed and ends the process. Returns what was wrong with that, in words.
+  /// Has the sampler destroyed and ends the process. Returns what was wrong with that, in words;
+  /// nothing after a failure, which has said what was wrong.
   std::string end();
 
  private:
@@ -84,7 +85,7 @@ class PluginProcess {
   /// Makes a failure of an answer by a process that holds too much.
   void judge_memory(PluginAnswer& answer) const;
   /// Ends the process and whatever it may have started.
-  void end_group() const;
+  void end_group();
 
   std::filesystem::path library_;
   PluginLimits limits_;
@@ -92,6 +93,7 @@ class PluginProcess {
   std::uint64_t allowed_bytes_ = 0;
   std::uint64_t held_at_first_ = 0;  ///< once the sampler was made
   std::uint64_t items_ = 0;          ///< that were asked for since then
+  bool is_killed_ = false;           ///< by end_group()
   SharedMemory batch_;
   SharedMemory log_;
   std::optional<ChildConversation> child_;

@@ -18,7 +18,6 @@
 #include <thread>
 #include <vector>
 
-#include "lightproof/core/failure.h"
 #include "lightproof/core/seccomp_filter.h"
 #include "lightproof/core/system_call.h"
 #include "lightproof/plugin/plugin_messages.h"
@@ -109,7 +108,7 @@ void end_with(int socket) {
     while (uninterrupted([&] { return ::poll(&end, 1, -1); }) <= 0) {
     }
     std::this_thread::sleep_for(kGrace);
-    ::_exit(kInputFailed);
+    ::_exit(kPluginStuck);
   }).detach();
   // Where the system has no filters, has_children() sees the process afterwards.
   install_filter(filter());

@@ -9,8 +9,8 @@ namespace lightproof {
 /// the descriptor of the socket that the standard input was, under a number of its own.
 int confine_plugin();
 
-/// Ends this process a moment after the other end of the socket is closed, whatever it is doing;
-/// and ends it if it starts another process, or becomes another program.
+/// Ends this process with kPluginStuck a moment after the other end of the socket is closed,
+/// whatever it is doing; and ends it if it starts another process, or becomes another program.
 void end_with(int socket);
 
 /// Lets the process hold no more private memory than this. Beyond it allocations fail.

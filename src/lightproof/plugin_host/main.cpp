@@ -291,9 +291,13 @@ void answer(Plugin& plugin, const Conversation& conversation, const PluginReques
     }
     conversation.reply(reply, text);
   }
-  plugin.destroy();
+  try {
+    plugin.destroy();
+  } catch (...) {
+    ::_exit(kPluginThrew);
+  }
   // What the library would do at the end of a program is no matter of its sampler.
-  ::_exit(0);
+  ::_exit(kPluginDestroyed);
 }
 
 constexpr const char* kUsage =
