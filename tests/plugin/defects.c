@@ -18,7 +18,23 @@ static int is(const char* defect) { return strcmp(LIGHTPROOF_DEFECT, defect) == 
 /* Whether a random number is one of the few at which something happens. */
 static int is_struck(const double* u) { return u[0] > 0.7 && u[0] < 0.7005 && u[1] > 0.5; }
 
+/* A megabyte on both streams, by somebody who cannot go on without it. */
+static void print_much(void) {
+  static int is_printed = 0;
+  if (is_printed) return;
+  is_printed = 1;
+  char words[4096];
+  memset(words, 'w', sizeof words);
+  for (int i = 0; i < 256; ++i) {
+    if (write(1 + i % 2, words, sizeof words) != (ssize_t)sizeof words) abort();
+  }
+}
+
 static void strike(void) {
+  if (is("last-words")) {
+    printf("the last words\n");
+    abort();
+  }
   if (is("crash")) *(volatile int*)NULL = 0;
   if (is("hang")) {
     for (;;) pause();
@@ -78,6 +94,7 @@ static void changed_sample(void* pointer, size_t count, const double* u, double*
     printf("drew %zu samples\n", count);
     fprintf(stderr, "%01000d\n", 7);
   }
+  if (is("prints-much")) print_much();
   if (is("once") && count > 1) {
     static int batches = 0;
     if (++batches == 20) abort();

@@ -94,11 +94,11 @@ TEST_P(Correct, IsAcceptedByAllTests) {
 
 /// As it is written; with rounding to floats; with a coarser
 /// one that it declares; with other axes; in the coordinates and the measure
-/// of a picture; in an order of its own, without weights and pdf; with words on both streams;
-/// with an end that crashes.
+/// of a picture; in an order of its own, without weights and pdf; with words on both streams, few
+/// or a megabyte; with an end that crashes.
 INSTANTIATE_TEST_SUITE_P(PluginInTheGate, Correct,
                          testing::Values("correct", "floats", "rounded", "y-up", "picture",
-                                         "in-order", "prints", "crash-at-the-end"));
+                                         "in-order", "prints", "prints-much", "crash-at-the-end"));
 
 TEST(PluginInTheGate, IsAcceptedSequentially) {
   EXPECT_EQ(overall_outcome(InTheGate("correct").judged(true), true), Outcome::accept);
@@ -130,9 +130,19 @@ TEST(PluginInTheGate, NotesWhatIsPrinted) {
   InTheGate printing("prints");
   printing.judged();
   EXPECT_THAT(printing.notes(), testing::Contains(HasSubstr("printed: drew")));
+  InTheGate much("prints-much");
+  much.judged();
+  EXPECT_THAT(much.notes(), testing::ElementsAre(HasSubstr("printed: wwww")));
   InTheGate silent("correct");
   silent.judged();
   EXPECT_THAT(silent.notes(), IsEmpty());
+}
+
+TEST(PluginInTheGate, ThatCrashesIsQuotedWithItsLastWords) {
+  const GateResult result = InTheGate("last-words").judged();
+  ASSERT_EQ(result.rejections.size(), 1U);
+  EXPECT_THAT(result.rejections[0].diagnosis, AllOf(HasSubstr("sample() crashed (signal 6"),
+                                                    HasSubstr("; it printed: the last words")));
 }
 
 /// What destroy() does, and the note of it.

@@ -40,9 +40,10 @@ std::filesystem::path host_program() {
       {"lightproof-plugin-host", "LIGHTPROOF_PLUGIN_HOST", "the program that runs plug-ins"});
 }
 
-std::vector<int> files_of(const SharedMemory& batch, const SharedMemory& log,
+std::vector<int> files_of(const SharedMemory& batch, const SharedMemory& log, const Pipe& prints,
                           const SharedMemory* map) {
-  std::vector<int> files = {batch.descriptor(), log.descriptor()};
+  std::vector<int> files = {batch.descriptor(), log.descriptor(), prints.read_end(),
+                            prints.write_end()};
   if (map != nullptr) files.push_back(map->descriptor());
   return files;
 }
@@ -111,7 +112,8 @@ PluginProcess::PluginProcess(const std::filesystem::path& library, const PluginL
   // A name without a folder would be looked for among the system's libraries.
   const std::filesystem::path whole = std::filesystem::absolute(library);
   child_.emplace(host_program(), std::vector<std::string>{whole.string()},
-                 files_of(batch_, log_, map), limits.batch_time);
+                 files_of(batch_, log_, prints_, map), limits.batch_time);
+  prints_.close_write_end();
 }
 
 PluginProcess::~PluginProcess() { end(); }
@@ -126,6 +128,10 @@ std::span<const double> PluginProcess::outputs() const {
 
 std::string PluginProcess::printed() const {
   const std::span<std::byte> bytes = log_.bytes();
+  const auto end = std::ranges::find(bytes, std::byte{0});
+  // What a process printed last, it may have left in the pipe; here it is asked for more than once.
+  const std::string rest = prints_.take(static_cast<std::size_t>(bytes.end() - end));
+  std::ranges::copy(std::as_bytes(std::span(rest)), end);
   std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   text.resize(std::min(text.find('\0'), text.size()));
   return one_line(std::move(text), kLongestPrint);

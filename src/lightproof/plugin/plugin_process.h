@@ -11,6 +11,7 @@
 #include <string>
 
 #include "lightproof/core/child_conversation.h"
+#include "lightproof/core/pipe.h"
 #include "lightproof/core/shared_memory.h"
 #include "lightproof/plugin/plugin_messages.h"
 
@@ -70,7 +71,7 @@ class PluginProcess {
   std::span<double> inputs() const;
   std::span<const double> outputs() const;
 
-  /// What the plug-in has printed, in one line, shortened; empty if nothing.
+  /// What the plug-in had printed when its process ended, in one line, shortened; empty if nothing.
   std::string printed() const;
 
   /// Has the sampler destroyed and ends the process. Returns what was wrong with that, in words;
@@ -95,7 +96,8 @@ class PluginProcess {
   std::uint64_t items_ = 0;          ///< that were asked for since then
   bool is_killed_ = false;           ///< by end_group()
   SharedMemory batch_;
-  SharedMemory log_;
+  SharedMemory log_;  ///< what the process has taken out of the pipe
+  Pipe prints_;
   std::optional<ChildConversation> child_;
 };
 

@@ -314,10 +314,10 @@ int main(int argc, char** argv) {
   if (argc != 2 || !is_socket(STDIN_FILENO)) {
     return explain_companion("lightproof-plugin-host", kUsage, argc, argv);
   }
-  const int socket = confine_plugin();
-  end_with(socket);
+  const HostFiles files = confine_plugin();
+  watch(files, mapped(kPluginLogFile, PROT_READ | PROT_WRITE));
   try {
-    converse(argv[1], socket);
+    converse(argv[1], files.socket);
   } catch (...) {
     ::_exit(kProgramFailed);
   }
