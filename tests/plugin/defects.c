@@ -30,6 +30,21 @@ static void print_much(void) {
   }
 }
 
+enum { kLateBytes = 64 << 20 };
+
+/* Memory that nobody gives back; the compiler may not leave it out. */
+static void* volatile last_kept = NULL;
+static void keep(size_t bytes) {
+  last_kept = malloc(bytes);
+  memset(last_kept, 1, bytes);
+}
+
+/* A table that is made when it is first needed. */
+static void keep_once(int* is_kept, size_t bytes) {
+  if (!*is_kept) keep(bytes);
+  *is_kept = 1;
+}
+
 static void strike(void) {
   if (is("last-words")) {
     printf("the last words\n");
@@ -74,7 +89,8 @@ static void changed_sample(void* pointer, size_t count, const double* u, double*
     if (is("no-jacobian")) row[3] *= hypot(row[0], row[1]);
     if (is("flipped-t")) row[2] = -row[2];
     if (is("off-by-one")) turn(row, 2.0 * kPi / self->width);
-    if (is("leak")) memset(malloc(4096), 1, 4096);
+    if (is("leak")) keep(4096);
+    if (is("leaks-little")) keep(100);
     if (is("rounded")) {
       double length = 0.0;
       for (int k = 0; k < 3; ++k) row[k] = rint(row[k] * 16384.0) / 16384.0;
@@ -95,6 +111,8 @@ static void changed_sample(void* pointer, size_t count, const double* u, double*
     fprintf(stderr, "%01000d\n", 7);
   }
   if (is("prints-much")) print_much();
+  static int has_table = 0;
+  if (is("allocates-late")) keep_once(&has_table, kLateBytes);
   if (is("once") && count > 1) {
     static int batches = 0;
     if (++batches == 20) abort();
@@ -106,6 +124,8 @@ static void changed_sample(void* pointer, size_t count, const double* u, double*
 
 static void changed_pdf(void* pointer, size_t count, const double* positions, double* densities) {
   last_drawn = 0;
+  static int has_table = 0;
+  if (is("allocates-late")) keep_once(&has_table, kLateBytes);
   for (size_t i = 0; i < count; ++i) {
     double at[3] = {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
     if (is("y-up")) {

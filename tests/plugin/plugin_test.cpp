@@ -43,10 +43,11 @@ class InTheGate {
   explicit InTheGate(const std::string& name, PluginOptions options = {})
       : library_(std::make_shared<const PluginLibrary>(file_of(name), options)) {}
 
-  GateResult judged(bool sequentially = false, std::vector<SamplerUnderTest> others = {}) {
+  GateResult judged(bool sequentially = false, std::vector<SamplerUnderTest> others = {},
+                    std::uint64_t samples = kSamples) {
     others.push_back(sampler_under_test(library_, notes_));
     const std::vector<TestCase> test_cases = test_cases_of(maps_, others);
-    const GateOptions options{.samples = kSamples};
+    const GateOptions options{.samples = samples};
     return sequentially ? run_sequential_gate(test_cases, options) : run_gate(test_cases, options);
   }
 
@@ -95,10 +96,11 @@ TEST_P(Correct, IsAcceptedByAllTests) {
 /// As it is written; with rounding to floats; with a coarser
 /// one that it declares; with other axes; in the coordinates and the measure
 /// of a picture; in an order of its own, without weights and pdf; with words on both streams, few
-/// or a megabyte; with an end that crashes.
+/// or a megabyte; with tables that it makes when they are first needed; with an end that crashes.
 INSTANTIATE_TEST_SUITE_P(PluginInTheGate, Correct,
                          testing::Values("correct", "floats", "rounded", "y-up", "picture",
-                                         "in-order", "prints", "prints-much", "crash-at-the-end"));
+                                         "in-order", "prints", "prints-much", "allocates-late",
+                                         "crash-at-the-end"));
 
 TEST(PluginInTheGate, IsAcceptedSequentially) {
   EXPECT_EQ(overall_outcome(InTheGate("correct").judged(true), true), Outcome::accept);
@@ -261,6 +263,30 @@ TEST(PluginInTheGate, ThatLeaksIsRejectedByItsMemory) {
   EXPECT_THAT(result.rejections[0].diagnosis,
               AllOf(HasSubstr("sample() holds "), HasSubstr("may hold 67.11 MB"),
                     HasSubstr("more than after create()")));
+}
+#endif
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(PluginInTheGate, ThatLeaksIsRejectedLongBeforeItsLimit) {
+  // One process, which leaks 112 bytes a sample with those of the allocator: 59 MB.
+  const ThreadLimit limit(1);
+  for (const char* name : {"leak", "leaks-little"}) {
+    const GateResult result = InTheGate(name).judged(false, {}, std::uint64_t{1} << 19U);
+    EXPECT_THAT(rejected_tests(result), testing::ElementsAre("check/every call returns"));
+    ASSERT_EQ(result.rejections.size(), 1U);
+    EXPECT_THAT(result.rejections[0].diagnosis,
+                AllOf(HasSubstr("sample() holds "), HasSubstr("more than after create(), "),
+                      HasSubstr("--plugin-memory")));
+  }
+}
+
+TEST(PluginInTheGate, MayKeepWhatItWasAllowedByTheUser) {
+  const ThreadLimit limit(1);
+  PluginOptions options;
+  options.limits.memory_bytes = std::uint64_t{1} << 30U;
+  const GateResult result =
+      InTheGate("leaks-little", options).judged(false, {}, std::uint64_t{1} << 19U);
+  EXPECT_EQ(overall_outcome(result, true), Outcome::accept);
 }
 #endif
 

@@ -29,6 +29,14 @@ constexpr std::uint64_t kMemoryOfTexel = 64;
 /// Private memory is measured after every call; what allocations may reach meanwhile is somewhat
 /// more, so that a leak is found by measuring it.
 constexpr std::uint64_t kHeadroom = std::uint64_t{64} << 20U;
+/// What a process may keep of what it is asked for, beside kMemoryOfTexel: its allocator, stacks of
+/// its threads, tables of fixed size.
+constexpr std::uint64_t kKept = std::uint64_t{16} << 20U;
+/// One number kept of every item; allocators hand out no less than two.
+constexpr double kLeakOfItem = 8.0;
+/// Memory that a call adds beyond this for each of its items is a table that is made once, not a
+/// leak: four whole batches that make tables stay within kKept.
+constexpr std::uint64_t kMostOfItem = kKept / (4 * kPluginBatch);
 constexpr int kCreateBatches = 10;
 /// The time for a search for an item that fails alone, in that of a batch.
 constexpr int kSearchBatches = 10;
@@ -241,7 +249,8 @@ PluginAnswer PluginProcess::create(PluginRequest request, std::size_t texels) {
   allowed_bytes_ = limits_.memory_for(texels);
   request.memory_bytes = allowed_bytes_ + allowed_bytes_ / 4 + kHeadroom;
   PluginAnswer answer = ask(request, kCreateBatches * limits_.batch_time);
-  held_at_first_ = answer.held_bytes;
+  held_at_first_ = held_before_ = answer.held_bytes;
+  if (limits_.memory_bytes == 0) may_keep_ = kKept + kMemoryOfTexel * texels;
   judge_memory(answer);
   return answer;
 }
@@ -249,19 +258,37 @@ PluginAnswer PluginProcess::create(PluginRequest request, std::size_t texels) {
 PluginAnswer PluginProcess::call(const PluginRequest& request) {
   PluginAnswer answer = ask(request, limits_.batch_time);
   items_ += request.count;
+  if (answer.is_done()) {
+    // A process that gives memory back is not nearer to a leak when it takes it again.
+    kept_ = answer.held_bytes > held_before_
+                ? kept_ + std::min(answer.held_bytes - held_before_, kMostOfItem * request.count)
+                : kept_ - std::min(held_before_ - answer.held_bytes, kept_);
+    held_before_ = answer.held_bytes;
+  }
   judge_memory(answer);
   return answer;
 }
 
+bool PluginProcess::leaks(std::uint64_t held_bytes) const {
+  if (may_keep_ == 0 || held_bytes <= held_at_first_) return false;
+  const std::uint64_t kept = std::min(kept_, held_bytes - held_at_first_);
+  return kept > may_keep_ && static_cast<double>(kept) > kLeakOfItem * static_cast<double>(items_);
+}
+
 void PluginProcess::judge_memory(PluginAnswer& answer) const {
-  if (!answer.is_done() || answer.held_bytes <= allowed_bytes_) return;
+  if (!answer.is_done()) return;
+  const bool is_leak = leaks(answer.held_bytes);
+  if (!is_leak && answer.held_bytes <= allowed_bytes_) return;
   answer.is_over_memory = true;
-  answer.failure = fmt::format("holds {} of memory, and may hold {}", megabytes(answer.held_bytes),
-                               megabytes(allowed_bytes_));
+  answer.failure =
+      is_leak ? fmt::format("holds {} of memory, and ever more", megabytes(answer.held_bytes))
+              : fmt::format("holds {} of memory, and may hold {}", megabytes(answer.held_bytes),
+                            megabytes(allowed_bytes_));
   if (items_ == 0 || answer.held_bytes <= held_at_first_) return;
   const std::uint64_t more = answer.held_bytes - held_at_first_;
   answer.failure += fmt::format(": {} more than after create(), {} bytes for each of {} items",
                                 megabytes(more), more / items_, items_);
+  if (is_leak) answer.failure += " (what it needs to keep is allowed by --plugin-memory)";
 }
 
 std::string PluginProcess::end() {
