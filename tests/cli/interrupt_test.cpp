@@ -108,23 +108,56 @@ std::size_t children_of(pid_t parent) {
   return count;
 }
 
+void wait_for_children_of(pid_t parent) {
+  for (int i = 0; i < 500 && children_of(parent) == 0; ++i) {
+    std::this_thread::sleep_for(milliseconds(20));
+  }
+}
+
+/// How many programs are left a moment after their parent has ended.
+std::size_t left_of(pid_t parent) {
+  for (int i = 0; i < 250 && children_of(parent) > 0; ++i) {
+    std::this_thread::sleep_for(milliseconds(20));
+  }
+  return children_of(parent);
+}
+
 // What nobody waits for any more must not keep the machine busy for minutes.
 TEST(Interrupted, KilledStudyEndsItsBenchmarksToo) {
   const TemporaryFolder folder;
   Process study(on_terminal(
       {"study", "constant", "--size", "32x16", "--measure-again", "-o", "report"}, folder / ""));
   ASSERT_TRUE(study.wait_for_err("throughput", seconds(60)));
-  for (int i = 0; i < 500 && children_of(study.id()) == 0; ++i) {
-    std::this_thread::sleep_for(milliseconds(20));
-  }
+  wait_for_children_of(study.id());
   ASSERT_EQ(children_of(study.id()), 1U);
   study.send(SIGKILL);
   study.wait();
-  for (int i = 0; i < 250 && children_of(study.id()) > 0; ++i) {
-    std::this_thread::sleep_for(milliseconds(20));
-  }
-  EXPECT_EQ(children_of(study.id()), 0U);
+  EXPECT_EQ(left_of(study.id()), 0U);
 }
+
+class GateOfPlugin : public testing::TestWithParam<int> {};
+
+// Nobody else would end a plug-in that hangs.
+TEST_P(GateOfPlugin, LeavesNoProcessBehind) {
+  const TemporaryFolder folder;
+  Process gate(lightproof_command({"gate", "constant", "--size", "32x16", "--plugin-seconds", "600",
+                                   "--plugin", std::string(LIGHTPROOF_TEST_PLUGINS) + "/hang.so"},
+                                  folder / ""));
+  wait_for_children_of(gate.id());
+  // First it is asked what it is, then for samples.
+  work_for(gate, milliseconds(500));
+  ASSERT_GE(children_of(gate.id()), 1U);
+  if (GetParam() == SIGKILL) {
+    gate.send(SIGKILL);
+    gate.wait();
+    EXPECT_EQ(left_of(gate.id()), 0U);
+  } else {
+    expect_interrupted(interrupt(gate, GetParam()), GetParam());
+    EXPECT_EQ(children_of(gate.id()), 0U);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Interrupted, GateOfPlugin, testing::Values(SIGINT, SIGTERM, SIGKILL));
 
 const Words kLongGate = {"gate", "--size", "64x32", "-n", "1073741824", "--json", "gate.json"};
 

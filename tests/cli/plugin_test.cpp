@@ -127,6 +127,11 @@ TEST(GatePlugin, RefusesTwoOfOneNameAndADensityThatItDoesNotDeclare) {
   const Finished other = gate_of({"correct"}, {"--density", "A"});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.err, HasSubstr("correct declares density C, not A"));
+  // What else is named has that density, and must not hide that the plug-in is not tested.
+  const Finished beside = gate_of({"flipped-t"}, {"--sampler", "alias", "--density", "A"});
+  EXPECT_EQ(beside.exit_code, 2);
+  EXPECT_THAT(beside.err, HasSubstr("flipped-t declares density C, not A"));
+  EXPECT_EQ(beside.out, "");
 }
 
 /// Builds what was written to a folder; its output if that fails.

@@ -18,7 +18,38 @@ static int is(const char* defect) { return strcmp(LIGHTPROOF_DEFECT, defect) == 
 /* Whether a random number is one of the few at which something happens. */
 static int is_struck(const double* u) { return u[0] > 0.7 && u[0] < 0.7005 && u[1] > 0.5; }
 
+/* A megabyte on both streams, by somebody who cannot go on without it. */
+static void print_much(void) {
+  static int is_printed = 0;
+  if (is_printed) return;
+  is_printed = 1;
+  char words[4096];
+  memset(words, 'w', sizeof words);
+  for (int i = 0; i < 256; ++i) {
+    if (write(1 + i % 2, words, sizeof words) != (ssize_t)sizeof words) abort();
+  }
+}
+
+enum { kLateBytes = 64 << 20 };
+
+/* Memory that nobody gives back; the compiler may not leave it out. */
+static void* volatile last_kept = NULL;
+static void keep(size_t bytes) {
+  last_kept = malloc(bytes);
+  memset(last_kept, 1, bytes);
+}
+
+/* A table that is made when it is first needed. */
+static void keep_once(int* is_kept, size_t bytes) {
+  if (!*is_kept) keep(bytes);
+  *is_kept = 1;
+}
+
 static void strike(void) {
+  if (is("last-words")) {
+    printf("the last words\n");
+    abort();
+  }
   if (is("crash")) *(volatile int*)NULL = 0;
   if (is("hang")) {
     for (;;) pause();
@@ -58,7 +89,8 @@ static void changed_sample(void* pointer, size_t count, const double* u, double*
     if (is("no-jacobian")) row[3] *= hypot(row[0], row[1]);
     if (is("flipped-t")) row[2] = -row[2];
     if (is("off-by-one")) turn(row, 2.0 * kPi / self->width);
-    if (is("leak")) memset(malloc(4096), 1, 4096);
+    if (is("leak")) keep(4096);
+    if (is("leaks-little")) keep(100);
     if (is("rounded")) {
       double length = 0.0;
       for (int k = 0; k < 3; ++k) row[k] = rint(row[k] * 16384.0) / 16384.0;
@@ -78,6 +110,9 @@ static void changed_sample(void* pointer, size_t count, const double* u, double*
     printf("drew %zu samples\n", count);
     fprintf(stderr, "%01000d\n", 7);
   }
+  if (is("prints-much")) print_much();
+  static int has_table = 0;
+  if (is("allocates-late")) keep_once(&has_table, kLateBytes);
   if (is("once") && count > 1) {
     static int batches = 0;
     if (++batches == 20) abort();
@@ -89,6 +124,8 @@ static void changed_sample(void* pointer, size_t count, const double* u, double*
 
 static void changed_pdf(void* pointer, size_t count, const double* positions, double* densities) {
   last_drawn = 0;
+  static int has_table = 0;
+  if (is("allocates-late")) keep_once(&has_table, kLateBytes);
   for (size_t i = 0; i < count; ++i) {
     double at[3] = {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
     if (is("y-up")) {
@@ -168,6 +205,11 @@ static void* changed_create(const lightproof_map* map, char* error, size_t error
 static void changed_destroy(void* pointer) {
   destroy(pointer);
   if (is("crash-at-the-end")) abort();
+  if (is("exit-at-the-end")) exit(3);
+  if (is("fork-at-the-end")) fork();
+  if (is("hang-at-the-end")) {
+    for (;;) pause();
+  }
 }
 
 /* Answers in the place of the program that loaded it: five numbers of eight bytes, of which the

@@ -43,10 +43,11 @@ class InTheGate {
   explicit InTheGate(const std::string& name, PluginOptions options = {})
       : library_(std::make_shared<const PluginLibrary>(file_of(name), options)) {}
 
-  GateResult judged(bool sequentially = false, std::vector<SamplerUnderTest> others = {}) {
+  GateResult judged(bool sequentially = false, std::vector<SamplerUnderTest> others = {},
+                    std::uint64_t samples = kSamples) {
     others.push_back(sampler_under_test(library_, notes_));
     const std::vector<TestCase> test_cases = test_cases_of(maps_, others);
-    const GateOptions options{.samples = kSamples};
+    const GateOptions options{.samples = samples};
     return sequentially ? run_sequential_gate(test_cases, options) : run_gate(test_cases, options);
   }
 
@@ -94,11 +95,12 @@ TEST_P(Correct, IsAcceptedByAllTests) {
 
 /// As it is written; with rounding to floats; with a coarser
 /// one that it declares; with other axes; in the coordinates and the measure
-/// of a picture; in an order of its own, without weights and pdf; with words on both streams; with
-/// an end that crashes.
+/// of a picture; in an order of its own, without weights and pdf; with words on both streams, few
+/// or a megabyte; with tables that it makes when they are first needed; with an end that crashes.
 INSTANTIATE_TEST_SUITE_P(PluginInTheGate, Correct,
                          testing::Values("correct", "floats", "rounded", "y-up", "picture",
-                                         "in-order", "prints", "crash-at-the-end"));
+                                         "in-order", "prints", "prints-much", "allocates-late",
+                                         "crash-at-the-end"));
 
 TEST(PluginInTheGate, IsAcceptedSequentially) {
   EXPECT_EQ(overall_outcome(InTheGate("correct").judged(true), true), Outcome::accept);
@@ -126,17 +128,58 @@ TEST(PluginInTheGate, WithoutPdfAndWeightsIsNotAskedForThem) {
   }
 }
 
-TEST(PluginInTheGate, NotesWhatIsPrintedAndWhatHappensAtTheEnd) {
+TEST(PluginInTheGate, NotesWhatIsPrinted) {
   InTheGate printing("prints");
   printing.judged();
   EXPECT_THAT(printing.notes(), testing::Contains(HasSubstr("printed: drew")));
-  InTheGate crashing("crash-at-the-end");
-  crashing.judged();
-  EXPECT_THAT(crashing.notes(), testing::Contains(HasSubstr("crashed at the end (signal 6")));
+  InTheGate much("prints-much");
+  much.judged();
+  EXPECT_THAT(much.notes(), testing::ElementsAre(HasSubstr("printed: wwww")));
   InTheGate silent("correct");
   silent.judged();
   EXPECT_THAT(silent.notes(), IsEmpty());
 }
+
+TEST(PluginInTheGate, ThatCrashesIsQuotedWithItsLastWords) {
+  const GateResult result = InTheGate("last-words").judged();
+  ASSERT_EQ(result.rejections.size(), 1U);
+  EXPECT_THAT(result.rejections[0].diagnosis, AllOf(HasSubstr("sample() crashed (signal 6"),
+                                                    HasSubstr("; it printed: the last words")));
+}
+
+/// What destroy() does, and the note of it.
+struct End {
+  const char* name;
+  const char* note;
+};
+
+class Ending : public testing::TestWithParam<End> {};
+
+TEST_P(Ending, IsNotedOnce) {
+  const auto& [name, note] = GetParam();
+  InTheGate ending(name);
+  ending.judged();
+  EXPECT_THAT(ending.notes(), testing::ElementsAre(HasSubstr(note)));
+}
+
+/// At exit() the address sanitizer looks for leaks, for which it starts another process.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr const char* kNoteOfExit = "the plug-in started another process or program at the end";
+constexpr const char* kWordsOfExit = "sample() started another process";
+#else
+constexpr const char* kNoteOfExit = "the plug-in ended its process with status 3 at the end";
+constexpr const char* kWordsOfExit = "sample() ended its process with status 3";
+#endif
+
+INSTANTIATE_TEST_SUITE_P(
+    PluginInTheGate, Ending,
+    testing::Values(End{"crash-at-the-end", "the plug-in crashed at the end (signal 6"},
+                    End{"hang-at-the-end", "the plug-in did not end within a moment"},
+                    End{"exit-at-the-end", kNoteOfExit},
+                    End{"fork-at-the-end",
+                        "the plug-in started another process or program at the end"},
+                    End{"throws-at-the-end", "the plug-in threw an exception at the end"}),
+    [](const auto& row) { return name_of(row.param.name); });
 
 /// A defect of the samples, and a test that must see it.
 struct Defect {
@@ -179,21 +222,17 @@ struct Failure {
 class Failing : public testing::TestWithParam<Failure> {};
 
 TEST_P(Failing, IsRejectedWithTheInputAtFault) {
-  const GateResult result = InTheGate(GetParam().name, with_little_time()).judged();
+  InTheGate failing(GetParam().name, with_little_time());
+  const GateResult result = failing.judged();
   EXPECT_THAT(rejected_tests(result), testing::ElementsAre("check/every call returns"));
   ASSERT_EQ(result.rejections.size(), 1U);
   EXPECT_EQ(result.rejections[0].looks_like, "no answer");
+  // The verdict has said it.
+  EXPECT_THAT(failing.notes(), IsEmpty());
   for (const char* words : GetParam().words) {
     EXPECT_THAT(result.rejections[0].diagnosis, HasSubstr(words));
   }
 }
-
-/// At exit() the address sanitizer looks for leaks, for which it starts another process.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr const char* kWordsOfExit = "sample() started another process";
-#else
-constexpr const char* kWordsOfExit = "sample() ended its process with status 3";
-#endif
 
 INSTANTIATE_TEST_SUITE_P(
     PluginInTheGate, Failing,
@@ -224,6 +263,30 @@ TEST(PluginInTheGate, ThatLeaksIsRejectedByItsMemory) {
   EXPECT_THAT(result.rejections[0].diagnosis,
               AllOf(HasSubstr("sample() holds "), HasSubstr("may hold 67.11 MB"),
                     HasSubstr("more than after create()")));
+}
+#endif
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(PluginInTheGate, ThatLeaksIsRejectedLongBeforeItsLimit) {
+  // One process, which leaks 112 bytes a sample with those of the allocator: 59 MB.
+  const ThreadLimit limit(1);
+  for (const char* name : {"leak", "leaks-little"}) {
+    const GateResult result = InTheGate(name).judged(false, {}, std::uint64_t{1} << 19U);
+    EXPECT_THAT(rejected_tests(result), testing::ElementsAre("check/every call returns"));
+    ASSERT_EQ(result.rejections.size(), 1U);
+    EXPECT_THAT(result.rejections[0].diagnosis,
+                AllOf(HasSubstr("sample() holds "), HasSubstr("more than after create(), "),
+                      HasSubstr("--plugin-memory")));
+  }
+}
+
+TEST(PluginInTheGate, MayKeepWhatItWasAllowedByTheUser) {
+  const ThreadLimit limit(1);
+  PluginOptions options;
+  options.limits.memory_bytes = std::uint64_t{1} << 30U;
+  const GateResult result =
+      InTheGate("leaks-little", options).judged(false, {}, std::uint64_t{1} << 19U);
+  EXPECT_EQ(overall_outcome(result, true), Outcome::accept);
 }
 #endif
 

@@ -108,12 +108,15 @@ void drop_repeated(std::vector<Item>& items, const Key& key) {
   std::erase_if(items, [&](const Item& item) { return !seen.insert(key(item)).second; });
 }
 
-/// Throws InputError if a density was asked for that no plug-in declares.
-void refuse_other_density(const SamplerChoice& choice, const ChosenSamplers& chosen) {
-  if (choice.plugins.empty() || !chosen.of_maps.empty()) return;
-  const SamplerUnderTest& first = choice.plugins.front();
-  throw InputError(fmt::format("--density: {} declares density {}, not {}", first.name,
-                               to_string(first.target.density_space), choice.density_space));
+/// Throws InputError if a density was asked for that a plug-in does not declare.
+void refuse_other_density(const SamplerChoice& choice) {
+  if (choice.density_space.empty()) return;
+  for (const SamplerUnderTest& plugin : choice.plugins) {
+    const std::string declared(to_string(plugin.target.density_space));
+    if (declared == choice.density_space) continue;
+    throw InputError(fmt::format("--density: {} declares density {}, not {}: leave out one of both",
+                                 plugin.name, declared, choice.density_space));
+  }
 }
 
 }  // namespace
@@ -132,6 +135,7 @@ ChosenSamplers choose_samplers(const SamplerChoice& choice) {
   });
   drop_repeated(chosen.of_directions, [](const DirectionSampler& sampler) { return sampler.name; });
   settle_named_directions(choice, names_of_directions, chosen);
+  refuse_other_density(choice);
   add_plugins(choice.plugins, chosen.of_maps);
   if (choice.names.empty() && choice.plugins.empty()) {
     chosen.of_maps = all_samplers_under_test();
@@ -146,7 +150,6 @@ ChosenSamplers choose_samplers(const SamplerChoice& choice) {
     return !choice.density_space.empty() &&
            choice.density_space != to_string(under_test.target.density_space);
   });
-  refuse_other_density(choice, chosen);
   return chosen;
 }
 

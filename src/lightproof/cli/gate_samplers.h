@@ -26,8 +26,9 @@ struct ChosenSamplers {
   std::vector<std::string> notes;  ///< what was chosen and ignored, one sentence each
 };
 
-/// Throws InputError if a name is unknown, if two samplers have one, or if nothing that was named
-/// can make use of the maps or of the density that were.
+/// Throws InputError if a name is unknown, if two samplers have one, if a plug-in does not declare
+/// the density that was asked for, or if nothing that was named can make use of the maps or of the
+/// density that were.
 ChosenSamplers choose_samplers(const SamplerChoice& choice);
 
 }  // namespace lightproof::cli

@@ -40,7 +40,7 @@ void add_plugin_options(CLI::App& command, ChosenPlugins& plugins) {
   add_number(
       command, "--plugin-memory", plugins.memory_bytes, 0, kMostMemory,
       fmt::format("bytes of memory that a plug-in may hold beside the map; 0: 2^30, and 64 a "
-                  "texel; {}",
+                  "texel, and no leak; {}",
                   kWholeNumberForms));
 }
 

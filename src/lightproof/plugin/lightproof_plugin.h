@@ -10,9 +10,13 @@
  *
  * Where it runs. Each library is loaded by a process of its own, lightproof-plugin-host. What it
  * does there harms nobody else: a crash, exit(), a batch that takes too long, too much memory, or
- * another process that it starts is a verdict, "rejected", which names the input. What it prints is
- * shown as a note. It is no sandbox for malicious code: it has the rights of whoever started
- * Lightproof.
+ * another process that it starts is a verdict, "rejected", which names the input. What it prints,
+ * and whatever destroy() does of these, is shown as a note: the samples stand. It is no sandbox for
+ * malicious code: it has the rights of whoever started Lightproof.
+ *
+ * Memory. Unless --plugin-memory says what it may hold, memory that grows with the samples and
+ * densities that were asked for is taken for a leak: beyond 16 MiB, 64 bytes a texel, and 8 bytes
+ * for each of them. Tables that are made once, when they are first needed, are none.
  *
  * Threads. All functions are called by one thread of the process, one after the other. There may be
  * several processes at a time, each of which makes the same samplers: nothing may depend on which
@@ -114,7 +118,7 @@ typedef struct lightproof_plugin {
    * and v, whichever `columns` names, in this order. Writes one number for each. NULL: not known.
    */
   void (*pdf)(void* sampler, size_t count, const double* positions, double* densities);
-  /** Frees what create() returned. NULL: nothing has to be freed. */
+  /** Frees what create() returned; has to return within a moment. NULL: nothing has to be freed. */
   void (*destroy)(void* sampler);
 } lightproof_plugin;
 

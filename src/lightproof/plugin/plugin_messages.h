@@ -31,7 +31,16 @@ inline constexpr std::size_t kPluginLogBytes = std::size_t{64} << 10U;
 /// Descriptors of the host, beside the socket at its standard input.
 inline constexpr int kPluginBatchFile = 3;
 inline constexpr int kPluginLogFile = 4;
-inline constexpr int kPluginMapFile = 5;  ///< not there before there is a map
+inline constexpr int kPluginPrintsEnd = 5;  ///< of the pipe for what is printed: for reading
+inline constexpr int kPluginPrintEnd = 6;   ///< for writing
+inline constexpr int kPluginMapFile = 7;    ///< not there before there is a map
+
+/// Exit statuses of the host once nobody asks any more; any other is the plug-in's own.
+enum PluginEnd : int {
+  kPluginDestroyed = 0,  ///< destroy() has returned
+  kPluginStuck = 124,    ///< it did not return in time
+  kPluginThrew = 125,    ///< it threw an exception
+};
 
 /// What the host is asked to do.
 enum class PluginCall : std::uint32_t {

@@ -29,6 +29,14 @@ constexpr std::uint64_t kMemoryOfTexel = 64;
 /// Private memory is measured after every call; what allocations may reach meanwhile is somewhat
 /// more, so that a leak is found by measuring it.
 constexpr std::uint64_t kHeadroom = std::uint64_t{64} << 20U;
+/// What a process may keep of what it is asked for, beside kMemoryOfTexel: its allocator, stacks of
+/// its threads, tables of fixed size.
+constexpr std::uint64_t kKept = std::uint64_t{16} << 20U;
+/// One number kept of every item; allocators hand out no less than two.
+constexpr double kLeakOfItem = 8.0;
+/// Memory that a call adds beyond this for each of its items is a table that is made once, not a
+/// leak: four whole batches that make tables stay within kKept.
+constexpr std::uint64_t kMostOfItem = kKept / (4 * kPluginBatch);
 constexpr int kCreateBatches = 10;
 /// The time for a search for an item that fails alone, in that of a batch.
 constexpr int kSearchBatches = 10;
@@ -40,9 +48,10 @@ std::filesystem::path host_program() {
       {"lightproof-plugin-host", "LIGHTPROOF_PLUGIN_HOST", "the program that runs plug-ins"});
 }
 
-std::vector<int> files_of(const SharedMemory& batch, const SharedMemory& log,
+std::vector<int> files_of(const SharedMemory& batch, const SharedMemory& log, const Pipe& prints,
                           const SharedMemory* map) {
-  std::vector<int> files = {batch.descriptor(), log.descriptor()};
+  std::vector<int> files = {batch.descriptor(), log.descriptor(), prints.read_end(),
+                            prints.write_end()};
   if (map != nullptr) files.push_back(map->descriptor());
   return files;
 }
@@ -75,6 +84,22 @@ bool is_reply(const PluginReply& reply) {
          reply.text_bytes <= kLongestPluginText;
 }
 
+/// What was wrong with a process that nobody asked any more, and that nobody here ended.
+std::string words_of_destroy(const ChildEnd& end) {
+  if (!end.by_signal) {
+    if (end.code == kPluginDestroyed) return "";
+    if (end.code == kPluginThrew) return "threw an exception at the end";
+    return end.code == kPluginStuck
+               ? "did not end within a moment"
+               : fmt::format("ended its process with status {} at the end", end.code);
+  }
+  if (end.code == SIGKILL) return "did not end within a moment";
+  if (end.code == SIGSYS) {
+    return "started another process or program at the end, which a plug-in may not";
+  }
+  return fmt::format("crashed at the end (signal {}, {})", end.code, ::strsignal(end.code));
+}
+
 std::span<const std::byte> bytes_of(const PluginRequest& request) {
   return std::as_bytes(std::span(&request, 1));
 }
@@ -95,7 +120,8 @@ PluginProcess::PluginProcess(const std::filesystem::path& library, const PluginL
   // A name without a folder would be looked for among the system's libraries.
   const std::filesystem::path whole = std::filesystem::absolute(library);
   child_.emplace(host_program(), std::vector<std::string>{whole.string()},
-                 files_of(batch_, log_, map), limits.batch_time);
+                 files_of(batch_, log_, prints_, map), limits.batch_time);
+  prints_.close_write_end();
 }
 
 PluginProcess::~PluginProcess() { end(); }
@@ -110,13 +136,18 @@ std::span<const double> PluginProcess::outputs() const {
 
 std::string PluginProcess::printed() const {
   const std::span<std::byte> bytes = log_.bytes();
+  const auto end = std::ranges::find(bytes, std::byte{0});
+  // What a process printed last, it may have left in the pipe; here it is asked for more than once.
+  const std::string rest = prints_.take(static_cast<std::size_t>(bytes.end() - end));
+  std::ranges::copy(std::as_bytes(std::span(rest)), end);
   std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   text.resize(std::min(text.find('\0'), text.size()));
   return one_line(std::move(text), kLongestPrint);
 }
 
-void PluginProcess::end_group() const {
+void PluginProcess::end_group() {
   // It has not been waited for: the number is still its own.
+  is_killed_ = true;
   if (child_->id() > 0) ::kill(-child_->id(), SIGKILL);
 }
 
@@ -218,7 +249,8 @@ PluginAnswer PluginProcess::create(PluginRequest request, std::size_t texels) {
   allowed_bytes_ = limits_.memory_for(texels);
   request.memory_bytes = allowed_bytes_ + allowed_bytes_ / 4 + kHeadroom;
   PluginAnswer answer = ask(request, kCreateBatches * limits_.batch_time);
-  held_at_first_ = answer.held_bytes;
+  held_at_first_ = held_before_ = answer.held_bytes;
+  if (limits_.memory_bytes == 0) may_keep_ = kKept + kMemoryOfTexel * texels;
   judge_memory(answer);
   return answer;
 }
@@ -226,29 +258,45 @@ PluginAnswer PluginProcess::create(PluginRequest request, std::size_t texels) {
 PluginAnswer PluginProcess::call(const PluginRequest& request) {
   PluginAnswer answer = ask(request, limits_.batch_time);
   items_ += request.count;
+  if (answer.is_done()) {
+    // A process that gives memory back is not nearer to a leak when it takes it again.
+    kept_ = answer.held_bytes > held_before_
+                ? kept_ + std::min(answer.held_bytes - held_before_, kMostOfItem * request.count)
+                : kept_ - std::min(held_before_ - answer.held_bytes, kept_);
+    held_before_ = answer.held_bytes;
+  }
   judge_memory(answer);
   return answer;
 }
 
+bool PluginProcess::leaks(std::uint64_t held_bytes) const {
+  if (may_keep_ == 0 || held_bytes <= held_at_first_) return false;
+  const std::uint64_t kept = std::min(kept_, held_bytes - held_at_first_);
+  return kept > may_keep_ && static_cast<double>(kept) > kLeakOfItem * static_cast<double>(items_);
+}
+
 void PluginProcess::judge_memory(PluginAnswer& answer) const {
-  if (!answer.is_done() || answer.held_bytes <= allowed_bytes_) return;
+  if (!answer.is_done()) return;
+  const bool is_leak = leaks(answer.held_bytes);
+  if (!is_leak && answer.held_bytes <= allowed_bytes_) return;
   answer.is_over_memory = true;
-  answer.failure = fmt::format("holds {} of memory, and may hold {}", megabytes(answer.held_bytes),
-                               megabytes(allowed_bytes_));
+  answer.failure =
+      is_leak ? fmt::format("holds {} of memory, and ever more", megabytes(answer.held_bytes))
+              : fmt::format("holds {} of memory, and may hold {}", megabytes(answer.held_bytes),
+                            megabytes(allowed_bytes_));
   if (items_ == 0 || answer.held_bytes <= held_at_first_) return;
   const std::uint64_t more = answer.held_bytes - held_at_first_;
   answer.failure += fmt::format(": {} more than after create(), {} bytes for each of {} items",
                                 megabytes(more), more / items_, items_);
+  if (is_leak) answer.failure += " (what it needs to keep is allowed by --plugin-memory)";
 }
 
 std::string PluginProcess::end() {
   if (!child_) return "";
   if (child_->id() <= 0) return "";
   const std::optional<ChildEnd> end = child_->end();
-  if (!end || !end->by_signal) return "";
-  return end->code == SIGKILL
-             ? "did not end within a moment"
-             : fmt::format("crashed at the end (signal {}, {})", end->code, ::strsignal(end->code));
+  if (!end || is_killed_) return "";
+  return words_of_destroy(*end);
 }
 
 }  // namespace lightproof

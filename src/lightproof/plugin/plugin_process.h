@@ -11,6 +11,7 @@
 #include <string>
 
 #include "lightproof/core/child_conversation.h"
+#include "lightproof/core/pipe.h"
 #include "lightproof/core/shared_memory.h"
 #include "lightproof/plugin/plugin_messages.h"
 
@@ -20,7 +21,9 @@ namespace lightproof {
 struct PluginLimits {
   /// For one batch of at most kPluginBatch samples; making a sampler may take ten times as long.
   std::chrono::milliseconds batch_time{10'000};
-  /// Private memory of its process. 0: 1 GiB, and 64 bytes a texel.
+  /// Private memory of its process. 0: 1 GiB, and 64 bytes a texel; and then, once it is made, no
+  /// more for every sample or density: growth beyond 16 MiB, 64 bytes a texel, and 8 bytes for each
+  /// that was asked for is a leak.
   std::uint64_t memory_bytes = 0;
 
   /// The memory that is allowed for a map of so many texels.
@@ -70,10 +73,11 @@ class PluginProcess {
   std::span<double> inputs() const;
   std::span<const double> outputs() const;
 
-  /// What the plug-in has printed, in one line, shortened; empty if nothing.
+  /// What the plug-in had printed when its process ended, in one line, shortened; empty if nothing.
   std::string printed() const;
 
-  /// Has the sampler destroyed and ends the process. Returns what was wrong with that, in words.
+  /// Has the sampler destroyed and ends the process. Returns what was wrong with that, in words;
+  /// nothing after a failure, which has said what was wrong.
   std::string end();
 
  private:
@@ -81,19 +85,26 @@ class PluginProcess {
                    std::string* text = nullptr);
   std::string words_of(Exchange exchange, std::chrono::milliseconds patience);
   std::string words_of_end();
+  /// Whether what the process holds has grown with what it was asked for.
+  bool leaks(std::uint64_t held_bytes) const;
   /// Makes a failure of an answer by a process that holds too much.
   void judge_memory(PluginAnswer& answer) const;
   /// Ends the process and whatever it may have started.
-  void end_group() const;
+  void end_group();
 
   std::filesystem::path library_;
   PluginLimits limits_;
   std::uint64_t shared_bytes_ = 0;
   std::uint64_t allowed_bytes_ = 0;
   std::uint64_t held_at_first_ = 0;  ///< once the sampler was made
-  std::uint64_t items_ = 0;          ///< that were asked for since then
+  std::uint64_t held_before_ = 0;    ///< by the last call
+  std::uint64_t kept_ = 0;      ///< growth since the sampler was made, without that of single calls
+  std::uint64_t may_keep_ = 0;  ///< of kept_; 0: anything
+  std::uint64_t items_ = 0;     ///< that were asked for since then
+  bool is_killed_ = false;      ///< by end_group()
   SharedMemory batch_;
-  SharedMemory log_;
+  SharedMemory log_;  ///< what the process has taken out of the pipe
+  Pipe prints_;
   std::optional<ChildConversation> child_;
 };
 

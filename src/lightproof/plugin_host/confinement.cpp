@@ -9,16 +9,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <thread>
 #include <vector>
 
-#include "lightproof/core/failure.h"
 #include "lightproof/core/seccomp_filter.h"
 #include "lightproof/core/system_call.h"
 #include "lightproof/plugin/plugin_messages.h"
@@ -33,7 +34,8 @@ constexpr bool kLimitsMemory = false;
 constexpr bool kLimitsMemory = true;
 #endif
 
-constexpr int kSocket = 10;
+constexpr int kOutOfTheWay = 10;
+constexpr std::size_t kDroppedAtOnce = std::size_t{16} << 10U;
 /// What the plug-in has to free what is its own, once nobody asks any more.
 constexpr std::chrono::milliseconds kGrace{400};
 
@@ -84,32 +86,69 @@ std::vector<sock_filter> filter() {
   return program;
 }
 
+/// Takes what is there to be read into the free part of the log, or drops it. Read right into the
+/// log: a crash of another thread loses nothing of it.
+std::span<std::byte> taken(int prints, std::span<std::byte> log) {
+  std::array<std::byte, kDroppedAtOnce> dropped;
+  const std::span<std::byte> into = log.empty() ? std::span<std::byte>(dropped) : log;
+  const ssize_t got = uninterrupted([&] { return ::read(prints, into.data(), into.size()); });
+  return got <= 0 || log.empty() ? log : log.subspan(static_cast<std::size_t>(got));
+}
+
+using Clock = std::chrono::steady_clock;
+
+/// At least 0, rounded up.
+int milliseconds_until(Clock::time_point time) {
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(time - Clock::now());
+  return static_cast<int>(std::max<std::int64_t>(left.count(), 0));
+}
+
+/// Takes what is printed until the socket is closed, and for a moment after that.
+void take_prints(const HostFiles& files, std::span<std::byte> log) {
+  std::array<pollfd, 2> watched = {{{.fd = files.socket, .events = POLLRDHUP, .revents = 0},
+                                    {.fd = files.prints, .events = POLLIN, .revents = 0}}};
+  std::optional<Clock::time_point> end;
+  while (!end || Clock::now() < *end) {
+    if (::poll(watched.data(), watched.size(), end ? milliseconds_until(*end) : -1) <= 0) continue;
+    if (watched[0].revents != 0) {
+      end = Clock::now() + kGrace;
+      watched[0].fd = -1;
+    }
+    if ((watched[1].revents & POLLIN) != 0) {
+      log = taken(files.prints, log);
+    } else if (watched[1].revents != 0) {
+      // Nobody can print any more.
+      watched[1].fd = -1;
+    }
+  }
+}
+
 }  // namespace
 
-int confine_plugin() {
+HostFiles confine_plugin() {
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
-  const int socket = ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, kSocket);
+  const HostFiles files = {.socket = ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, kOutOfTheWay),
+                           .prints = ::fcntl(kPluginPrintsEnd, F_DUPFD_CLOEXEC, kOutOfTheWay)};
   ::close(STDIN_FILENO);
   ::open("/dev/null", O_RDONLY);  // takes the number of the standard input
-  ::dup2(kPluginLogFile, STDOUT_FILENO);
-  ::dup2(kPluginLogFile, STDERR_FILENO);
+  ::dup2(kPluginPrintEnd, STDOUT_FILENO);
+  ::dup2(kPluginPrintEnd, STDERR_FILENO);
+  ::close(kPluginPrintsEnd);
+  ::close(kPluginPrintEnd);
   // A crash must not take with it what was printed before.
   std::setvbuf(stdout, nullptr, _IONBF, 0);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) ::signal(signal, SIG_IGN);
   // Whoever asks sees how it crashes: nobody else catches that here, no sanitizer either.
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) ::signal(signal, SIG_DFL);
   limit_resource(RLIMIT_CORE, 0);
-  return socket;
+  return files;
 }
 
-void end_with(int socket) {
-  std::thread([socket] {
-    pollfd end = {.fd = socket, .events = POLLRDHUP, .revents = 0};
-    while (uninterrupted([&] { return ::poll(&end, 1, -1); }) <= 0) {
-    }
-    std::this_thread::sleep_for(kGrace);
-    ::_exit(kInputFailed);
+void watch(const HostFiles& files, std::span<std::byte> log) {
+  std::thread([files, log] {
+    take_prints(files, log);
+    ::_exit(kPluginStuck);
   }).detach();
   // Where the system has no filters, has_children() sees the process afterwards.
   install_filter(filter());

@@ -1,17 +1,26 @@
 // What the process of a plug-in may not do to others.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace lightproof {
 
-/// Puts this process into a group of its own, and sends what is printed to kPluginLogFile. Returns
-/// the descriptor of the socket that the standard input was, under a number of its own.
-int confine_plugin();
+/// Descriptors of this process, under numbers that are out of the way.
+struct HostFiles {
+  int socket;  ///< that the standard input was
+  int prints;  ///< from which what is printed is read
+};
 
-/// Ends this process a moment after the other end of the socket is closed, whatever it is doing;
-/// and ends it if it starts another process, or becomes another program.
-void end_with(int socket);
+/// Puts this process into a group of its own, and sends what is printed into a pipe.
+HostFiles confine_plugin();
+
+/// Ends this process with kPluginStuck a moment after the other end of the socket is closed,
+/// whatever it is doing; and ends it if it starts another process, or becomes another program.
+/// Keeps in `log` the beginning of what is printed, and drops the rest, so that nobody who prints
+/// fails or waits for long.
+void watch(const HostFiles& files, std::span<std::byte> log);
 
 /// Lets the process hold no more private memory than this. Beyond it allocations fail.
 void limit_memory(std::uint64_t bytes);

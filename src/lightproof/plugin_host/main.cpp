@@ -291,9 +291,13 @@ void answer(Plugin& plugin, const Conversation& conversation, const PluginReques
     }
     conversation.reply(reply, text);
   }
-  plugin.destroy();
+  try {
+    plugin.destroy();
+  } catch (...) {
+    ::_exit(kPluginThrew);
+  }
   // What the library would do at the end of a program is no matter of its sampler.
-  ::_exit(0);
+  ::_exit(kPluginDestroyed);
 }
 
 constexpr const char* kUsage =
@@ -310,10 +314,10 @@ int main(int argc, char** argv) {
   if (argc != 2 || !is_socket(STDIN_FILENO)) {
     return explain_companion("lightproof-plugin-host", kUsage, argc, argv);
   }
-  const int socket = confine_plugin();
-  end_with(socket);
+  const HostFiles files = confine_plugin();
+  watch(files, mapped(kPluginLogFile, PROT_READ | PROT_WRITE));
   try {
-    converse(argv[1], socket);
+    converse(argv[1], files.socket);
   } catch (...) {
     ::_exit(kProgramFailed);
   }
