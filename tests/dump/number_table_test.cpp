@@ -92,6 +92,16 @@ TEST_F(NumberTableFile, IsRefusedByTheRowWhereItIsCutOff) {
               HasSubstr("it ends in row 2"));
 }
 
+// numpy.save, called twice with one open file, writes one array behind the other.
+TEST_F(NumberTableFile, OfNumPyIsRefusedForWhatLiesBehindTheAnnouncedRows) {
+  const std::string array =
+      test::npy_header("<f4", "(2, 2)") + test::bytes_of(std::vector<float>{1, 2, 3, 4});
+  EXPECT_EQ(refusal(write("a.npy", array)), "accepted");
+  EXPECT_THAT(refusal(write("b.npy", array + array)),
+              HasSubstr("b.npy: 2 rows of 2 numbers are announced, and 144 bytes lie behind"));
+  EXPECT_THAT(refusal(write("c.npy", array + '\0')), HasSubstr("1 bytes lie behind"));
+}
+
 TEST_F(NumberTableFile, IsRefusedByTheLineThatIsWrong) {
   EXPECT_THAT(refusal(write("a.csv", "1,2,3\n1,2\n")),
               HasSubstr("line 2 has 2 numbers, those before it 3"));

@@ -102,6 +102,13 @@ NumberTable::NumberTable(const std::string& file, std::optional<NumberFormat> fo
                     "row {} (counted from 0)",
                     name, rows_, columns_, left / row_bytes));
   }
+  if (const std::uint64_t behind = left - rows_ * row_bytes; behind != 0) {
+    throw InputError(
+        fmt::format("{}: {} rows of {} numbers are announced, and {} bytes lie behind the last one "
+                    "(a second array?): a file holds the samples of one array, as numpy.save "
+                    "writes it",
+                    name, rows_, columns_, behind));
+  }
 }
 
 void NumberTable::open_raw(const std::string& name, std::size_t columns) {
