@@ -177,6 +177,19 @@ TEST_F(CheckCommand, JudgesDirectionsAgainstATargetWithoutAMap) {
   EXPECT_EQ(check(dump, {"--density", "B"}).exit_code, 0);
 }
 
+TEST_F(CheckCommand, TakesWhatAnOptionSaysOfTheDensityAgainstASideCar) {
+  const std::string dump = raw("a.f32", uniform_samples(kEnough));
+  std::ofstream(dump + ".json") << R"({"columns": ["x", "y", "z", "pdf"], "density": "C"})";
+  const Finished none = check(dump, {"--target", "none"});
+  EXPECT_EQ(none.exit_code, 0) << none.out << none.err;
+  const Finished uniform = lightproof({"check", dump, "--target", "uniform"});
+  EXPECT_EQ(uniform.exit_code, 0) << uniform.out << uniform.err;
+  std::ofstream(dump + ".json") << R"({"columns": ["x", "y", "z", "pdf"], "target": "none"})";
+  const Finished declared = check(dump, {"--density", "B"});
+  EXPECT_EQ(declared.exit_code, 0) << declared.out << declared.err;
+  EXPECT_THAT(declared.out, testing::Not(HasSubstr("solid angle by 1/pdf")));
+}
+
 TEST_F(CheckCommand, JudgesTheGivenPdfOfASamplerWhoseDensityIsItsOwnAffair) {
   std::vector<float> numbers = uniform_samples(kEnough);
   const Words none = {"--columns", "x,y,z,pdf", "--target", "none"};

@@ -332,6 +332,9 @@ int run(Options options) {
   DumpDescription of_side_car = read_side_car(options.dump).value_or(DumpDescription{});
   // A map of the command line stands against what else the side-car says that samples come from.
   if (!options.maps.empty() && of_side_car.target != kNoTarget) of_side_car.target.clear();
+  // So does a target against its density, which belongs to a map, and a density against its none.
+  if (!options.said.target.empty()) of_side_car.density.clear();
+  if (!options.said.density.empty() && of_side_car.target == kNoTarget) of_side_car.target.clear();
   DumpDescription said = with_side_car(options.said, of_side_car);
   if (!said.luminance.empty()) options.luminance = said.luminance;
   const Declared declared = declared_by(options, said);
