@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 
 #include "lightproof/core/error.h"
 #include "tests/dump/files.h"
@@ -12,6 +13,8 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class NumberTableFile : public testing::Test {
  protected:
@@ -131,8 +134,14 @@ TEST_F(NumberTableFile, OfTextTakesExponentsOfAnySize) {
   const NumberTable table(
       write("a.csv", "1e-2147483648,1e2147483647,1e-99999999999999999999,0.25e+3\n"), std::nullopt,
       0);
-  EXPECT_THAT(all_of(table), ElementsAre(0.0, testing::_, testing::_, 250.0));
+  EXPECT_THAT(all_of(table), ElementsAre(0.0, kInfinity, 0.0, 250.0));
   EXPECT_EQ(table.rounding(), 0.5e-16);
+}
+
+TEST_F(NumberTableFile, OfTextHasWhatIsTooLargeForADoubleAsAnInfinity) {
+  const NumberTable table(write("a.csv", "1e400,-1e400,+1e400,1e-400,-12.5e-400\n"), std::nullopt,
+                          0);
+  EXPECT_THAT(all_of(table), ElementsAre(kInfinity, -kInfinity, kInfinity, 0.0, 0.0));
 }
 
 TEST_F(NumberTableFile, OfTextWithoutANumberHasNoRows) {
