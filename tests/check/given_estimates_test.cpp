@@ -185,6 +185,20 @@ TEST(GivenEstimates, OfWrongDensitiesAreRejectedAndNamed) {
   }
 }
 
+TEST(GivenEstimates, OfFaultyRowsHaveTheirShareOfAllRows) {
+  const auto share = [](int every) {
+    const Draw draw = changed(uniform, [every, n = 0](Drawn& drawn) mutable {
+      if (n++ % every == 0) drawn.pdf = 0.0;
+    });
+    const TestRecord record = judged(written(draw, 20'000)).tests.front();
+    EXPECT_EQ(record.test, TestId::in_domain);
+    EXPECT_EQ(record.samples, 20'000U);
+    return record.effect;
+  };
+  EXPECT_EQ(share(1), 1.0);
+  EXPECT_EQ(share(4), 0.25);
+}
+
 TEST(GivenEstimates, OfADensityOfOtherSamplesAreRejected) {
   // The samples of density A with the densities of C at their places.
   const Alias other(sky(), {DensitySpace::sine_weighted});
