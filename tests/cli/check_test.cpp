@@ -123,9 +123,11 @@ TEST_F(CheckCommand, ReadsTheStandardInputAndText) {
   text.close();
   EXPECT_EQ(check(path("a.csv"), {"--density", "B"}).exit_code, 0);
   const std::string script =
-      "\"$0\" check - --format csv --density B --map constant --size 16x8 < " + path("a.csv");
-  const Command command = {{"/bin/sh", "-c", script, program()}};
-  EXPECT_EQ(run(command).exit_code, 0);
+      "\"$0\" check - --density B --map constant --size 16x8 < " + path("a.csv");
+  for (const char* format : {"", " --format csv"}) {
+    const Command command = {{"/bin/sh", "-c", script + format, program()}};
+    EXPECT_EQ(run(command).exit_code, 0) << format;
+  }
 }
 
 TEST_F(CheckCommand, RefusesWhatItCannotRead) {

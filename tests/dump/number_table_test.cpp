@@ -81,6 +81,25 @@ TEST_F(NumberTableFile, OfTextTakesNamesSeparatorsAndComments) {
   EXPECT_TRUE(std::isnan(numbers[7]));
 }
 
+TEST_F(NumberTableFile, OfTextIsKnownByItsBytesWhereTheExtensionSaysNothing) {
+  for (const char* name : {"a.dat", "a", "A.CSV", "a.Txt"}) {
+    const NumberTable table(write(name, "x,y,z,pdf\r\n1,2,3,4\n5,6,7,8\n"), std::nullopt, 4);
+    EXPECT_EQ(table.rows(), 2U) << name;
+    EXPECT_THAT(all_of(table), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8)) << name;
+  }
+}
+
+TEST_F(NumberTableFile, OfNumbersIsRawWhereTheExtensionSaysNothingOrThatItIs) {
+  const std::vector<float> floats = {0.5F, -1.0F};
+  const std::vector<double> doubles = {0.5, -1.0};
+  EXPECT_THAT(all_of(NumberTable(write("a.dat", test::bytes_of(floats)), std::nullopt, 2)),
+              ElementsAre(0.5, -1.0));
+  EXPECT_THAT(all_of(NumberTable(write("a.F64", test::bytes_of(doubles)), std::nullopt, 2)),
+              ElementsAre(0.5, -1.0));
+  // Floats whose bytes are letters.
+  EXPECT_EQ(NumberTable(write("a.f32", "ABCDEFGH"), std::nullopt, 2).rows(), 1U);
+}
+
 TEST_F(NumberTableFile, OfTextIsAsExactAsItsDecimals) {
   const NumberTable three(write("a.csv", "0.125,0.5\n"), std::nullopt, 0);
   EXPECT_DOUBLE_EQ(three.rounding(), 0.5e-3);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <cstring>
 
@@ -15,6 +17,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kStandardInput = "-";
+/// As many bytes tell a text from raw numbers.
+constexpr std::size_t kTold = std::size_t{1} << 16U;
 
 /// Copies the standard input to a file.
 void keep_standard_input(const fs::path& file) {
@@ -34,12 +38,24 @@ void keep_standard_input(const fs::path& file) {
   if (std::ferror(stdin) != 0) throw InputError("the standard input cannot be read");
 }
 
+/// Whether bytes are printable ASCII and white space, which numbers of 32 bits that are no letters
+/// by chance are not.
+bool is_text(std::span<const std::byte> bytes) {
+  return std::ranges::all_of(bytes.first(std::min(bytes.size(), kTold)), [](std::byte byte) {
+    const auto c = std::to_integer<unsigned char>(byte);
+    return (c >= ' ' && c <= '~') || (c >= '\t' && c <= '\r');
+  });
+}
+
 NumberFormat format_of(const std::string& file, std::span<const std::byte> bytes) {
   if (is_npy(bytes)) return NumberFormat::npy;
-  const std::string extension = fs::path(file).extension().string();
+  std::string extension = fs::path(file).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension == ".csv" || extension == ".txt" || extension == ".tsv") return NumberFormat::text;
   if (extension == ".f64") return NumberFormat::doubles;
-  return NumberFormat::floats;
+  if (extension == ".f32") return NumberFormat::floats;
+  return is_text(bytes) ? NumberFormat::text : NumberFormat::floats;
 }
 
 template <class Number>
