@@ -249,6 +249,28 @@ TEST_F(CheckCommand, JudgesDensitiesOnAGrid) {
   expect_valid("gate.schema.json", path("a.json"));
 }
 
+TEST_F(CheckCommand, NamesTheFileOfDensitiesThatItRefuses) {
+  const std::string dump = raw("a.f32", uniform_samples(16));
+  const auto refusal = [&](const std::string& name, std::string_view bytes) {
+    write_bytes(path(name), bytes);
+    const Finished finished =
+        check(dump, {"--columns", "x,y,z,pdf", "--density", "B", "--densities", path(name)});
+    EXPECT_EQ(finished.exit_code, 2) << finished.out;
+    return finished.err;
+  };
+  EXPECT_THAT(refusal("raw.f32", bytes_of(std::vector<float>{0.5F, 0.5F, 0.08F})),
+              AllOf(HasSubstr("raw.f32: "), HasSubstr("densities are taken from an .npy file")));
+  EXPECT_THAT(refusal("two.csv", "0.5,0.5\n"),
+              AllOf(HasSubstr("two.csv: "), HasSubstr("three numbers are s,t,pdf")));
+  EXPECT_THAT(refusal("named.csv", "s,t,p\n0.5,0.5,0.08\n"),
+              AllOf(HasSubstr("named.csv: "), HasSubstr("no column is called \"p\"")));
+  EXPECT_THAT(refusal("none.csv", "s,t\n0.5,0.5\n"),
+              AllOf(HasSubstr("none.csv: "), HasSubstr("needs a column pdf")));
+  write_bytes(path("narrow.csv"), "1,2\n");
+  EXPECT_THAT(check(path("narrow.csv"), {}).err,
+              AllOf(HasSubstr("narrow.csv: "), HasSubstr("are no directions")));
+}
+
 TEST_F(CheckCommand, TakesTheLargestChannelAsLuminance) {
   const std::string dump = raw("a.f32", uniform_samples(kEnough));
   // A grey map: it is the same by any luminance.

@@ -5,6 +5,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -118,21 +119,29 @@ TargetDensity target_of(const DumpDescription& said) {
       fmt::format("--density: \"{}\" is none of {}", terminal_text(said.density), known));
 }
 
+/// Calls a function, in whose errors the file is named.
+template <class Function>
+auto named_in_errors(const std::string& file, const Function& function) {
+  try {
+    return function();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file, error.what()));
+  }
+}
+
 std::shared_ptr<const SampleDump> open_dump(const std::string& file, const DumpDescription& said) {
   const std::vector<std::string> named =
       said.columns.empty() ? std::vector<std::string>() : names_in(said.columns);
   NumberTable table(file, format_of(said.format), named.size());
-  std::vector<std::string> names = named;
-  if (names.empty()) {
-    names = table.names().empty() ? default_columns(table.columns()) : table.names();
-  }
-  try {
+  return named_in_errors(file, [&] {
+    std::vector<std::string> names = named;
+    if (names.empty()) {
+      names = table.names().empty() ? default_columns(table.columns()) : table.names();
+    }
     const SampleColumns columns = sample_columns(names);
     return std::make_shared<const SampleDump>(std::move(table), columns,
                                               convention_of(said, columns.are_directions()));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", file, error.what()));
-  }
+  });
 }
 
 std::string name_of(const std::string& dump) {
@@ -242,22 +251,35 @@ void add_estimates(GateResult& result, const SampleDump& dump, const Declared& d
   std::ranges::move(found.rejections, std::back_inserter(result.rejections));
 }
 
+/// What rows without names hold in a table of densities.
+std::vector<std::string> columns_of_densities(std::size_t count) {
+  if (count == 3) return {"s", "t", "pdf"};
+  if (count == 4) return {"x", "y", "z", "pdf"};
+  throw InputError(
+      fmt::format("rows of {} numbers without names are no densities: three numbers are s,t,pdf, "
+                  "four are x,y,z,pdf; the first line of a text may name others",
+                  count));
+}
+
 /// What a file of densities holds: a picture, or a table in the conventions of the dump.
 DensityGrid read_densities(const Options& options, const DumpDescription& said) {
   const std::string& file = options.densities;
-  const std::string extension = std::filesystem::path(file).extension().string();
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (std::ranges::count(kPictures, extension) != 0) {
     ReadOptions read{.any_aspect = true};
     read.preset = preset_named(said.preset);
     return density_grid_of(read_environment_map(file, read), measure_named(said.measure));
   }
   NumberTable table(file, std::nullopt, 0);
-  std::vector<std::string> names = table.names();
-  if (names.empty() && table.columns() == 3) names = {"s", "t", "pdf"};
-  if (names.empty()) names = default_columns(table.columns());
-  const SampleColumns columns = sample_columns(names);
-  return density_grid_of(
-      SampleDump(std::move(table), columns, convention_of(said, columns.are_directions())));
+  return named_in_errors(file, [&] {
+    std::vector<std::string> names = table.names();
+    if (names.empty()) names = columns_of_densities(table.columns());
+    const SampleColumns columns = sample_columns(names);
+    return density_grid_of(
+        SampleDump(std::move(table), columns, convention_of(said, columns.are_directions())));
+  });
 }
 
 /// Adds the tests of densities on a grid of directions.
@@ -413,11 +435,11 @@ void add_dump_options(CLI::App& command, Options& options) {
   command.add_flag("--sequential", options.is_sequential,
                    "test the rows as they come, by evidence that is valid whenever one stops, and "
                    "stop as soon as they are known to be wrong");
-  add_path(
-      command, "--densities", options.densities,
-      "densities of the sampler on a grid of directions: a table of x,y,z,pdf or s,t,pdf in the "
-      "dump's axes and measure, or a picture (.exr, .hdr) whose preset and measure are "
-      "the samples': compared with the declared density, and integrated");
+  add_path(command, "--densities", options.densities,
+           "densities of the sampler on a grid of directions: a table (.npy, .csv) of x,y,z,pdf or "
+           "s,t,pdf in the dump's axes and measure, or a picture (.exr, .hdr) whose preset and "
+           "measure are "
+           "the samples': compared with the declared density, and integrated");
   add_must_detect(command, options.gate.must_detect);
 }
 

@@ -130,8 +130,9 @@ NumberTable::NumberTable(const std::string& file, std::optional<NumberFormat> fo
 void NumberTable::open_raw(const std::string& name, std::size_t columns) {
   if (columns == 0) {
     throw InputError(name +
-                     ": raw numbers do not say how many make a row: name them by --columns, "
-                     "as in --columns x,y,z,pdf");
+                     ": raw numbers do not say how many make a row: those of samples are named by "
+                     "--columns, as in --columns x,y,z,pdf; densities are taken from an .npy file, "
+                     "a text (.csv) or a picture");
   }
   columns_ = columns;
   const std::uint64_t row_bytes = columns_ * number_size_;
