@@ -249,6 +249,33 @@ TEST_F(CheckCommand, JudgesDensitiesOnAGrid) {
   expect_valid("gate.schema.json", path("a.json"));
 }
 
+TEST_F(CheckCommand, HoldsDensitiesOnAGridAgainstTheSamplesWhereNoneIsDeclared) {
+  const std::string dump = raw("a.f32", uniform_samples(kEnough));
+  const auto with_grid = [&](double of_upper, double of_lower) {
+    std::ofstream text(path("grid.csv"));
+    text << "s,t,pdf\n";
+    text.precision(9);
+    for (int row = 0; row < 16; ++row) {
+      for (int column = 0; column < 32; ++column) {
+        text << (column + 0.5) / 32 << ',' << (row + 0.5) / 16 << ','
+             << (row < 8 ? of_lower : of_upper) / kSphere << '\n';
+      }
+    }
+    text.close();
+    return check(dump, {"--columns", "x,y,z,pdf", "--target", "none", "--densities",
+                        path("grid.csv"), "--json", path("a.json")});
+  };
+  const Finished right = with_grid(1.0, 1.0);
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  expect_valid("gate.schema.json", path("a.json"));
+  // It integrates to 1.
+  const Finished wrong = with_grid(1.5, 0.5);
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.out;
+  EXPECT_THAT(wrong.out, AllOf(HasSubstr("bins of the pdf of a grid"),
+                               testing::Not(HasSubstr("pdf of a grid integrates to 1"))));
+  expect_valid("gate.schema.json", path("a.json"));
+}
+
 TEST_F(CheckCommand, NamesTheFileOfDensitiesThatItRefuses) {
   const std::string dump = raw("a.f32", uniform_samples(16));
   const auto refusal = [&](const std::string& name, std::string_view bytes) {

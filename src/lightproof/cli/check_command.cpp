@@ -21,6 +21,7 @@
 #include "lightproof/check/direction_target.h"
 #include "lightproof/check/dump_test_case.h"
 #include "lightproof/check/given_estimates.h"
+#include "lightproof/check/grid_histogram.h"
 #include "lightproof/check/recognition.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
@@ -282,9 +283,10 @@ DensityGrid read_densities(const Options& options, const DumpDescription& said) 
   });
 }
 
-/// Adds the tests of densities on a grid of directions.
-void add_densities(GateResult& result, const Declared& declared, const DumpClaim& claim,
-                   const DensityGrid& grid, const TestRecord& record) {
+/// Adds the tests of densities on a grid of directions. Where no density is declared they are held
+/// against the samples, with half of the run's error probability.
+void add_densities(GateResult& result, const SampleDump& dump, const Declared& declared,
+                   const DumpClaim& claim, const DensityGrid& grid, const TestRecord& record) {
   DeclaredDensity density;
   if (declared.directions) {
     density = declared_density_of(*declared.directions);
@@ -293,6 +295,9 @@ void add_densities(GateResult& result, const Declared& declared, const DumpClaim
         texel_expectation_of(declared.map(), on_map(claim.target, declared.map()))));
   }
   std::vector<TestRecord> found = judge_density_grid(grid, density, claim.pdf_tolerance, record);
+  if (!density) {
+    found.push_back(judge_grid_histogram(grid, dump, 0.5 * result.family_alpha, record));
+  }
   const bool is_rejected = std::ranges::any_of(
       found, [](const TestRecord& test) { return test.outcome == Outcome::reject; });
   std::ranges::move(found, std::back_inserter(result.tests));
@@ -301,7 +306,8 @@ void add_densities(GateResult& result, const Declared& declared, const DumpClaim
                                record.density_space,
                                record.map,
                                "pdf-mismatch",
-                               "the densities on the grid are not the declared ones",
+                               density ? "the densities on the grid are not the declared ones"
+                                       : "the densities on the grid are not those of the samples",
                                Grid<double>(kGateBins),
                                {},
                                ""});
@@ -327,7 +333,7 @@ Judged judge(const std::shared_ptr<const SampleDump>& dump, const Declared& decl
   judged.result.family_alpha = alpha;
   if (judges_estimates) {
     add_estimates(judged.result, *dump, declared, claim,
-                  declared.has_density ? 0.5 * alpha : alpha);
+                  declared.has_density || densities ? 0.5 * alpha : alpha);
   }
   if (densities) {
     TestRecord record;
@@ -338,7 +344,7 @@ Judged judge(const std::shared_ptr<const SampleDump>& dump, const Declared& decl
       record.density_space = to_string(claim.target.density_space);
     }
     record.seed = options.seed;
-    add_densities(judged.result, declared, claim, *densities, record);
+    add_densities(judged.result, *dump, declared, claim, *densities, record);
   }
   judged.result.replay = text_of(options.command_line);
   judged.verdict.overall = overall_outcome(judged.result, false);
@@ -438,8 +444,8 @@ void add_dump_options(CLI::App& command, Options& options) {
   add_path(command, "--densities", options.densities,
            "densities of the sampler on a grid of directions: a table (.npy, .csv) of x,y,z,pdf or "
            "s,t,pdf in the dump's axes and measure, or a picture (.exr, .hdr) whose preset and "
-           "measure are "
-           "the samples': compared with the declared density, and integrated");
+           "measure are the samples': compared with the declared density (without one: with where "
+           "samples lie), and integrated");
   add_must_detect(command, options.gate.must_detect);
 }
 
