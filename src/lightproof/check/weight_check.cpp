@@ -15,8 +15,6 @@
 namespace lightproof {
 namespace {
 
-constexpr std::size_t kBatch = 4096;
-constexpr std::uint64_t kMostCompared = std::uint64_t{1} << 22U;
 /// Of the channels of a coloured weight, as messages say it.
 constexpr std::array kNames = {"red of the weight", "green of the weight", "blue of the weight"};
 
@@ -31,20 +29,13 @@ class WeightCheck {
         tolerance_(tolerance + 2.0 * dump.rounding()) {}
 
   void set(TestRecord& record) const {
-    std::vector<DumpedSample> samples(kBatch);
-    std::vector<SampleWeight> weights(kBatch);
-    const std::uint64_t blocks = (dump_->count() + kBatch - 1) / kBatch;
-    const std::uint64_t step = std::max<std::uint64_t>(1, blocks * kBatch / kMostCompared);
+    std::vector<SampleWeight> weights(kSampleBlock);
     std::uint64_t off = 0;
     record.samples = 0;
-    for (std::uint64_t number = 0; number < blocks; number += step) {
-      const std::uint64_t first = number * kBatch;
-      const auto size =
-          static_cast<std::size_t>(std::min<std::uint64_t>(kBatch, dump_->count() - first));
-      dump_->read(first, std::span(samples).first(size));
-      dump_->read_weights(first, std::span(weights).first(size));
-      record.samples += size;
-      for (std::size_t i = 0; i < size; ++i) {
+    visit_spread(*dump_, [&](std::uint64_t first, std::span<const DumpedSample> samples) {
+      dump_->read_weights(first, std::span(weights).first(samples.size()));
+      record.samples += samples.size();
+      for (std::size_t i = 0; i < samples.size(); ++i) {
         if (!is_usable(samples[i], true)) continue;
         const Misfit found = misfit_of(samples[i], weights[i]);
         if (found.error <= tolerance_) continue;  // false for NaN
@@ -57,7 +48,7 @@ class WeightCheck {
             first + i, dump_->has_coloured_weights() ? kNames[found.channel] : "weight",
             weights[i][found.channel], found.expected);
       }
-    }
+    });
     record.statistic = static_cast<double>(off);
     if (off == 0) return;
     record.outcome = Outcome::reject;
