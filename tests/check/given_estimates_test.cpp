@@ -6,9 +6,11 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -185,6 +187,20 @@ TEST(GivenEstimates, OfWrongDensitiesAreRejectedAndNamed) {
   }
 }
 
+TEST(GivenEstimates, OfFaultyRowsHaveTheirShareOfAllRows) {
+  const auto share = [](int every) {
+    const Draw draw = changed(uniform, [every, n = 0](Drawn& drawn) mutable {
+      if (n++ % every == 0) drawn.pdf = 0.0;
+    });
+    const TestRecord record = judged(written(draw, 20'000)).tests.front();
+    EXPECT_EQ(record.test, TestId::in_domain);
+    EXPECT_EQ(record.samples, 20'000U);
+    return record.effect;
+  };
+  EXPECT_EQ(share(1), 1.0);
+  EXPECT_EQ(share(4), 0.25);
+}
+
 TEST(GivenEstimates, OfADensityOfOtherSamplesAreRejected) {
   // The samples of density A with the densities of C at their places.
   const Alias other(sky(), {DensitySpace::sine_weighted});
@@ -303,6 +319,34 @@ TEST(GivenEstimates, OfWeightsThatAreNotLightOverPdfNowAndThenAreRejectedByThatC
   EXPECT_THAT(found_by(found, Outcome::reject),
               testing::AllOf(HasSubstr("weight is L/pdf: 300 weights are off"),
                              testing::Not(HasSubstr("given weights"))));
+}
+
+TEST(GivenEstimates, OfAColouredWeightThatIsOffAreNamedWithTheChannelAndItsNumbers) {
+  constexpr std::array kChannels = {"red", "green", "blue"};
+  for (std::size_t channel = 0; channel < kChannels.size(); ++channel) {
+    double given = 0.0;
+    double right = 0.0;
+    const auto change = [&](std::vector<double>& weights, std::size_t i) {
+      if (i != 77) return;
+      right = weights[channel];
+      weights[channel] *= 3.0;
+      given = weights[channel];
+    };
+    const EstimateFindings found = judged(weighted(true, true, change), false);
+    const std::string words = found_by(found, Outcome::reject);
+    const std::string before =
+        fmt::format("sample 77, counted from 0: {} of the weight ", kChannels[channel]);
+    ASSERT_THAT(words, HasSubstr(before));
+    std::istringstream rest(words.substr(words.find(before) + before.size()));
+    std::string word;
+    double said = 0.0;
+    double expected = 0.0;
+    rest >> said >> word >> word >> word >> expected;
+    // Six digits in the message, and floats in the file.
+    constexpr double kRounded = 5e-6 + 2.0 * 0x1p-24;
+    EXPECT_NEAR(said / given, 1.0, kRounded) << words;
+    EXPECT_NEAR(expected / right, 1.0, kRounded) << words;
+  }
 }
 
 TEST(GivenEstimates, OfColouredWeightsWithSwappedChannelsAreRejected) {

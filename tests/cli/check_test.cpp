@@ -123,9 +123,11 @@ TEST_F(CheckCommand, ReadsTheStandardInputAndText) {
   text.close();
   EXPECT_EQ(check(path("a.csv"), {"--density", "B"}).exit_code, 0);
   const std::string script =
-      "\"$0\" check - --format csv --density B --map constant --size 16x8 < " + path("a.csv");
-  const Command command = {{"/bin/sh", "-c", script, program()}};
-  EXPECT_EQ(run(command).exit_code, 0);
+      "\"$0\" check - --density B --map constant --size 16x8 < " + path("a.csv");
+  for (const char* format : {"", " --format csv"}) {
+    const Command command = {{"/bin/sh", "-c", script + format, program()}};
+    EXPECT_EQ(run(command).exit_code, 0) << format;
+  }
 }
 
 TEST_F(CheckCommand, RefusesWhatItCannotRead) {
@@ -175,6 +177,19 @@ TEST_F(CheckCommand, JudgesDirectionsAgainstATargetWithoutAMap) {
   EXPECT_EQ(lightproof({"check", dump}).exit_code, 0);
   // A map on the command line stands against the side-car's target.
   EXPECT_EQ(check(dump, {"--density", "B"}).exit_code, 0);
+}
+
+TEST_F(CheckCommand, TakesWhatAnOptionSaysOfTheDensityAgainstASideCar) {
+  const std::string dump = raw("a.f32", uniform_samples(kEnough));
+  std::ofstream(dump + ".json") << R"({"columns": ["x", "y", "z", "pdf"], "density": "C"})";
+  const Finished none = check(dump, {"--target", "none"});
+  EXPECT_EQ(none.exit_code, 0) << none.out << none.err;
+  const Finished uniform = lightproof({"check", dump, "--target", "uniform"});
+  EXPECT_EQ(uniform.exit_code, 0) << uniform.out << uniform.err;
+  std::ofstream(dump + ".json") << R"({"columns": ["x", "y", "z", "pdf"], "target": "none"})";
+  const Finished declared = check(dump, {"--density", "B"});
+  EXPECT_EQ(declared.exit_code, 0) << declared.out << declared.err;
+  EXPECT_THAT(declared.out, testing::Not(HasSubstr("solid angle by 1/pdf")));
 }
 
 TEST_F(CheckCommand, JudgesTheGivenPdfOfASamplerWhoseDensityIsItsOwnAffair) {
@@ -232,6 +247,55 @@ TEST_F(CheckCommand, JudgesDensitiesOnAGrid) {
   EXPECT_THAT(wrong.out, AllOf(HasSubstr("pdf of a grid of directions"),
                                HasSubstr("pdf of a grid integrates to 1")));
   expect_valid("gate.schema.json", path("a.json"));
+}
+
+TEST_F(CheckCommand, HoldsDensitiesOnAGridAgainstTheSamplesWhereNoneIsDeclared) {
+  const std::string dump = raw("a.f32", uniform_samples(kEnough));
+  const auto with_grid = [&](double of_upper, double of_lower) {
+    std::ofstream text(path("grid.csv"));
+    text << "s,t,pdf\n";
+    text.precision(9);
+    for (int row = 0; row < 16; ++row) {
+      for (int column = 0; column < 32; ++column) {
+        text << (column + 0.5) / 32 << ',' << (row + 0.5) / 16 << ','
+             << (row < 8 ? of_lower : of_upper) / kSphere << '\n';
+      }
+    }
+    text.close();
+    return check(dump, {"--columns", "x,y,z,pdf", "--target", "none", "--densities",
+                        path("grid.csv"), "--json", path("a.json")});
+  };
+  const Finished right = with_grid(1.0, 1.0);
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  expect_valid("gate.schema.json", path("a.json"));
+  // It integrates to 1.
+  const Finished wrong = with_grid(1.5, 0.5);
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.out;
+  EXPECT_THAT(wrong.out, AllOf(HasSubstr("bins of the pdf of a grid"),
+                               testing::Not(HasSubstr("pdf of a grid integrates to 1"))));
+  expect_valid("gate.schema.json", path("a.json"));
+}
+
+TEST_F(CheckCommand, NamesTheFileOfDensitiesThatItRefuses) {
+  const std::string dump = raw("a.f32", uniform_samples(16));
+  const auto refusal = [&](const std::string& name, std::string_view bytes) {
+    write_bytes(path(name), bytes);
+    const Finished finished =
+        check(dump, {"--columns", "x,y,z,pdf", "--density", "B", "--densities", path(name)});
+    EXPECT_EQ(finished.exit_code, 2) << finished.out;
+    return finished.err;
+  };
+  EXPECT_THAT(refusal("raw.f32", bytes_of(std::vector<float>{0.5F, 0.5F, 0.08F})),
+              AllOf(HasSubstr("raw.f32: "), HasSubstr("densities are taken from an .npy file")));
+  EXPECT_THAT(refusal("two.csv", "0.5,0.5\n"),
+              AllOf(HasSubstr("two.csv: "), HasSubstr("three numbers are s,t,pdf")));
+  EXPECT_THAT(refusal("named.csv", "s,t,p\n0.5,0.5,0.08\n"),
+              AllOf(HasSubstr("named.csv: "), HasSubstr("no column is called \"p\"")));
+  EXPECT_THAT(refusal("none.csv", "s,t\n0.5,0.5\n"),
+              AllOf(HasSubstr("none.csv: "), HasSubstr("needs a column pdf")));
+  write_bytes(path("narrow.csv"), "1,2\n");
+  EXPECT_THAT(check(path("narrow.csv"), {}).err,
+              AllOf(HasSubstr("narrow.csv: "), HasSubstr("are no directions")));
 }
 
 TEST_F(CheckCommand, TakesTheLargestChannelAsLuminance) {

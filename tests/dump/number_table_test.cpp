@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 
 #include "lightproof/core/error.h"
 #include "tests/dump/files.h"
@@ -12,6 +13,8 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class NumberTableFile : public testing::Test {
  protected:
@@ -78,6 +81,25 @@ TEST_F(NumberTableFile, OfTextTakesNamesSeparatorsAndComments) {
   EXPECT_TRUE(std::isnan(numbers[7]));
 }
 
+TEST_F(NumberTableFile, OfTextIsKnownByItsBytesWhereTheExtensionSaysNothing) {
+  for (const char* name : {"a.dat", "a", "A.CSV", "a.Txt"}) {
+    const NumberTable table(write(name, "x,y,z,pdf\r\n1,2,3,4\n5,6,7,8\n"), std::nullopt, 4);
+    EXPECT_EQ(table.rows(), 2U) << name;
+    EXPECT_THAT(all_of(table), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8)) << name;
+  }
+}
+
+TEST_F(NumberTableFile, OfNumbersIsRawWhereTheExtensionSaysNothingOrThatItIs) {
+  const std::vector<float> floats = {0.5F, -1.0F};
+  const std::vector<double> doubles = {0.5, -1.0};
+  EXPECT_THAT(all_of(NumberTable(write("a.dat", test::bytes_of(floats)), std::nullopt, 2)),
+              ElementsAre(0.5, -1.0));
+  EXPECT_THAT(all_of(NumberTable(write("a.F64", test::bytes_of(doubles)), std::nullopt, 2)),
+              ElementsAre(0.5, -1.0));
+  // Floats whose bytes are letters.
+  EXPECT_EQ(NumberTable(write("a.f32", "ABCDEFGH"), std::nullopt, 2).rows(), 1U);
+}
+
 TEST_F(NumberTableFile, OfTextIsAsExactAsItsDecimals) {
   const NumberTable three(write("a.csv", "0.125,0.5\n"), std::nullopt, 0);
   EXPECT_DOUBLE_EQ(three.rounding(), 0.5e-3);
@@ -90,6 +112,16 @@ TEST_F(NumberTableFile, IsRefusedByTheRowWhereItIsCutOff) {
   EXPECT_THAT(refusal(write("a.f32", test::bytes_of(five)), 2), HasSubstr("ends inside row 2"));
   EXPECT_THAT(refusal(write("b.npy", test::npy_header("<f4", "(3, 2)") + test::bytes_of(five))),
               HasSubstr("it ends in row 2"));
+}
+
+// numpy.save, called twice with one open file, writes one array behind the other.
+TEST_F(NumberTableFile, OfNumPyIsRefusedForWhatLiesBehindTheAnnouncedRows) {
+  const std::string array =
+      test::npy_header("<f4", "(2, 2)") + test::bytes_of(std::vector<float>{1, 2, 3, 4});
+  EXPECT_EQ(refusal(write("a.npy", array)), "accepted");
+  EXPECT_THAT(refusal(write("b.npy", array + array)),
+              HasSubstr("b.npy: 2 rows of 2 numbers are announced, and 144 bytes lie behind"));
+  EXPECT_THAT(refusal(write("c.npy", array + '\0')), HasSubstr("1 bytes lie behind"));
 }
 
 TEST_F(NumberTableFile, IsRefusedByTheLineThatIsWrong) {
@@ -121,8 +153,14 @@ TEST_F(NumberTableFile, OfTextTakesExponentsOfAnySize) {
   const NumberTable table(
       write("a.csv", "1e-2147483648,1e2147483647,1e-99999999999999999999,0.25e+3\n"), std::nullopt,
       0);
-  EXPECT_THAT(all_of(table), ElementsAre(0.0, testing::_, testing::_, 250.0));
+  EXPECT_THAT(all_of(table), ElementsAre(0.0, kInfinity, 0.0, 250.0));
   EXPECT_EQ(table.rounding(), 0.5e-16);
+}
+
+TEST_F(NumberTableFile, OfTextHasWhatIsTooLargeForADoubleAsAnInfinity) {
+  const NumberTable table(write("a.csv", "1e400,-1e400,+1e400,1e-400,-12.5e-400\n"), std::nullopt,
+                          0);
+  EXPECT_THAT(all_of(table), ElementsAre(kInfinity, -kInfinity, kInfinity, 0.0, 0.0));
 }
 
 TEST_F(NumberTableFile, OfTextWithoutANumberHasNoRows) {

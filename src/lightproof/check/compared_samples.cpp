@@ -31,7 +31,7 @@ void visit_around(Direction d, double rounding, const std::function<void(Directi
 }
 
 void visit_spread(const SampleDump& dump,
-                  const std::function<void(std::span<const DumpedSample>)>& visit) {
+                  const std::function<void(std::uint64_t, std::span<const DumpedSample>)>& visit) {
   std::vector<DumpedSample> block(kSampleBlock);
   const std::uint64_t blocks = (dump.count() + kSampleBlock - 1) / kSampleBlock;
   const std::uint64_t step = std::max<std::uint64_t>(1, blocks * kSampleBlock / kMostCompared);
@@ -40,7 +40,7 @@ void visit_spread(const SampleDump& dump,
     const auto count =
         static_cast<std::size_t>(std::min<std::uint64_t>(kSampleBlock, dump.count() - first));
     dump.read(first, std::span(block).first(count));
-    visit(std::span<const DumpedSample>(block).first(count));
+    visit(first, std::span<const DumpedSample>(block).first(count));
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 
@@ -17,9 +18,10 @@ void visit_around(Direction d, double rounding, const std::function<void(Directi
 /// The most samples of a block.
 inline constexpr std::size_t kSampleBlock = 4096;
 
-/// Calls visit(block) for up to 2^22 samples, in blocks that are spread over the dump.
+/// Calls visit(first, block) for up to 2^22 samples, in blocks that are spread over the dump;
+/// `first` is the number of a block's first sample.
 void visit_spread(const SampleDump& dump,
-                  const std::function<void(std::span<const DumpedSample>)>& visit);
+                  const std::function<void(std::uint64_t, std::span<const DumpedSample>)>& visit);
 
 /// A comparison of densities at samples.
 class ComparedSamples {

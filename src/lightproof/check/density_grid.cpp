@@ -65,6 +65,7 @@ void set_cells(DensityGrid& grid) {
     const SquarePoint at = square_from_direction(point.given.direction);
     point.solid_angle = texel_solid_angle(extent, cell_of(at.t, extent.height));
   }
+  grid.cells = extent;
   grid.why_no_cells.clear();
 }
 
@@ -156,6 +157,8 @@ DensityGrid density_grid_of(const EnvironmentMap& picture, DensityMeasure measur
   const Extent extent = picture.radiance.extent();
   DensityGrid grid;
   grid.rounding = 0x1p-50;
+  grid.cells = extent;
+  grid.mapping = picture.mapping;
   for (int y = 0; y < extent.height; ++y) {
     for (int x = 0; x < extent.width; ++x) {
       const SquarePoint at = {(x + 0.5) / extent.width, (y + 0.5) / extent.height};

@@ -25,6 +25,8 @@ struct DensityGrid {
   double rounding = 0.0;  ///< of directions, in radians
   /// Empty if the cells tile the sphere; else why the densities cannot be integrated.
   std::string why_no_cells;
+  Extent cells = {};     ///< over the square of `mapping`, if they tile the sphere
+  Mapping mapping = {};  ///< how that square lies on the sphere
 };
 
 /// The rows of a table. Its cells are those of a grid over (s,t) of Lightproof's own frame, if the

@@ -129,7 +129,7 @@ DensityComparison compare_direction_density(const SampleDump& dump, const Direct
                                             const Expectation& expectation, double tolerance) {
   const DirectionPlacement place(target.distribution, expectation, dump.rounding());
   ComparedSamples compared(expectation.mapping);
-  visit_spread(dump, [&](std::span<const DumpedSample> samples) {
+  visit_spread(dump, [&](std::uint64_t /*first*/, std::span<const DumpedSample> samples) {
     for (const DumpedSample& sample : samples) {
       const TexelSample placed = place(sample);
       if (!place.can_be_drawn(placed)) continue;

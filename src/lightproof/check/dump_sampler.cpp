@@ -48,7 +48,7 @@ DensityComparison compare_dumped_density(const SampleDump& dump, const Expectati
   ComparedSamples compared(expectation.mapping);
   LatLongPositions positions(kSampleBlock);
   std::vector<TexelSample> placed(kSampleBlock);
-  visit_spread(dump, [&](std::span<const DumpedSample> samples) {
+  visit_spread(dump, [&](std::uint64_t /*first*/, std::span<const DumpedSample> samples) {
     located(samples, std::span(placed).first(samples.size()), positions);
     for (const TexelSample& sample : std::span(placed).first(samples.size())) {
       if (!std::isfinite(sample.at.s)) continue;

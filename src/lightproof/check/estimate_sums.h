@@ -81,7 +81,9 @@ class EstimateSums {
 
   const std::vector<Quantity>& quantities() const { return quantities_; }
   const Blocks& blocks() const { return blocks_; }
+  std::uint64_t count() const { return first_ + rest_; }
   std::uint64_t rest() const { return rest_; }
+  /// Of all samples, the first fifth too.
   const FaultyRows& faulty() const { return faulty_; }
   const FaultyRows& faulty_weights() const { return faulty_weights_; }
 

@@ -254,8 +254,10 @@ class Judge {
     TestRecord result = record(TestId::in_domain);
     const FaultyRows& faulty = estimates_->faulty();
     result.statistic = static_cast<double>(faulty.count);
+    // Of faulty rows the first fifth counts as well.
+    result.samples = estimates_->count();
     result.effect = static_cast<double>(faulty.count) /
-                    static_cast<double>(std::max<std::uint64_t>(1, estimates_->rest()));
+                    static_cast<double>(std::max<std::uint64_t>(1, estimates_->count()));
     if (faulty.count > 0) {
       result.outcome = Outcome::reject;
       result.detail = fmt::format(

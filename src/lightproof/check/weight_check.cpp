@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -14,8 +15,8 @@
 namespace lightproof {
 namespace {
 
-constexpr std::size_t kBatch = 4096;
-constexpr std::uint64_t kMostCompared = std::uint64_t{1} << 22U;
+/// Of the channels of a coloured weight, as messages say it.
+constexpr std::array kNames = {"red of the weight", "green of the weight", "blue of the weight"};
 
 class WeightCheck {
  public:
@@ -28,32 +29,26 @@ class WeightCheck {
         tolerance_(tolerance + 2.0 * dump.rounding()) {}
 
   void set(TestRecord& record) const {
-    std::vector<DumpedSample> samples(kBatch);
-    std::vector<SampleWeight> weights(kBatch);
-    const std::uint64_t blocks = (dump_->count() + kBatch - 1) / kBatch;
-    const std::uint64_t step = std::max<std::uint64_t>(1, blocks * kBatch / kMostCompared);
+    std::vector<SampleWeight> weights(kSampleBlock);
     std::uint64_t off = 0;
     record.samples = 0;
-    for (std::uint64_t number = 0; number < blocks; number += step) {
-      const std::uint64_t first = number * kBatch;
-      const auto size =
-          static_cast<std::size_t>(std::min<std::uint64_t>(kBatch, dump_->count() - first));
-      dump_->read(first, std::span(samples).first(size));
-      dump_->read_weights(first, std::span(weights).first(size));
-      record.samples += size;
-      for (std::size_t i = 0; i < size; ++i) {
+    visit_spread(*dump_, [&](std::uint64_t first, std::span<const DumpedSample> samples) {
+      dump_->read_weights(first, std::span(weights).first(samples.size()));
+      record.samples += samples.size();
+      for (std::size_t i = 0; i < samples.size(); ++i) {
         if (!is_usable(samples[i], true)) continue;
-        const double error = error_of(samples[i], weights[i]);
-        if (error <= tolerance_) continue;  // false for NaN
+        const Misfit found = misfit_of(samples[i], weights[i]);
+        if (found.error <= tolerance_) continue;  // false for NaN
         ++off;
-        if (off > 1 && !(error > record.effect)) continue;
-        record.effect = error;
+        if (off > 1 && !(found.error > record.effect)) continue;
+        record.effect = found.error;
         record.detail = fmt::format(
-            "the worst: sample {}, counted from 0: weight {:.6g} where "
+            "the worst: sample {}, counted from 0: {} {:.6g} where "
             "L/pdf is {:.6g}",
-            first + i, weights[i][0], expected(samples[i])[0]);
+            first + i, dump_->has_coloured_weights() ? kNames[found.channel] : "weight",
+            weights[i][found.channel], found.expected);
       }
-    }
+    });
     record.statistic = static_cast<double>(off);
     if (off == 0) return;
     record.outcome = Outcome::reject;
@@ -72,29 +67,36 @@ class WeightCheck {
     return {rgb.r, rgb.g, rgb.b};
   }
 
-  SampleWeight expected(const DumpedSample& sample) const {
-    SampleWeight light = light_at(sample.direction);
-    for (double& channel : light) channel /= sample.pdf.value;
-    return light;
-  }
+  /// What is wrong with a weight, in the channel that is off the most.
+  struct Misfit {
+    double error = 0.0;  ///< relative to the largest channel of what is expected
+    std::size_t channel = 0;
+    double expected = 0.0;  ///< of the channel
+  };
 
-  static double distance(const SampleWeight& weight, const SampleWeight& light, double pdf) {
+  static Misfit misfit(const SampleWeight& weight, const SampleWeight& light, double pdf) {
+    Misfit found;
     double most = 0.0;
     double largest = 0.0;
     for (std::size_t c = 0; c < weight.size(); ++c) {
-      most = std::max(most, std::abs(weight[c] - light[c] / pdf));
-      largest = std::max(largest, light[c] / pdf);
-      if (std::isnan(weight[c])) return std::numeric_limits<double>::infinity();
+      const double expected = light[c] / pdf;
+      if (std::isnan(weight[c])) return {std::numeric_limits<double>::infinity(), c, expected};
+      const double distance = std::abs(weight[c] - expected);
+      if (distance > most) found = {0.0, c, expected};
+      most = std::max(most, distance);
+      largest = std::max(largest, expected);
     }
-    return most == 0.0 ? 0.0 : most / largest;
+    if (most > 0.0) found.error = most / largest;
+    return found;
   }
 
   /// By the texel, or one within the rounding of the direction, that fits best.
-  double error_of(const DumpedSample& sample, const SampleWeight& weight) const {
-    double least = distance(weight, light_at(sample.direction), sample.pdf.value);
-    if (least <= tolerance_) return least;
+  Misfit misfit_of(const DumpedSample& sample, const SampleWeight& weight) const {
+    Misfit least = misfit(weight, light_at(sample.direction), sample.pdf.value);
+    if (least.error <= tolerance_) return least;
     visit_around(sample.direction, dump_->rounding(), [&](Direction turned) {
-      least = std::min(least, distance(weight, light_at(turned), sample.pdf.value));
+      const Misfit other = misfit(weight, light_at(turned), sample.pdf.value);
+      if (other.error < least.error) least = other;
     });
     return least;
   }

@@ -5,6 +5,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -20,6 +21,7 @@
 #include "lightproof/check/direction_target.h"
 #include "lightproof/check/dump_test_case.h"
 #include "lightproof/check/given_estimates.h"
+#include "lightproof/check/grid_histogram.h"
 #include "lightproof/check/recognition.h"
 #include "lightproof/core/error.h"
 #include "lightproof/core/parallel.h"
@@ -118,21 +120,29 @@ TargetDensity target_of(const DumpDescription& said) {
       fmt::format("--density: \"{}\" is none of {}", terminal_text(said.density), known));
 }
 
+/// Calls a function, in whose errors the file is named.
+template <class Function>
+auto named_in_errors(const std::string& file, const Function& function) {
+  try {
+    return function();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file, error.what()));
+  }
+}
+
 std::shared_ptr<const SampleDump> open_dump(const std::string& file, const DumpDescription& said) {
   const std::vector<std::string> named =
       said.columns.empty() ? std::vector<std::string>() : names_in(said.columns);
   NumberTable table(file, format_of(said.format), named.size());
-  std::vector<std::string> names = named;
-  if (names.empty()) {
-    names = table.names().empty() ? default_columns(table.columns()) : table.names();
-  }
-  try {
+  return named_in_errors(file, [&] {
+    std::vector<std::string> names = named;
+    if (names.empty()) {
+      names = table.names().empty() ? default_columns(table.columns()) : table.names();
+    }
     const SampleColumns columns = sample_columns(names);
     return std::make_shared<const SampleDump>(std::move(table), columns,
                                               convention_of(said, columns.are_directions()));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", file, error.what()));
-  }
+  });
 }
 
 std::string name_of(const std::string& dump) {
@@ -242,27 +252,41 @@ void add_estimates(GateResult& result, const SampleDump& dump, const Declared& d
   std::ranges::move(found.rejections, std::back_inserter(result.rejections));
 }
 
+/// What rows without names hold in a table of densities.
+std::vector<std::string> columns_of_densities(std::size_t count) {
+  if (count == 3) return {"s", "t", "pdf"};
+  if (count == 4) return {"x", "y", "z", "pdf"};
+  throw InputError(
+      fmt::format("rows of {} numbers without names are no densities: three numbers are s,t,pdf, "
+                  "four are x,y,z,pdf; the first line of a text may name others",
+                  count));
+}
+
 /// What a file of densities holds: a picture, or a table in the conventions of the dump.
 DensityGrid read_densities(const Options& options, const DumpDescription& said) {
   const std::string& file = options.densities;
-  const std::string extension = std::filesystem::path(file).extension().string();
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (std::ranges::count(kPictures, extension) != 0) {
     ReadOptions read{.any_aspect = true};
     read.preset = preset_named(said.preset);
     return density_grid_of(read_environment_map(file, read), measure_named(said.measure));
   }
   NumberTable table(file, std::nullopt, 0);
-  std::vector<std::string> names = table.names();
-  if (names.empty() && table.columns() == 3) names = {"s", "t", "pdf"};
-  if (names.empty()) names = default_columns(table.columns());
-  const SampleColumns columns = sample_columns(names);
-  return density_grid_of(
-      SampleDump(std::move(table), columns, convention_of(said, columns.are_directions())));
+  return named_in_errors(file, [&] {
+    std::vector<std::string> names = table.names();
+    if (names.empty()) names = columns_of_densities(table.columns());
+    const SampleColumns columns = sample_columns(names);
+    return density_grid_of(
+        SampleDump(std::move(table), columns, convention_of(said, columns.are_directions())));
+  });
 }
 
-/// Adds the tests of densities on a grid of directions.
-void add_densities(GateResult& result, const Declared& declared, const DumpClaim& claim,
-                   const DensityGrid& grid, const TestRecord& record) {
+/// Adds the tests of densities on a grid of directions. Where no density is declared they are held
+/// against the samples, with half of the run's error probability.
+void add_densities(GateResult& result, const SampleDump& dump, const Declared& declared,
+                   const DumpClaim& claim, const DensityGrid& grid, const TestRecord& record) {
   DeclaredDensity density;
   if (declared.directions) {
     density = declared_density_of(*declared.directions);
@@ -271,6 +295,9 @@ void add_densities(GateResult& result, const Declared& declared, const DumpClaim
         texel_expectation_of(declared.map(), on_map(claim.target, declared.map()))));
   }
   std::vector<TestRecord> found = judge_density_grid(grid, density, claim.pdf_tolerance, record);
+  if (!density) {
+    found.push_back(judge_grid_histogram(grid, dump, 0.5 * result.family_alpha, record));
+  }
   const bool is_rejected = std::ranges::any_of(
       found, [](const TestRecord& test) { return test.outcome == Outcome::reject; });
   std::ranges::move(found, std::back_inserter(result.tests));
@@ -279,7 +306,8 @@ void add_densities(GateResult& result, const Declared& declared, const DumpClaim
                                record.density_space,
                                record.map,
                                "pdf-mismatch",
-                               "the densities on the grid are not the declared ones",
+                               density ? "the densities on the grid are not the declared ones"
+                                       : "the densities on the grid are not those of the samples",
                                Grid<double>(kGateBins),
                                {},
                                ""});
@@ -305,7 +333,7 @@ Judged judge(const std::shared_ptr<const SampleDump>& dump, const Declared& decl
   judged.result.family_alpha = alpha;
   if (judges_estimates) {
     add_estimates(judged.result, *dump, declared, claim,
-                  declared.has_density ? 0.5 * alpha : alpha);
+                  declared.has_density || densities ? 0.5 * alpha : alpha);
   }
   if (densities) {
     TestRecord record;
@@ -316,7 +344,7 @@ Judged judge(const std::shared_ptr<const SampleDump>& dump, const Declared& decl
       record.density_space = to_string(claim.target.density_space);
     }
     record.seed = options.seed;
-    add_densities(judged.result, declared, claim, *densities, record);
+    add_densities(judged.result, *dump, declared, claim, *densities, record);
   }
   judged.result.replay = text_of(options.command_line);
   judged.verdict.overall = overall_outcome(judged.result, false);
@@ -332,6 +360,9 @@ int run(Options options) {
   DumpDescription of_side_car = read_side_car(options.dump).value_or(DumpDescription{});
   // A map of the command line stands against what else the side-car says that samples come from.
   if (!options.maps.empty() && of_side_car.target != kNoTarget) of_side_car.target.clear();
+  // So does a target against its density, which belongs to a map, and a density against its none.
+  if (!options.said.target.empty()) of_side_car.density.clear();
+  if (!options.said.density.empty() && of_side_car.target == kNoTarget) of_side_car.target.clear();
   DumpDescription said = with_side_car(options.said, of_side_car);
   if (!said.luminance.empty()) options.luminance = said.luminance;
   const Declared declared = declared_by(options, said);
@@ -410,11 +441,11 @@ void add_dump_options(CLI::App& command, Options& options) {
   command.add_flag("--sequential", options.is_sequential,
                    "test the rows as they come, by evidence that is valid whenever one stops, and "
                    "stop as soon as they are known to be wrong");
-  add_path(
-      command, "--densities", options.densities,
-      "densities of the sampler on a grid of directions: a table of x,y,z,pdf or s,t,pdf in the "
-      "dump's axes and measure, or a picture (.exr, .hdr) whose preset and measure are "
-      "the samples': compared with the declared density, and integrated");
+  add_path(command, "--densities", options.densities,
+           "densities of the sampler on a grid of directions: a table (.npy, .csv) of x,y,z,pdf or "
+           "s,t,pdf in the dump's axes and measure, or a picture (.exr, .hdr) whose preset and "
+           "measure are the samples': compared with the declared density (without one: with where "
+           "samples lie), and integrated");
   add_must_detect(command, options.gate.must_detect);
 }
 

@@ -43,22 +43,28 @@ class OpenFile {
   throw InputError(fmt::format("{}: {}", file.string(), reason));
 }
 
-/// What is mapped now, for a signal handler: a file that became shorter while it is read ends the
-/// program (SIGBUS), with a message of the file instead of none.
+/// A file that is mapped now, for a signal handler: one that became shorter while it is read ends
+/// the program (SIGBUS), with a message of the file instead of none.
 struct Mapped {
-  std::atomic<const std::byte*> begin = nullptr;
+  std::atomic<bool> is_taken = false;
+  std::atomic<const std::byte*> begin = nullptr;  ///< set last; null while the others change
   std::atomic<std::size_t> size = 0;
   std::array<char, 4096> message = {};
   std::atomic<std::size_t> length = 0;
+
+  bool holds(const std::byte* at) const {
+    const std::byte* const first = begin;
+    return first != nullptr && std::greater_equal<>()(at, first) && std::less<>()(at, first + size);
+  }
 };
-Mapped mapped_now;
+/// More than a command maps at once.
+std::array<Mapped, 16> mapped_now;
 
 void on_missing_page(int signal, siginfo_t* info, void* /*context*/) {
   const auto* const at = static_cast<const std::byte*>(info->si_addr);
-  const std::byte* const begin = mapped_now.begin;
-  if (begin != nullptr && std::greater_equal<>()(at, begin) &&
-      std::less<>()(at, begin + mapped_now.size)) {
-    const ssize_t written = ::write(STDERR_FILENO, mapped_now.message.data(), mapped_now.length);
+  for (const Mapped& mapped : mapped_now) {
+    if (!mapped.holds(at)) continue;
+    const ssize_t written = ::write(STDERR_FILENO, mapped.message.data(), mapped.length);
     static_cast<void>(written);
     ::_exit(kInputFailed);
   }
@@ -68,18 +74,29 @@ void on_missing_page(int signal, siginfo_t* info, void* /*context*/) {
 
 void name_missing_pages_of(const std::filesystem::path& file, const std::byte* data,
                            std::size_t size) {
+  const auto free = std::ranges::find_if(
+      mapped_now, [](Mapped& mapped) { return !mapped.is_taken.exchange(true); });
+  if (free == mapped_now.end()) return;
   const std::string text =
       terminal_text(
           fmt::format("lightproof: {}: has become shorter while it was read", file.string())) +
       "\n";
-  mapped_now.begin = nullptr;
-  mapped_now.length = text.copy(mapped_now.message.data(), mapped_now.message.size());
-  mapped_now.size = size;
-  mapped_now.begin = data;
+  free->length = text.copy(free->message.data(), free->message.size());
+  free->size = size;
+  free->begin = data;
   struct sigaction action = {};
   action.sa_sigaction = on_missing_page;
   action.sa_flags = SA_SIGINFO;
   ::sigaction(SIGBUS, &action, nullptr);
+}
+
+void forget_missing_pages_of(const std::byte* data) {
+  for (Mapped& mapped : mapped_now) {
+    if (mapped.begin != data) continue;
+    mapped.begin = nullptr;
+    mapped.is_taken = false;
+    return;
+  }
 }
 
 }  // namespace
@@ -104,7 +121,7 @@ MappedFile::MappedFile(const std::filesystem::path& file) {
 
 MappedFile::~MappedFile() {
   if (data_ == nullptr) return;
-  if (mapped_now.begin == data_) mapped_now.begin = nullptr;
+  forget_missing_pages_of(data_);
   ::munmap(const_cast<std::byte*>(data_), size_);
 }
 

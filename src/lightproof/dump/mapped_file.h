@@ -9,7 +9,7 @@ namespace lightproof {
 
 /// A file that is mapped for reading. Its bytes may be read by many threads. If another program
 /// makes the file shorter meanwhile, the one that reads it ends with exit code 2 and a message that
-/// names the file: of several that are mapped, the last one.
+/// names the file; of more than 16 that are mapped at once, of the first 16.
 class MappedFile {
  public:
   /// Throws InputError if the file cannot be read, or is no regular file.

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <cstring>
 
@@ -15,6 +17,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kStandardInput = "-";
+/// As many bytes tell a text from raw numbers.
+constexpr std::size_t kTold = std::size_t{1} << 16U;
 
 /// Copies the standard input to a file.
 void keep_standard_input(const fs::path& file) {
@@ -34,12 +38,24 @@ void keep_standard_input(const fs::path& file) {
   if (std::ferror(stdin) != 0) throw InputError("the standard input cannot be read");
 }
 
+/// Whether bytes are printable ASCII and white space, which numbers of 32 bits that are no letters
+/// by chance are not.
+bool is_text(std::span<const std::byte> bytes) {
+  return std::ranges::all_of(bytes.first(std::min(bytes.size(), kTold)), [](std::byte byte) {
+    const auto c = std::to_integer<unsigned char>(byte);
+    return (c >= ' ' && c <= '~') || (c >= '\t' && c <= '\r');
+  });
+}
+
 NumberFormat format_of(const std::string& file, std::span<const std::byte> bytes) {
   if (is_npy(bytes)) return NumberFormat::npy;
-  const std::string extension = fs::path(file).extension().string();
+  std::string extension = fs::path(file).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension == ".csv" || extension == ".txt" || extension == ".tsv") return NumberFormat::text;
   if (extension == ".f64") return NumberFormat::doubles;
-  return NumberFormat::floats;
+  if (extension == ".f32") return NumberFormat::floats;
+  return is_text(bytes) ? NumberFormat::text : NumberFormat::floats;
 }
 
 template <class Number>
@@ -102,13 +118,21 @@ NumberTable::NumberTable(const std::string& file, std::optional<NumberFormat> fo
                     "row {} (counted from 0)",
                     name, rows_, columns_, left / row_bytes));
   }
+  if (const std::uint64_t behind = left - rows_ * row_bytes; behind != 0) {
+    throw InputError(
+        fmt::format("{}: {} rows of {} numbers are announced, and {} bytes lie behind the last one "
+                    "(a second array?): a file holds the samples of one array, as numpy.save "
+                    "writes it",
+                    name, rows_, columns_, behind));
+  }
 }
 
 void NumberTable::open_raw(const std::string& name, std::size_t columns) {
   if (columns == 0) {
     throw InputError(name +
-                     ": raw numbers do not say how many make a row: name them by --columns, "
-                     "as in --columns x,y,z,pdf");
+                     ": raw numbers do not say how many make a row: those of samples are named by "
+                     "--columns, as in --columns x,y,z,pdf; densities are taken from an .npy file, "
+                     "a text (.csv) or a picture");
   }
   columns_ = columns;
   const std::uint64_t row_bytes = columns_ * number_size_;

@@ -28,9 +28,11 @@ enum class NumberFormat {
 class NumberTable {
  public:
   /// Opens a file; "-" is the standard input, whose bytes are kept in a temporary file. Without a
-  /// format it is told by the first bytes (.npy) and the extension (.csv, .txt, .f32, .f64; else
-  /// raw floats). `columns` is how many a row has, where the file does not say: 0 if it must.
-  /// Throws InputError if the file cannot be read, is cut off inside a row, or says otherwise.
+  /// format it is told by the first bytes (.npy), by the extension in any case (.csv, .txt, .tsv,
+  /// .f32, .f64), and else by whether the first bytes are those of a text; what is not is raw
+  /// floats. `columns` is how many a row has, where the file does not say: 0 if it must.
+  /// Throws InputError if the file cannot be read, is cut off inside a row, holds more than the
+  /// rows that it announces, or says otherwise.
   NumberTable(const std::string& file, std::optional<NumberFormat> format, std::size_t columns);
 
   std::uint64_t rows() const { return rows_; }

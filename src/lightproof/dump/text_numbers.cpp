@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -82,8 +83,11 @@ bool parse(std::string_view word, double& number) {
   if (word.starts_with('+')) word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
   if (end != word.data() + word.size()) return false;
-  // What is too large or too small for a double is an infinity or a zero, which is judged later.
-  return error == std::errc() || error == std::errc::result_out_of_range;
+  if (error != std::errc::result_out_of_range) return error == std::errc();
+  // What is too large or too small for a double is an infinity or a zero, which is judged later;
+  // from_chars leaves the number as it was.
+  number = std::strtod(std::string(word).c_str(), nullptr);
+  return true;
 }
 
 /// How many places after the decimal point the last digit of a number stands: 3 of "0.125", 8 of

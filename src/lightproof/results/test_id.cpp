@@ -118,6 +118,9 @@ constexpr std::array kTests = {
                     "densities on a grid, against the declared ones", false, relative_pdf},
     TestDescription{grid_integral, Oracle::check, "pdf of a grid integrates to 1",
                     "densities on a grid times the solid angles of its cells", false, difference},
+    TestDescription{grid_bins, Oracle::self, "bins of the pdf of a grid",
+                    "samples in up to 16 x 32 blocks of cells, against the densities of a grid",
+                    true, worst_cell},
 };
 
 constexpr bool is_in_order() {
@@ -127,7 +130,7 @@ constexpr bool is_in_order() {
   return true;
 }
 static_assert(is_in_order());
-static_assert(kTests.size() == static_cast<std::size_t>(grid_integral) + 1);
+static_assert(kTests.size() == static_cast<std::size_t>(grid_bins) + 1);
 
 }  // namespace
 

@@ -79,13 +79,13 @@ enum class TestId : std::uint8_t {
   weight_is_light,
   grid_density,
   grid_integral,
+  grid_bins,
 };
 
 template <>
 inline constexpr std::size_t kValuesOf<Oracle> = 5;
 template <>
-inline constexpr std::size_t kValuesOf<TestId> = static_cast<std::size_t>(TestId::grid_integral) +
-                                                 1;
+inline constexpr std::size_t kValuesOf<TestId> = static_cast<std::size_t>(TestId::grid_bins) + 1;
 
 /// What the effect of a test measures. Every one is 0 where nothing deviates.
 enum class EffectMeasure : std::uint8_t {
