@@ -42,11 +42,11 @@ TEST_F(Memory, ThatAMapDoesNotFitIntoIsNamed) {
   EXPECT_THAT(names_in(folder_ / ""), IsEmpty());
 }
 
-// 8192 x 4096 texels of 12 bytes are 0.4 GB; of what the gate needs to
-// know of their distribution, 0.27 GB for a number a texel, there are several.
+// 8192 x 4096 texels of 12 bytes are 0.4 GB, and a number a texel is 0.27 GB, of which the gate
+// needs two at once while it finds their distribution.
 TEST_F(Memory, ThatTheDistributionOfAMapDoesNotFitIntoIsNamed) {
   const Finished gate = within(
-      1200, {"gate", "constant", "--size", "8192x4096", "-n", "1024", "-t", "1"}, folder_ / "");
+      800, {"gate", "constant", "--size", "8192x4096", "-n", "1024", "-t", "1"}, folder_ / "");
   EXPECT_EQ(gate.exit_code, kOutOfMemory) << gate.err;
   EXPECT_THAT(gate.err, HasSubstr("distribution of constant (8192x4096)"));
 }
