@@ -32,8 +32,8 @@ PluginLibraries load_plugins(const ChosenPlugins& plugins, std::uint64_t seed);
 std::vector<SamplerUnderTest> samplers_of(const PluginLibraries& libraries,
                                           const std::shared_ptr<PluginNotes>& notes);
 
-/// Adds samplers of plug-ins to others. Throws InputError if two have one name: records tell samplers
-/// by their names.
+/// Adds samplers of plug-ins to others. Throws InputError if two have one name: records tell
+/// samplers by their names.
 void add_plugins(const std::vector<SamplerUnderTest>& plugins,
                  std::vector<SamplerUnderTest>& samplers);
 
