@@ -172,6 +172,16 @@ class Watches {
  private:
   TestRun run_at(RunIndex at) const { return at.in(test_cases_, options_.seed); }
 
+  /// What is rejected keeps what it drew, unless its map is large: it is drawn again then.
+  std::vector<TestRecord> records_of(const TestRun& run, const Expectation& expectation,
+                                     std::optional<DrawnRun>& kept) const {
+    Finding finding = watch(run, expectation, options_, enough_);
+    if (is_any_rejected(finding.records) && !run.test_case->is_large()) {
+      kept = std::move(finding.drawn);
+    }
+    return std::move(finding.records);
+  }
+
   ByRun<std::vector<TestRecord>> watch_all(const Progress& progress) {
     using Shared = std::shared_ptr<const Expectation>;
     using OfRun = std::vector<TestRecord>;
@@ -182,13 +192,8 @@ class Watches {
       groups[at.test_case].prepare = [this, at] { return expectations_.of(at.test_case); };
       groups[at.test_case].cells.push_back(
           {run.key("sequential"), [this, run, &kept](const Shared& expectation) {
-             return with_memory_for_gate(*run.test_case, run.instance->name, [&] {
-               Finding finding = watch(run, *expectation, options_, enough_);
-               if (is_any_rejected(finding.records) && !run.test_case->is_large()) {
-                 kept = std::move(finding.drawn);
-               }
-               return std::move(finding.records);
-             });
+             return with_memory_for_gate(*run.test_case, run.instance->name,
+                                         [&] { return records_of(run, *expectation, kept); });
            }});
     });
     auto results = gather(compute_groups<Shared, OfRun>(groups, communicator_.share, progress,
