@@ -28,11 +28,10 @@ void visit_kernel_row(const Kernel& kernel, const SphereQuadrature& quadrature, 
       if (value.k > 0.0) add(x, node, value);
     });
   };
-  const bool is_adaptive = rule == CellRule::adaptive;
-  const CellNodes smooth = is_adaptive ? CellNodes::middle : CellNodes::gauss;
+  const double margin = rule == CellRule::adaptive ? kMiddleReach * radius : 0.0;
+  const CellNodes smooth = rule == CellRule::gauss ? CellNodes::gauss : CellNodes::middle;
   for (int index = 0; index < quadrature.runs(); ++index) {
     const CellRun run = quadrature.run(index, y);
-    const double margin = is_adaptive ? kMiddleReach * radius : 0.0;
     const bool run_may_have_edge = kernel.straddles(run.centre, run.radius + margin);
     if (is_dark(run_may_have_edge, run.centre)) continue;
     for (int x = run.begin; x < run.end; ++x) {
@@ -44,8 +43,8 @@ void visit_kernel_row(const Kernel& kernel, const SphereQuadrature& quadrature, 
       const Direction centre = quadrature.centre(x, y);
       const bool split = kernel.straddles(centre, radius);
       if (is_dark(split, centre)) continue;
-      const bool is_smooth = is_adaptive && !split && !kernel.straddles(centre, margin);
-      visit_cell(x, split ? CellNodes::edge : is_smooth ? CellNodes::middle : CellNodes::gauss);
+      const bool is_smooth = !split && (margin <= radius || !kernel.straddles(centre, margin));
+      visit_cell(x, split ? CellNodes::edge : is_smooth ? smooth : CellNodes::gauss);
     }
   }
 }

@@ -38,7 +38,7 @@ void add_combined(std::span<const EstimatorInfo* const> asked, const reference::
   }
   if (samplings.empty()) return;
   const auto found = reference::combined_moments(kernel, {&luminance, 1}, samplings,
-                                                 reference::CellRule::adaptive);
+                                                 reference::CellRule::midpoint);
   auto next = found.begin();
   for (const EstimatorInfo* info : asked) {
     if (info->combined) moments[info->name] = (*next++)[0];
@@ -76,7 +76,7 @@ void add_other_densities(const Densities& densities, const reference::Kernel& ke
   std::vector<std::function<double(Direction)>> pdfs;
   for (const auto& [name, pdf] : densities) pdfs.push_back(pdf);
   const auto found =
-      reference::density_moments(kernel, {&luminance, 1}, pdfs, reference::CellRule::adaptive);
+      reference::density_moments(kernel, {&luminance, 1}, pdfs, reference::CellRule::midpoint);
   for (std::size_t i = 0; i < densities.size(); ++i) moments[densities[i].first] = found[i][0];
 }
 
