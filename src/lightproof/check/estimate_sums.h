@@ -83,7 +83,7 @@ class EstimateSums {
   const Blocks& blocks() const { return blocks_; }
   std::uint64_t count() const { return first_ + rest_; }
   std::uint64_t rest() const { return rest_; }
-  /// Of all samples, the first fifth too.
+  /// The rows at fault among all samples, those of the first fifth included.
   const FaultyRows& faulty() const { return faulty_; }
   const FaultyRows& faulty_weights() const { return faulty_weights_; }
 

@@ -39,7 +39,8 @@ double half_differences_on_sphere(const Grid<double>& densities, int x, int y) {
                                 y == height - 1 ? across : densities(x, y + 1));
 }
 
-/// The same on a square whose edges meet elsewhere: a cell beside one may be off by all of it.
+/// Half of the second differences of a density on a square whose edges meet elsewhere: a cell
+/// beside an edge may be off by all of its density.
 double half_differences_on_square(const Grid<double>& densities, int x, int y) {
   const auto [width, height] = densities.extent();
   const double here = densities(x, y);

@@ -15,7 +15,7 @@
 namespace lightproof {
 namespace {
 
-/// Of the channels of a coloured weight, as messages say it.
+/// Names of the channels of a coloured weight in messages.
 constexpr std::array kNames = {"red of the weight", "green of the weight", "blue of the weight"};
 
 class WeightCheck {

@@ -14,7 +14,8 @@ RunDescription describe_run(const CommandLine& line);
 
 /// Version and commit of this program, the command line, and the maps as they were read.
 RunDescription describe_run(const CommonOptions& options, std::span<const EnvironmentMap> maps);
-/// The same of maps that are described already, see RunDescription::maps.
+/// Version and commit of this program, the command line, and maps that are described already, see
+/// RunDescription::maps.
 RunDescription describe_run(const CommonOptions& options, std::vector<std::string> maps);
 
 }  // namespace lightproof::cli

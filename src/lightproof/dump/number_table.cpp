@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kStandardInput = "-";
-/// As many bytes tell a text from raw numbers.
+/// The number of bytes at the start of a file that tell a text from raw numbers.
 constexpr std::size_t kTold = std::size_t{1} << 16U;
 
 /// Copies the standard input to a file.

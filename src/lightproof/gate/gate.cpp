@@ -340,7 +340,7 @@ class TwoStages {
   ByRun<RunState> states_;
   std::atomic<std::size_t> kept_bytes_ = 0;  ///< of draws
 
-  /// Of draws that are kept from one stage to the next.
+  /// The most bytes of draws that are kept from one stage to the next.
   static constexpr std::size_t kMostKeptBytes = std::size_t{1} << 24U;
 };
 
