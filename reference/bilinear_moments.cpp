@@ -211,10 +211,9 @@ std::array<Quarter, 4> quarters_of(const Grid<double>& luminance, int x, int y) 
 
 LightMoments bilinear_light_moments(const Kernel& kernel, const Grid<double>& radiance) {
   const auto [width, height] = radiance.extent();
-  constexpr Extent kLeast = SphereQuadrature::kLeastCells;
   // An even number of cells a texel, so that none has a centre inside.
-  const Extent parts = {2 * ((kLeast.width + 2 * width - 1) / (2 * width)),
-                        2 * ((kLeast.height + 2 * height - 1) / (2 * height))};
+  const Extent halves = SphereQuadrature::cells_per_texel({2 * width, 2 * height});
+  const Extent parts = {2 * halves.width, 2 * halves.height};
   const Extent cells = {width * parts.width, height * parts.height};
   const CellMoments moments(kernel, radiance, cells);
   std::vector<LightMoments> rows(static_cast<std::size_t>(cells.height));

@@ -83,9 +83,7 @@ template <class Sum, class Add>
 std::vector<Sum> sums_over(const Kernel& kernel, std::span<const Grid<double>> radiance,
                            CellRule rule, const Add& add) {
   const Extent extent = radiance.front().extent();
-  constexpr Extent kLeast = SphereQuadrature::kLeastCells;
-  const Extent parts = {(kLeast.width + extent.width - 1) / extent.width,
-                        (kLeast.height + extent.height - 1) / extent.height};
+  const Extent parts = SphereQuadrature::cells_per_texel(extent);
   const SphereQuadrature quadrature({extent.width * parts.width, extent.height * parts.height});
   const auto height = static_cast<std::size_t>(quadrature.extent().height);
   std::vector<std::vector<Sum>> rows(height, std::vector<Sum>(radiance.size()));

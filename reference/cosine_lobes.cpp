@@ -40,7 +40,7 @@ void add_quadrature(Grid<double>& masses, const CosineLobe& lobe) {
   double total = 0.0;
   for (int y = 0; y < own.extent().height; ++y) {
     for (int x = 0; x < own.extent().width; ++x) {
-      quadrature.visit(x, y, CellNodes::gauss, [&](const Node& node) {
+      quadrature.visit({x, y, 0}, CellNodes::gauss, [&](const Node& node) {
         own(x, y) += density(lobe, node.direction) * node.solid_angle;
       });
       total += own(x, y);

@@ -168,9 +168,7 @@ std::vector<LightMoments> light_moments(const Kernel& kernel,
   assert(std::all_of(radiance.begin(), radiance.end(),
                      [&](const auto& grid) { return grid.extent() == extent; }));
   // Large texels are divided first, so that only those parts are split where an edge may run.
-  constexpr Extent kLeast = SphereQuadrature::kLeastCells;
-  const Extent parts = {(kLeast.width + extent.width - 1) / extent.width,
-                        (kLeast.height + extent.height - 1) / extent.height};
+  const Extent parts = SphereQuadrature::cells_per_texel(extent);
   const SphereQuadrature quadrature({extent.width * parts.width, extent.height * parts.height});
   std::vector<Totals> totals;
   for (const auto& grid : radiance) totals.push_back(totals_of(grid, mapping));

@@ -15,17 +15,26 @@ void visit_kernel_row(const Kernel& kernel, const SphereQuadrature& quadrature, 
   // How many times as far as a cell reaches there must be no edge if its middle is to do alone.
   // Lobes are then at least w = 34 cells h wide. Of k ~ r^-n in a lobe's tails, h^2/24 times the
   // Laplacian is n^2/24 (h/r)^2 of k: 6e-4 for GGX, whose n is 4, and less at the peak.
-  constexpr double kMiddleReach = 16.0;
-  const double radius = quadrature.radius();
+  constexpr double kMiddleReach = 8.0;
+  const double radius = quadrature.radius(0);
   const auto is_dark = [&](bool may_have_edge, Direction centre) {
     return !may_have_edge && kernel.is_lit && !kernel.is_lit(centre);
   };
-  const auto visit_cell = [&](int x, CellNodes nodes) {
-    const bool looks_each = nodes == CellNodes::edge && kernel.is_lit;
-    quadrature.visit(x, y, nodes, [&](const Node& node) {
-      if (looks_each && !kernel.is_lit(node.direction)) return;
+  const auto visit_cell = [&](int x, const QuadratureCell& cell, CellNodes nodes, bool looks_each) {
+    quadrature.visit(cell, nodes, [&](const Node& node) {
+      if (looks_each && kernel.is_lit && !kernel.is_lit(node.direction)) return;
       const KernelValue value = kernel.at(node.direction);
       if (value.k > 0.0) add(x, node, value);
+    });
+  };
+  // The parts of a cell that an edge may cross, down to the smallest.
+  const auto visit_parts = [&](const auto& self, int x, const QuadratureCell& cell) -> void {
+    if (cell.depth == quadrature.depth()) return visit_cell(x, cell, CellNodes::gauss, true);
+    quadrature.visit_parts(cell, [&](const QuadratureCell& part) {
+      const Direction centre = quadrature.centre(part);
+      if (kernel.straddles(centre, quadrature.radius(part.depth))) return self(self, x, part);
+      if (is_dark(false, centre)) return;
+      visit_cell(x, part, CellNodes::gauss, false);
     });
   };
   const double margin = rule == CellRule::adaptive ? kMiddleReach * radius : 0.0;
@@ -36,15 +45,19 @@ void visit_kernel_row(const Kernel& kernel, const SphereQuadrature& quadrature, 
     if (is_dark(run_may_have_edge, run.centre)) continue;
     for (int x = run.begin; x < run.end; ++x) {
       if (!is_wanted(x)) continue;
+      const QuadratureCell cell = {x, y, 0};
       if (!run_may_have_edge) {
-        visit_cell(x, smooth);
+        visit_cell(x, cell, smooth, false);
         continue;
       }
-      const Direction centre = quadrature.centre(x, y);
-      const bool split = kernel.straddles(centre, radius);
-      if (is_dark(split, centre)) continue;
-      const bool is_smooth = !split && (margin <= radius || !kernel.straddles(centre, margin));
-      visit_cell(x, split ? CellNodes::edge : is_smooth ? smooth : CellNodes::gauss);
+      const Direction centre = quadrature.centre(cell);
+      if (kernel.straddles(centre, radius)) {
+        visit_parts(visit_parts, x, cell);
+        continue;
+      }
+      if (is_dark(false, centre)) continue;
+      const bool is_smooth = margin <= radius || !kernel.straddles(centre, margin);
+      visit_cell(x, cell, is_smooth ? smooth : CellNodes::gauss, false);
     }
   }
 }

@@ -1,6 +1,6 @@
 // Integrals over the sphere of functions that are smooth inside a texel: 3 x 3 Gauss-Legendre nodes
 // in (phi, theta) for every texel, or its middle alone; texels that straddle an edge of the
-// integrand are split first.
+// integrand are halved until they are small.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,13 @@ enum class CellRule {
 enum class CellNodes {
   middle,  ///< one
   gauss,   ///< 3 x 3
-  edge,    ///< 3 x 3 for each of the parts into which cells are split that an edge may cross
+};
+
+/// A cell: a texel, or what it is divided into.
+struct QuadratureCell {
+  int x;      ///< column, of cells of this depth
+  int y;      ///< row, of cells of this depth
+  int depth;  ///< how often the texel was halved
 };
 
 /// Cells of one row that follow each other, and what lies around them.
@@ -51,44 +57,70 @@ struct CellRun {
 /// texel's nodes sum to its exact solid angle.
 class SphereQuadrature {
  public:
-  /// The sphere is never divided into fewer cells than this, however few texels the map has: the
-  /// rule's error is then below 1e-9 of an integrand as smooth as a cosine.
+  /// With at least so many cells the rule's error is below 1e-9 of an integrand as smooth as a
+  /// cosine.
   static constexpr Extent kLeastCells = {256, 128};
-  /// The part of the sphere where an edge of the integrand may run is never divided into fewer
-  /// cells than if the whole had this many.
+  /// Cells that an edge of the integrand may cross are halved until the whole sphere would have
+  /// this many or more.
   static constexpr Extent kLeastEdgeCells = {4096, 2048};
+
+  /// How many cells a texel of a map must be divided into so that the sphere has kLeastCells.
+  static Extent cells_per_texel(Extent map) {
+    return {(kLeastCells.width + map.width - 1) / map.width,
+            (kLeastCells.height + map.height - 1) / map.height};
+  }
 
   explicit SphereQuadrature(Extent extent);
 
   Extent extent() const { return extent_; }
-  /// Direction of the centre of texel (x, y).
-  Direction centre(int x, int y) const {
-    const auto [cos_phi, sin_phi] = centre_columns_[static_cast<std::size_t>(x)];
-    const auto [sine, cosine] = centre_rows_[static_cast<std::size_t>(y)];
-    return {sine * cos_phi, sine * sin_phi, cosine};
+  /// The depth of the smallest cells: in those an edge may be left.
+  int depth() const { return static_cast<int>(levels_.size()) - 1; }
+  /// Direction of the centre of a cell.
+  Direction centre(const QuadratureCell& cell) const {
+    const Nodes& middles = level_of(cell).nodes[static_cast<std::size_t>(CellNodes::middle)];
+    const Row& row = middles.rows[static_cast<std::size_t>(cell.y)];
+    const Column& column = middles.columns[static_cast<std::size_t>(cell.x)];
+    return {row.sine * column.cosine, row.sine * column.sine, row.cosine};
   }
-  /// Largest angle between the centre of a texel and a point of it, in radians.
-  double radius() const { return radius_; }
+  /// Largest angle between the centre of a cell of this depth and a point of it, in radians.
+  double radius(int depth) const { return levels_[static_cast<std::size_t>(depth)].radius; }
+
+  /// Calls visit(QuadratureCell) for the parts of a cell: halves of its sides, of those that are
+  /// longer than the smallest cells'.
+  template <class Visit>
+  void visit_parts(const QuadratureCell& cell, const Visit& visit) const {
+    const Extent whole = level_of(cell).cells;
+    const int depth = cell.depth + 1;
+    const Extent divided = levels_[static_cast<std::size_t>(depth)].cells;
+    const Extent parts = {divided.width / whole.width, divided.height / whole.height};
+    for (int y = cell.y * parts.height; y < (cell.y + 1) * parts.height; ++y) {
+      for (int x = cell.x * parts.width; x < (cell.x + 1) * parts.width; ++x) {
+        visit(QuadratureCell{x, y, depth});
+      }
+    }
+  }
 
   /// How many runs a row has, and the one of this index in row y.
   int runs() const { return static_cast<int>(run_columns_.size()); }
   CellRun run(int index, int y) const {
     const auto [cos_phi, sin_phi] = run_columns_[static_cast<std::size_t>(index)];
-    const auto [sine, cosine] = centre_rows_[static_cast<std::size_t>(y)];
+    const Row& row = levels_[0]
+                         .nodes[static_cast<std::size_t>(CellNodes::middle)]
+                         .rows[static_cast<std::size_t>(y)];
     return {index * kRunCells,
             std::min((index + 1) * kRunCells, extent_.width),
-            {sine * cos_phi, sine * sin_phi, cosine},
+            {row.sine * cos_phi, row.sine * sin_phi, row.cosine},
             run_radius_};
   }
 
-  /// Calls visit(Node) for every node of texel (x, y).
+  /// Calls visit(Node) for every node of a cell.
   template <class Visit>
-  void visit(int x, int y, CellNodes nodes, const Visit& visit) const {
-    const Level& level = levels_[static_cast<std::size_t>(nodes)];
-    for (int j = 0; j < level.nodes.height; ++j) {
-      const Row& row = level.rows[static_cast<std::size_t>(y * level.nodes.height + j)];
-      for (int i = 0; i < level.nodes.width; ++i) {
-        const Column& column = level.columns[static_cast<std::size_t>(x * level.nodes.width + i)];
+  void visit(const QuadratureCell& cell, CellNodes of_cell, const Visit& visit) const {
+    const Nodes& nodes = level_of(cell).nodes[static_cast<std::size_t>(of_cell)];
+    for (int j = cell.y * nodes.per_side; j < (cell.y + 1) * nodes.per_side; ++j) {
+      const Row& row = nodes.rows[static_cast<std::size_t>(j)];
+      for (int i = cell.x * nodes.per_side; i < (cell.x + 1) * nodes.per_side; ++i) {
+        const Column& column = nodes.columns[static_cast<std::size_t>(i)];
         visit(Node{{row.sine * column.cosine, row.sine * column.sine, row.cosine},
                    row.sine,
                    row.weight * column.weight,
@@ -110,23 +142,32 @@ class SphereQuadrature {
     double weight;  ///< share of the cell; the shares of a cell's columns sum to 1
     double s;
   };
-  struct Level {
-    Extent nodes;  ///< how many nodes a texel has
+  /// Nodes of one kind of all cells of one size.
+  struct Nodes {
+    int per_side;  ///< how many a side of a cell has
     std::vector<Row> rows;
     std::vector<Column> columns;
+  };
+  /// All cells of one depth.
+  struct Level {
+    Extent cells;  ///< how many the sphere has
+    double radius;
+    std::array<Nodes, 2> nodes;  ///< by CellNodes
   };
 
   static constexpr int kRunCells = 16;
 
-  Level make_level(Extent cells_per_texel, CellNodes nodes) const;
+  const Level& level_of(const QuadratureCell& cell) const {
+    return levels_[static_cast<std::size_t>(cell.depth)];
+  }
+  void add_level(Extent cells);
+  static Nodes make_nodes(Extent cells, CellNodes of_cell);
 
   Extent extent_;
-  double radius_;
   double run_radius_;
-  std::array<Level, 3> levels_;                        ///< by CellNodes
-  std::vector<std::array<double, 2>> centre_columns_;  ///< cosine and sine of phi
-  std::vector<std::array<double, 2>> run_columns_;     ///< of the middles of runs
-  std::vector<std::array<double, 2>> centre_rows_;     ///< sine and cosine of theta
+  std::vector<Level> levels_;  ///< by depth
+  std::vector<std::array<double, 2>>
+      run_columns_;  ///< cosine and sine of phi in the middles of runs
 };
 
 }  // namespace lightproof::reference

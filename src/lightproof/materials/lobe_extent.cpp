@@ -29,7 +29,7 @@ double width_of(const Material& material, double cosine) {
 }  // namespace
 
 bool LobeExtent::varies_within(Direction direction, double angle) const {
-  constexpr double kPart = 1.0 / 3.0;
+  constexpr double kPart = 1.0 / 6.0;
   if (angle <= kPart * width) return false;
   const double distance = std::acos(std::clamp(glm::dot(direction, axis), -1.0, 1.0));
   return angle > kPart * std::max(width, distance - angle);
