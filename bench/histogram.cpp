@@ -41,7 +41,7 @@ constexpr double kLeastLog10P = -6.0;
 /// Directions of one warp, and the exact masses of the bins, in the order of `serpentine`.
 class Block {
  public:
-  explicit Block(const DirectionSampler& sampler)
+  explicit Block(const DirectionSamplerInfo& sampler)
       : sampler_(sampler),
         masses_(serpentine(bin_masses(std::get<CosineLobes>(sampler.distribution)))) {
     draw(0);
@@ -93,7 +93,7 @@ class Block {
     return bins;
   }
 
-  DirectionSampler sampler_;
+  DirectionSamplerInfo sampler_;
   RandomStream stream_{"bench/histogram", 1};
   std::vector<double> masses_;
   std::vector<double> x_ = std::vector<double>(kBlock);
@@ -139,14 +139,14 @@ constexpr Phase kPhases[] = {
     {"draw_and_count", draw_and_count, kBlock},
 };
 
-const DirectionSampler& warp_by_name(std::string_view name) {
-  static const std::vector<DirectionSampler> samplers = direction_samplers();
-  const auto found = std::ranges::find(samplers, name, &DirectionSampler::name);
+const DirectionSamplerInfo& warp_by_name(std::string_view name) {
+  static const std::vector<DirectionSamplerInfo> samplers = direction_samplers();
+  const auto found = std::ranges::find(samplers, name, &DirectionSamplerInfo::name);
   if (found == samplers.end()) throw std::logic_error(fmt::format("no warp \"{}\"", name));
   return *found;
 }
 
-void histogram_benchmark(benchmark::State& state, const DirectionSampler& warp,
+void histogram_benchmark(benchmark::State& state, const DirectionSamplerInfo& warp,
                          const Phase& phase) {
   Block block(warp);
   if (const std::string why = block.disagreement(); !why.empty()) return disagree(state, why);

@@ -69,7 +69,29 @@ function faultsOf(folders) {
       if (!includes.has(folder)) faults.push(`${path}/CMakeLists.txt links to ${folder}, which no file of ${name} includes`);
     }
   }
-  return [...faults, ...circlesOf(folders)];
+  return [...faults, ...clashesOf(folders), ...circlesOf(folders)];
+}
+
+/**
+ * Types of one name and namespace in two headers: who includes both gets an error, and who does not,
+ * templates over one that the linker takes for those over the other. (Highway's kernels have a
+ * namespace for each file.)
+ */
+function clashesOf(folders) {
+  const declared = new Map();
+  for (const { path } of folders.values()) {
+    for (const file of readdirSync(join(root, path)).filter((f) => f.endsWith(".h") && !f.endsWith("-inl.h"))) {
+      const code = text(`${path}/${file}`);
+      const space = code.match(/^namespace (\S+) \{/m)?.[1] ?? "";
+      for (const [, name] of code.matchAll(/^(?:struct|class|enum class|concept|using)(?: alignas\(.*?\))? (\w+)\b(?!;|::)/gm)) {
+        const type = `${space}::${name}`;
+        declared.set(type, (declared.get(type) ?? new Set()).add(`${path}/${file}`));
+      }
+    }
+  }
+  return [...declared]
+    .filter(([, files]) => files.size > 1)
+    .map(([type, files]) => `${type} is declared in ${[...files].join(" and ")}`);
 }
 
 function circlesOf(folders) {

@@ -3,9 +3,10 @@
 // are findings. Arguments name files: only what these belong to is checked. With --deep, paths are
 // followed into the functions that are called, which doubles the time: ci/thorough does it.
 //
-// Files go in groups, as one text each, most of which is the headers: a third of the time. They
-// stand in the opposite order of that in which the build takes them, so that an include which is
-// missing is missed by one of both; ci/sanitize compiles each on its own.
+// Files go in groups, as one text each, most of which is the headers: a quarter of the time. What is
+// found in a group is looked for again in each of its files alone, so that nobody has to keep names
+// apart. They stand in the opposite order of that in which the build takes them, so that an include
+// which is missing is missed by one of both; ci/sanitize compiles each on its own.
 import { execFile, execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
@@ -21,6 +22,9 @@ const stamps = join(root, "build", "lint");
 const build = join(stamps, "commands");
 const texts = join(stamps, "groups");
 const tidy = "clang-tidy-22";
+
+/** The more files together, the less of the time is that of headers; and the less is checked at once. */
+const largestGroup = 20;
 
 const isOurs = (path) => path.startsWith(root + sep);
 const isGenerated = (path) => path.startsWith(join(root, "build") + sep);
@@ -46,15 +50,10 @@ function commandsOfSources() {
   return [...new Map(ours.map((unit) => [unit.file, unit])).values()];
 }
 
-/**
- * The files as one text, in which no line moves but by a number of lines that is the file's. What an
- * earlier one includes is left out of a later one.
- */
+/** The files as one text. What an earlier one includes is left out of a later one. */
 function joined(files) {
   const included = new Set();
-  const parts = [];
-  let before = 0;
-  for (const file of files) {
+  return files.map((file) => {
     const own = new Set();
     const lines = content(file).toString().replace(/\n$/, "").split("\n");
     const kept = lines.map((line) => {
@@ -63,48 +62,46 @@ function joined(files) {
       return included.has(line) ? "" : line;
     });
     for (const line of own) included.add(line);
-    parts.push({ file, before, text: kept.join("\n") + "\n" });
-    before += lines.length;
-  }
-  return parts;
+    return kept.join("\n") + "\n";
+  }).join("");
 }
 
-/** What clang-tidy says of a joined text, with the places in the files that it is made of. */
-function inFiles(findings, { file, parts }) {
-  const [first, ...pieces] = findings.split(`${file}:`);
-  const moved = pieces.map((piece) => {
-    const line = parseInt(piece);
-    const part = parts.findLast(({ before }) => before < line);
-    return piece.replace(/^\d+/, `${relative(root, part.file)}:${line - part.before}`);
-  });
-  return first + moved.join("");
+/** The headers of ours that a file includes, directly or not. */
+function headersOf(file) {
+  return [...sourcesOf(file)].filter((path) => path !== file);
 }
 
-/** What clang-tidy runs over: a file, or some of a folder that have a command in common. */
+/**
+ * What clang-tidy runs over: a file, or some that have command, checks and configuration in common.
+ * Files that name a header without its folder stay in theirs.
+ */
 function units() {
   const singles = [];
   const alike = new Map();
   for (const unit of commandsOfSources()) {
-    const key = `${dirname(unit.file)} ${unit.command.replaceAll(unit.file, "")}`;
-    const isAlone = /^int main\(/m.test(content(unit.file).toString());
-    if (isAlone) singles.push({ ...unit, parts: [{ file: unit.file }] });
+    const kind = isTest(unit.file) ? "test" : isProduct(unit.file) ? "product" : "other";
+    const text = content(unit.file).toString();
+    const folder = /^#include "[^/"]+"/m.test(text) ? dirname(unit.file) : "";
+    const key = `${kind} ${folder} ${unit.command.replaceAll(unit.file, "")}`;
+    const isAlone = /^int main\(/m.test(text);
+    if (isAlone) singles.push(unitOf([unit]));
     else alike.set(key, [...(alike.get(key) ?? []), unit]);
   }
   const groups = [...alike.values()].flatMap((members) => {
     const commands = new Map(members.map((unit) => [unit.file, unit]));
-    return groupsOf([...commands.keys()]).map((files) => files.map((file) => commands.get(file)));
+    const options = { largest: largestGroup, headersOf };
+    return groupsOf([...commands.keys()], options).map((files) => files.map((file) => commands.get(file)));
   });
   return [...singles, ...groups.map((group) => unitOf(group.reverse()))];
 }
 
-function unitOf(group) {
-  const [first] = group;
-  if (group.length === 1) return { ...first, parts: [{ file: first.file }] };
-  const parts = joined(group.map(({ file }) => file));
-  const text = parts.map((part) => part.text).join("");
+/** `parts` are the commands of the files that a unit is made of. */
+function unitOf(parts) {
+  const [first] = parts;
+  if (parts.length === 1) return { ...first, parts };
   const folder = dirname(first.file);
   const file = join(texts, isTest(first.file) ? "tests" : "", relative(root, first.file).replaceAll(sep, "_"));
-  writeFileSync(file, text);
+  writeFileSync(file, joined(parts.map((part) => part.file)));
   const command = first.command.replaceAll(first.file, file).replace(" -c ", ` -iquote ${folder} -c `);
   return { ...first, file, command, parts };
 }
@@ -164,16 +161,23 @@ function stampOf(unit) {
   return join(stamps, hash.digest("hex"));
 }
 
-function lint(unit) {
-  const { file, parts } = unit;
+/** What clang-tidy says of a unit; nothing if all is well. */
+function findingsIn(unit) {
   const options = { cwd: root, maxBuffer: 2 ** 28 };
-  const name = parts.map((part) => relative(root, part.file)).join(" ");
   return new Promise((done) => {
-    execFile(tidy, [...checks(unit), "-p", stamps, "--quiet", file], options, (error, out, err) => {
-      const findings = `${name}:\n${out}${out.trim() ? "" : err}`;
-      done(error ? (parts.length > 1 ? inFiles(findings, unit) : findings) : "");
+    execFile(tidy, [...checks(unit), "-p", stamps, "--quiet", unit.file], options, (error, out, err) => {
+      const findings = `${relative(root, unit.file)}:\n${out}${out.trim() ? "" : err}`;
+      done(error ? findings : "");
     });
   });
+}
+
+async function lint(unit) {
+  const findings = await findingsIn(unit);
+  if (!findings || unit.parts.length === 1) return findings;
+  const ofParts = [];
+  for (const part of unit.parts) ofParts.push(await findingsIn(unitOf([part])));
+  return ofParts.join("");
 }
 
 mkdirSync(join(texts, "tests"), { recursive: true });
@@ -181,7 +185,8 @@ copyFileSync(join(root, "tests", ".clang-tidy"), join(texts, "tests", ".clang-ti
 configure();
 const known = new Set(readdirSync(stamps));
 const commands = units();
-const database = commands.map(({ directory, command, file }) => ({ directory, command, file }));
+const entries = commands.flatMap((unit) => (unit.parts.length > 1 ? [unit, ...unit.parts] : [unit]));
+const database = entries.map(({ directory, command, file }) => ({ directory, command, file }));
 writeFileSync(join(stamps, "compile_commands.json"), JSON.stringify(database));
 const all = commands.map((unit) => ({ ...unit, stamp: stampOf(unit) }));
 // The longest first: no core waits at the end.

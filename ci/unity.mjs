@@ -10,12 +10,11 @@ import { fileURLToPath } from "node:url";
 /** More files save little, and keep a core busy at the end of a build while the other is idle. */
 const largestGroup = 8;
 
-/**
- * Highway compiles a file several times, and the order of macros and includes tells; GCC warns of a
- * class with members of hidden types, unless they stand in the main file.
- */
-const standsAlone =
-  /^#(define|undef)\b|^#include HWY|^using namespace|foreach_target|^(struct|class) \w+::/m;
+/** Highway compiles a file several times, and the order of macros and includes tells. */
+const standsAlone = /^#(define|undef)\b|^#include HWY|^using namespace|foreach_target/m;
+
+/** GCC warns of a class with members of hidden types, unless they stand in the main file. */
+const standsAloneForGcc = /^(struct|class) \w+::/m;
 
 /** The code without comments, strings and characters; `hidden_end` ends what a file keeps to itself. */
 function bare(text) {
@@ -39,29 +38,45 @@ function declared(code) {
     let head = declaration;
     for (let inner = ""; inner !== head; head = head.replace(/<[^<>;]*>/g, " ")) inner = head;
     if (!hidden && /^[^=]*\(/.test(head)) continue;
-    const patterns = [
-      /\b(?:using|struct|class|enum(?: class)?|union)\s+(\w+)/g,
-      /(\w+)\s*(?:\(|=|\{|;|\[)/g,
-    ];
-    for (const pattern of patterns) {
-      for (const [, name] of head.matchAll(pattern)) names.add(name);
-    }
+    const type = /\b(?:using|struct|class|enum(?: class)?|union|concept)\s+(\w+)/.exec(head);
+    const other = /\b(?!requires\b)([A-Za-z_]\w*)\s*(?:\(|=|\{|;|\[)/.exec(head);
+    const found = type ?? other;
+    if (found) names.add(found[1]);
   }
   return names;
 }
 
-/** The files in groups, in their order; a file that must be alone is a group of its own. */
-export function groupsOf(files) {
+/** What a header declares, functions too. */
+const declaredByHeaders = new Map();
+function declaredBy(header) {
+  if (!declaredByHeaders.has(header)) {
+    const code = `namespace {\n${bare(readFileSync(header, "utf8"))}`;
+    declaredByHeaders.set(header, declared(code.replace(/\b(inline|constexpr) /g, "")));
+  }
+  return declaredByHeaders.get(header);
+}
+
+/**
+ * The files in groups, in their order; a file that must be alone is a group of its own. With
+ * `headersOf`, which gives the headers that a file includes, names may occur in another file, but not
+ * be declared there or in its headers: nearly always that serves, and makes far larger groups. It is
+ * for those who take files one by one where a group fails.
+ */
+export function groupsOf(files, { largest = largestGroup, headersOf } = {}) {
   const groups = [];
   for (const file of files) {
     const text = readFileSync(file, "utf8");
     const code = bare(text);
-    const source = { file, names: declared(code), words: new Set(code.match(/\b[A-Za-z_]\w*/g)) };
+    const names = declared(code);
+    const words = headersOf
+      ? new Set([names, ...headersOf(file).map(declaredBy)].flatMap((set) => [...set]))
+      : new Set(code.match(/\b[A-Za-z_]\w*/g));
+    const source = { file, names, words };
     const occursIn = (one, other) => [...one.names].some((name) => other.words.has(name));
     const goesWith = (other) => !occursIn(source, other) && !occursIn(other, source);
     const fits = ({ alone, sources }) =>
-      !alone && sources.length < largestGroup && sources.every(goesWith);
-    const alone = standsAlone.test(text);
+      !alone && sources.length < largest && sources.every(goesWith);
+    const alone = standsAlone.test(text) || (!headersOf && standsAloneForGcc.test(text));
     const group = alone ? undefined : groups.find(fits);
     if (group) group.sources.push(source);
     else groups.push({ alone, sources: [source] });

@@ -19,9 +19,9 @@ using testing::IsSubsetOf;
 using testing::Not;
 using testing::SizeIs;
 
-std::set<std::string> names_of(const std::vector<DirectionSampler>& samplers) {
+std::set<std::string> names_of(const std::vector<DirectionSamplerInfo>& samplers) {
   std::set<std::string> names;
-  for (const DirectionSampler& sampler : samplers) names.insert(sampler.name);
+  for (const DirectionSamplerInfo& sampler : samplers) names.insert(sampler.name);
   EXPECT_EQ(names.size(), samplers.size()) << "a name twice";
   return names;
 }
@@ -57,7 +57,7 @@ TEST(DirectionSamplers, SelectOneRoughnessForEachWayAndAngle) {
 }
 
 /// A material seen from +x, tested against the distribution of another.
-DirectionSampler claiming(const Material& claimed, const Material& drawn, double degrees) {
+DirectionSamplerInfo claiming(const Material& claimed, const Material& drawn, double degrees) {
   const double angle = degrees * kPi / 180.0;
   const Direction view = {std::sin(angle), 0.0, std::cos(angle)};
   const ShadingPoint at = {{}, frame_around({0, 0, 1}), view};
@@ -72,7 +72,7 @@ DirectionSampler claiming(const Material& claimed, const Material& drawn, double
           }};
 }
 
-Outcome outcome_of(const DirectionSampler& sampler) {
+Outcome outcome_of(const DirectionSamplerInfo& sampler) {
   const GateResult result = run_gate(test_cases_of({&sampler, 1}), {.samples = 1U << 16U});
   return overall_outcome(result, true);
 }

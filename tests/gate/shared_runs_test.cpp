@@ -66,7 +66,7 @@ GateResult expect_the_same_in_processes(const Run& run) {
     maps.push_back(make_synthetic_map(name, {16, 8}));
   }
   std::vector<TestCase> test_cases = test_cases_of(maps, samplers_under_test());
-  const std::vector<DirectionSampler> directions = {direction_samplers().front()};
+  const std::vector<DirectionSamplerInfo> directions = {direction_samplers().front()};
   test_cases.push_back(test_cases_of(directions).front());
   const GateResult alone = run(test_cases, Communicator());
   const std::string bytes = bytes_of_result(alone);

@@ -25,8 +25,8 @@ struct SlopeChange {
 };
 
 /// Points at x = 0, 1, … on a line of slope 0.1 that bends.
-std::vector<LinePoint> bent(int count, const std::vector<SlopeChange>& breaks) {
-  std::vector<LinePoint> points;
+std::vector<DataPoint> bent(int count, const std::vector<SlopeChange>& breaks) {
+  std::vector<DataPoint> points;
   for (int i = 0; i < count; ++i) {
     double y = 2.0 + 0.1 * i;
     for (const SlopeChange& segment_change : breaks)
@@ -36,13 +36,13 @@ std::vector<LinePoint> bent(int count, const std::vector<SlopeChange>& breaks) {
   return points;
 }
 
-std::vector<LinePoint> with_noise(std::vector<LinePoint> points, double sigma,
+std::vector<DataPoint> with_noise(std::vector<DataPoint> points, double sigma,
                                   const RandomStream& stream) {
   for (std::size_t i = 0; i < points.size(); ++i) points[i].y += sigma * normal(stream, i);
   return points;
 }
 
-std::optional<SegmentedLine> line_of(const std::vector<LinePoint>& points, double level) {
+std::optional<SegmentedLine> line_of(const std::vector<DataPoint>& points, double level) {
   return segmented_lines({&points, 1}, level).front();
 }
 
@@ -106,12 +106,12 @@ TEST(SegmentedLine, IsNoneOfFourPointsAndOfALastOneThatIsOff) {
 }
 
 TEST(SegmentedLine, HasItsBreakpointAmongRepeatedX) {
-  std::vector<LinePoint> twice;
-  for (const LinePoint& point : bent(6, {{2.0, 1.0}})) twice.insert(twice.end(), 2, point);
+  std::vector<DataPoint> twice;
+  for (const DataPoint& point : bent(6, {{2.0, 1.0}})) twice.insert(twice.end(), 2, point);
   const auto line = line_of(twice, kLevel);
   ASSERT_TRUE(line);
   EXPECT_EQ(twice[line->breakpoints[0].point].x, 2.0);
-  EXPECT_FALSE(line_of(std::vector<LinePoint>(9, LinePoint{1.0, 1.0}), kLevel));
+  EXPECT_FALSE(line_of(std::vector<DataPoint>(9, DataPoint{1.0, 1.0}), kLevel));
 }
 
 TEST(SegmentedLine, IsCalledOfStraightOnesAsOftenAsItsLevelSays) {
@@ -130,8 +130,8 @@ TEST(SegmentedLine, IsCalledOfStraightOnesAsOftenAsItsLevelSays) {
 }
 
 /// A page of so many straight lines of eleven points that scatter.
-std::vector<std::vector<LinePoint>> straight_lines(std::size_t count, const RandomStream& stream) {
-  std::vector<std::vector<LinePoint>> lines;
+std::vector<std::vector<DataPoint>> straight_lines(std::size_t count, const RandomStream& stream) {
+  std::vector<std::vector<DataPoint>> lines;
   for (std::size_t i = 0; i < count; ++i) {
     lines.push_back(with_noise(bent(11, {}), 1.0, stream.substream(stream.number() + i)));
   }

@@ -24,12 +24,13 @@ constexpr std::size_t kBatch = 4096;
 constexpr std::uint64_t kTaskSamples = std::uint64_t{1} << 18U;
 constexpr std::uint64_t kTasksAtOnce = 16;
 
-constexpr Quantity kArea = {TestId::given_area, Integrand::area, "solid angle"};
-constexpr Quantity kLight = {TestId::given_light, Integrand::luminance, "light"};
-constexpr std::array kGrey = {Quantity{TestId::given_weights, Integrand::grey, "light"}};
-constexpr std::array kColours = {Quantity{TestId::given_weights, Integrand::red, "red light"},
-                                 Quantity{TestId::given_weights, Integrand::green, "green light"},
-                                 Quantity{TestId::given_weights, Integrand::blue, "blue light"}};
+constexpr Quantity kArea = {TestId::given_area, EstimatedIntegrand::area, "solid angle"};
+constexpr Quantity kLight = {TestId::given_light, EstimatedIntegrand::luminance, "light"};
+constexpr std::array kGrey = {Quantity{TestId::given_weights, EstimatedIntegrand::grey, "light"}};
+constexpr std::array kColours = {
+    Quantity{TestId::given_weights, EstimatedIntegrand::red, "red light"},
+    Quantity{TestId::given_weights, EstimatedIntegrand::green, "green light"},
+    Quantity{TestId::given_weights, EstimatedIntegrand::blue, "blue light"}};
 
 std::vector<Quantity> quantities_of(const SampleDump& dump, bool judges_pdf) {
   std::vector<Quantity> quantities;
@@ -100,35 +101,35 @@ void EstimateSums::for_each_texel(const Visit& visit) const {
   }
 }
 
-double EstimateSums::radiance(Integrand integrand, int x, int y) const {
+double EstimateSums::radiance(EstimatedIntegrand integrand, int x, int y) const {
   switch (integrand) {
-    case Integrand::area:
+    case EstimatedIntegrand::area:
       return 1.0;
-    case Integrand::luminance:
-    case Integrand::grey:
+    case EstimatedIntegrand::luminance:
+    case EstimatedIntegrand::grey:
       return luminance_(x, y);
-    case Integrand::red:
+    case EstimatedIntegrand::red:
       return colours_->radiance(x, y).r;
-    case Integrand::green:
+    case EstimatedIntegrand::green:
       return colours_->radiance(x, y).g;
-    case Integrand::blue:
+    case EstimatedIntegrand::blue:
       return colours_->radiance(x, y).b;
   }
   return 0.0;
 }
 
-double EstimateSums::value(Integrand integrand, const GivenSample& sample) const {
+double EstimateSums::value(EstimatedIntegrand integrand, const GivenSample& sample) const {
   switch (integrand) {
-    case Integrand::area:
+    case EstimatedIntegrand::area:
       return 1.0 / sample.pdf;
-    case Integrand::luminance:
+    case EstimatedIntegrand::luminance:
       return luminance_(sample.x, sample.y) / sample.pdf;
-    case Integrand::grey:
-    case Integrand::red:
+    case EstimatedIntegrand::grey:
+    case EstimatedIntegrand::red:
       return sample.weight[0];
-    case Integrand::green:
+    case EstimatedIntegrand::green:
       return sample.weight[1];
-    case Integrand::blue:
+    case EstimatedIntegrand::blue:
       return sample.weight[2];
   }
   return 0.0;

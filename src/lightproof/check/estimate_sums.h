@@ -18,11 +18,11 @@
 namespace lightproof {
 
 /// Integrals of the map that samples estimate.
-enum class Integrand : std::uint8_t { area, luminance, grey, red, green, blue };
+enum class EstimatedIntegrand : std::uint8_t { area, luminance, grey, red, green, blue };
 
 struct Quantity {
   TestId test;
-  Integrand integrand;
+  EstimatedIntegrand integrand;
   const char* name;
 };
 
@@ -119,8 +119,8 @@ class EstimateSums {
   std::size_t at(std::size_t q, std::size_t block) const { return q * blocks_.count() + block; }
   template <class Visit>
   void for_each_texel(const Visit& visit) const;
-  double radiance(Integrand integrand, int x, int y) const;
-  double value(Integrand integrand, const GivenSample& sample) const;
+  double radiance(EstimatedIntegrand integrand, int x, int y) const;
+  double value(EstimatedIntegrand integrand, const GivenSample& sample) const;
   /// Calls visit(sample) for the usable samples of a range.
   template <class Visit>
   void visit_range(std::uint64_t first, std::uint64_t count, FaultyRows& faulty,

@@ -26,7 +26,7 @@ auto find_named(Range& range, const std::string& name) {
 /// Many samplers of directions by one name.
 struct Group {
   std::string name;
-  std::vector<DirectionSampler> (*members)();
+  std::vector<DirectionSamplerInfo> (*members)();
 };
 const std::array<Group, 2> kGroups = {{
     {"directions", direction_samplers},
@@ -55,12 +55,12 @@ const std::array<Group, 2> kGroups = {{
 void add_named(ChosenSamplers& chosen, const std::string& name) {
   for (const Group& group : kGroups) {
     if (group.name != name) continue;
-    for (DirectionSampler& member : group.members()) {
+    for (DirectionSamplerInfo& member : group.members()) {
       chosen.of_directions.push_back(std::move(member));
     }
     return;
   }
-  for (std::vector<DirectionSampler> all :
+  for (std::vector<DirectionSamplerInfo> all :
        {all_direction_samplers(), direction_mutant_samplers()}) {
     const auto found = find_named(all, name);
     if (found == all.end()) continue;
@@ -133,7 +133,8 @@ ChosenSamplers choose_samplers(const SamplerChoice& choice) {
   drop_repeated(chosen.of_maps, [](const SamplerUnderTest& under_test) {
     return fmt::format("{} {}", under_test.name, to_string(under_test.target.density_space));
   });
-  drop_repeated(chosen.of_directions, [](const DirectionSampler& sampler) { return sampler.name; });
+  drop_repeated(chosen.of_directions,
+                [](const DirectionSamplerInfo& sampler) { return sampler.name; });
   settle_named_directions(choice, names_of_directions, chosen);
   refuse_other_density(choice);
   add_plugins(choice.plugins, chosen.of_maps);

@@ -22,7 +22,7 @@ struct SamplerChoice {
 /// What is tested: samplers of maps, which need some, and samplers of directions, which need none.
 struct ChosenSamplers {
   std::vector<SamplerUnderTest> of_maps;
-  std::vector<DirectionSampler> of_directions;
+  std::vector<DirectionSamplerInfo> of_directions;
   std::vector<std::string> notes;  ///< what was chosen and ignored, one sentence each
 };
 

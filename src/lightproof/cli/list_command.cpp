@@ -52,7 +52,7 @@ std::vector<Entry> sampler_entries() {
                                    sampler.monotone ? "; monotone" : "",
                                    sampler.known_defects ? "; with known defects" : "")});
   }
-  for (const DirectionSampler& sampler : all_direction_samplers()) {
+  for (const DirectionSamplerInfo& sampler : all_direction_samplers()) {
     entries.push_back({sampler.name, "directions: " + sampler.description});
   }
   return entries;

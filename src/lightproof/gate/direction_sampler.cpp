@@ -18,7 +18,7 @@ constexpr Direction kUp = {0.0, 0.0, 1.0};
 /// A normal below the horizon, where frames take their other branch.
 constexpr Direction kOblique = {0.48, -0.6, -0.64};
 
-DirectionSampler uniform_hemisphere() {
+DirectionSamplerInfo uniform_hemisphere() {
   return {"uniform_hemisphere", "uniform over the hemisphere", CosineLobes{{kUp, 0.0, 1.0}},
           [](SquarePoint u) {
             const Direction d = uniform_hemisphere_from_square(u);
@@ -27,7 +27,7 @@ DirectionSampler uniform_hemisphere() {
           uniform_hemisphere_pdf};
 }
 
-DirectionSampler cosine_hemisphere() {
+DirectionSamplerInfo cosine_hemisphere() {
   return {"cosine_hemisphere", "the cosine over pi", CosineLobes{{kUp, 1.0, 1.0}},
           [](SquarePoint u) {
             const Direction d = cosine_hemisphere_from_square(u);
@@ -36,7 +36,7 @@ DirectionSampler cosine_hemisphere() {
           cosine_hemisphere_pdf};
 }
 
-DirectionSampler phong_lobe(double exponent) {
+DirectionSamplerInfo phong_lobe(double exponent) {
   return {fmt::format("phong_lobe_{}", exponent),
           fmt::format("Phong's lobe around the normal, exponent {}", exponent),
           CosineLobes{{kUp, exponent, 1.0}},
@@ -48,8 +48,8 @@ DirectionSampler phong_lobe(double exponent) {
 }
 
 /// A warp of the hemisphere around the oblique normal.
-DirectionSampler oblique(std::string name, std::string description, double exponent,
-                         Direction (*draw)(Direction normal, SquarePoint u)) {
+DirectionSamplerInfo oblique(std::string name, std::string description, double exponent,
+                             Direction (*draw)(Direction normal, SquarePoint u)) {
   const auto pdf = [exponent](Direction d) {
     return phong_lobe_pdf(glm::dot(kOblique, d), exponent);
   };
@@ -62,7 +62,7 @@ DirectionSampler oblique(std::string name, std::string description, double expon
           pdf};
 }
 
-std::vector<DirectionSampler> warps() {
+std::vector<DirectionSamplerInfo> warps() {
   return {
       uniform_hemisphere(),
       cosine_hemisphere(),
@@ -88,7 +88,7 @@ struct NamedMaterial {
 
 constexpr std::array kDegrees = {0.0, 45.0, 80.0, 89.9};
 
-DirectionSampler seen_from(const NamedMaterial& named, double degrees) {
+DirectionSamplerInfo seen_from(const NamedMaterial& named, double degrees) {
   const double angle = degrees * kPi / 180.0;
   // Along +x, and the mirrored view along -x; from the normal the mirrored view is +z itself.
   const Direction view = {std::sin(angle), 0.0, std::cos(angle)};
@@ -136,7 +136,7 @@ NamedMaterial at_roughness(const MicrofacetInfo& info, double roughness) {
 
 /// Every angle at every roughness, or at one each: another one for each angle of a way to draw, and
 /// for each way to draw of an angle.
-void add_microfacets(std::vector<DirectionSampler>& samplers, bool all_roughnesses) {
+void add_microfacets(std::vector<DirectionSamplerInfo>& samplers, bool all_roughnesses) {
   for (std::size_t i = 0; i < kMicrofacets.size(); ++i) {
     for (std::size_t j = 0; j < kDegrees.size(); ++j) {
       for (std::size_t k = 0; k < kRoughnesses.size(); ++k) {
@@ -148,7 +148,7 @@ void add_microfacets(std::vector<DirectionSampler>& samplers, bool all_roughness
 }
 
 /// Adds the materials that have no roughness, seen from every angle.
-void add_smooth_lobes(std::vector<DirectionSampler>& samplers) {
+void add_smooth_lobes(std::vector<DirectionSamplerInfo>& samplers) {
   for (const std::string_view name : {"lambert", "phong"}) {
     const MaterialInfo& info = material_by_name(name);
     for (const double degrees : kDegrees) {
@@ -158,8 +158,8 @@ void add_smooth_lobes(std::vector<DirectionSampler>& samplers) {
   }
 }
 
-std::vector<DirectionSampler> samplers_of(bool all_roughnesses) {
-  std::vector<DirectionSampler> samplers = warps();
+std::vector<DirectionSamplerInfo> samplers_of(bool all_roughnesses) {
+  std::vector<DirectionSamplerInfo> samplers = warps();
   add_smooth_lobes(samplers);
   add_microfacets(samplers, all_roughnesses);
   return samplers;
@@ -167,15 +167,15 @@ std::vector<DirectionSampler> samplers_of(bool all_roughnesses) {
 
 }  // namespace
 
-std::vector<DirectionSampler> warp_samplers() { return warps(); }
+std::vector<DirectionSamplerInfo> warp_samplers() { return warps(); }
 
 std::span<const MicrofacetInfo> microfacets() { return kMicrofacets; }
 
-std::vector<DirectionSampler> direction_samplers() { return samplers_of(false); }
+std::vector<DirectionSamplerInfo> direction_samplers() { return samplers_of(false); }
 
-std::vector<DirectionSampler> all_direction_samplers() { return samplers_of(true); }
+std::vector<DirectionSamplerInfo> all_direction_samplers() { return samplers_of(true); }
 
-BoundSampler bound_directions(const DirectionSampler& sampler) {
+BoundSampler bound_directions(const DirectionSamplerInfo& sampler) {
   return std::visit(
       [&](const auto& distribution) -> BoundSampler {
         const Extent cells = cells_of(distribution);
@@ -193,9 +193,9 @@ BoundSampler bound_directions(const DirectionSampler& sampler) {
       sampler.distribution);
 }
 
-std::vector<TestCase> test_cases_of(std::span<const DirectionSampler> samplers) {
+std::vector<TestCase> test_cases_of(std::span<const DirectionSamplerInfo> samplers) {
   std::vector<TestCase> test_cases;
-  for (const DirectionSampler& sampler : samplers) {
+  for (const DirectionSamplerInfo& sampler : samplers) {
     const SamplerInstance instance = {sampler.name, false,
                                       [sampler] { return bound_directions(sampler); }};
     const auto claimed = [distribution = sampler.distribution](const auto& function) {
@@ -214,13 +214,13 @@ std::vector<TestCase> test_cases_of(std::span<const DirectionSampler> samplers) 
 
 std::vector<TestCase> test_cases_of(std::span<const EnvironmentMap> maps,
                                     std::span<const SamplerUnderTest> samplers_under_test,
-                                    std::span<const DirectionSampler> samplers) {
+                                    std::span<const DirectionSamplerInfo> samplers) {
   return test_cases_of(sources_of(maps), samplers_under_test, samplers);
 }
 
 std::vector<TestCase> test_cases_of(std::span<const MapSource> maps,
                                     std::span<const SamplerUnderTest> samplers_under_test,
-                                    std::span<const DirectionSampler> samplers) {
+                                    std::span<const DirectionSamplerInfo> samplers) {
   std::vector<TestCase> test_cases = test_cases_of(maps, samplers_under_test);
   for (TestCase& test_case : test_cases_of(samplers)) test_cases.push_back(std::move(test_case));
   return test_cases;

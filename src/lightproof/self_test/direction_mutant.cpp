@@ -14,8 +14,8 @@ namespace {
 constexpr Direction kUp = {0.0, 0.0, 1.0};
 
 /// The sampler of the registry that a mutant claims to be.
-DirectionSampler correct_sampler(std::string_view name) {
-  std::vector<DirectionSampler> all = all_direction_samplers();
+DirectionSamplerInfo correct_sampler(std::string_view name) {
+  std::vector<DirectionSamplerInfo> all = all_direction_samplers();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });
   if (found == all.end())
@@ -36,7 +36,7 @@ struct Description {
 
 /// The sampler that it claims to be, with the parts that are not empty in its place.
 DirectionMutant mutant(Description what, Sample sample, Pdf pdf = {}) {
-  DirectionSampler sampler = correct_sampler(what.claims);
+  DirectionSamplerInfo sampler = correct_sampler(what.claims);
   sampler.name = std::move(what.name);
   sampler.description = std::string(what.claims) + ": " + std::move(what.defect);
   if (sample) sampler.sample = std::move(sample);
@@ -54,14 +54,14 @@ Sample drawn(const Place& direction, const Density& pdf) {
 }
 
 /// Samples of a correct sampler with their density times `factor`.
-Sample scaled(const DirectionSampler& sampler, double factor) {
+Sample scaled(const DirectionSamplerInfo& sampler, double factor) {
   return [sample = sampler.sample, factor](SquarePoint u) {
     const DrawnDirection drawn = sample(u);
     return DrawnDirection{drawn.direction, {factor * drawn.pdf.value}};
   };
 }
 
-Pdf scaled_pdf(const DirectionSampler& sampler, double factor) {
+Pdf scaled_pdf(const DirectionSamplerInfo& sampler, double factor) {
   return [pdf = sampler.pdf, factor](Direction d) { return PerSteradian{factor * pdf(d).value}; };
 }
 
@@ -69,7 +69,7 @@ void add_warps(std::vector<DirectionMutant>& all) {
   all.push_back(mutant({"cosine-without-root", "height 1-u instead of its square root",
                         "cosine_hemisphere", "hemisphere", Oracle::reference},
                        drawn(uniform_hemisphere_from_square, cosine_hemisphere_pdf)));
-  const DirectionSampler cosine = correct_sampler("cosine_hemisphere");
+  const DirectionSamplerInfo cosine = correct_sampler("cosine_hemisphere");
   all.push_back(mutant({"cosine-without-pi", "the density not divided by pi", "cosine_hemisphere",
                         "pdf-scaled", Oracle::check},
                        scaled(cosine, kPi), scaled_pdf(cosine, kPi)));
@@ -113,7 +113,7 @@ void add_warps(std::vector<DirectionMutant>& all) {
 }
 
 void add_phong_lobes(std::vector<DirectionMutant>& all) {
-  const DirectionSampler lobe = correct_sampler("phong_lobe_50");
+  const DirectionSamplerInfo lobe = correct_sampler("phong_lobe_50");
   const double n = std::get<CosineLobes>(lobe.distribution).front().exponent;
   const auto with_exponent = [](double exponent) {
     return [exponent](SquarePoint u) { return phong_lobe_from_square(u, exponent); };
@@ -139,7 +139,7 @@ struct TwoLobes {
   double share;  ///< of the diffuse lobe
   double exponent;
   Frame mirrored;
-  DirectionSampler sampler;
+  DirectionSamplerInfo sampler;
 
   Direction diffuse(SquarePoint u) const { return cosine_hemisphere_from_square(u); }
   Direction glossy(SquarePoint u) const {
@@ -148,7 +148,7 @@ struct TwoLobes {
 };
 
 TwoLobes two_lobes() {
-  const DirectionSampler sampler = correct_sampler("phong_45");
+  const DirectionSamplerInfo sampler = correct_sampler("phong_45");
   const auto& lobes = std::get<CosineLobes>(sampler.distribution);
   return {lobes[0].share, lobes[1].exponent, frame_around(lobes[1].axis), sampler};
 }
@@ -285,7 +285,7 @@ void add_blinn(std::vector<DirectionMutant>& all) {
                              reflect_about(blinn.at.view, blinn_lobe_from_square(shininess, u));
                          return DrawnDirection{d, pdf(d)};
                        }));
-  const DirectionSampler right = correct_sampler(kBlinn);
+  const DirectionSamplerInfo right = correct_sampler(kBlinn);
   all.push_back(mutant({"blinn-without-two-pi", "a density of the height instead of the direction",
                         kBlinn, "pdf-scaled", Oracle::check},
                        scaled(right, 2.0 * kPi), scaled_pdf(right, 2.0 * kPi)));
@@ -303,8 +303,8 @@ std::vector<DirectionMutant> direction_mutants() {
   return all;
 }
 
-std::vector<DirectionSampler> direction_mutant_samplers() {
-  std::vector<DirectionSampler> samplers;
+std::vector<DirectionSamplerInfo> direction_mutant_samplers() {
+  std::vector<DirectionSamplerInfo> samplers;
   for (DirectionMutant& mutant : direction_mutants()) samplers.push_back(std::move(mutant.sampler));
   return samplers;
 }

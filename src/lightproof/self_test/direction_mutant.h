@@ -11,7 +11,8 @@ namespace lightproof {
 
 /// A sampler of directions with one injected defect.
 struct DirectionMutant {
-  DirectionSampler sampler;    ///< its description names the defect, its distribution is the claim
+  DirectionSamplerInfo
+      sampler;                 ///< its description names the defect, its distribution is the claim
   std::string_view diagnosis;  ///< what the gate should say that it looks like
   Oracle oracle;               ///< the oracle that must reject it
 };
@@ -20,6 +21,6 @@ struct DirectionMutant {
 std::vector<DirectionMutant> direction_mutants();
 
 /// The samplers of direction_mutants().
-std::vector<DirectionSampler> direction_mutant_samplers();
+std::vector<DirectionSamplerInfo> direction_mutant_samplers();
 
 }  // namespace lightproof

@@ -190,16 +190,16 @@ Finding check_lobe(const LobeMethod& method, double roughness, double view_cosin
 
 namespace trials {
 
-Finding zero_numbers(const DirectionSampler& method, const TrialOptions& /*options*/) {
+Finding zero_numbers(const DirectionSamplerInfo& method, const TrialOptions& /*options*/) {
   return check_points(method.sample, zero_points(), true);
 }
 
-Finding numbers_next_to_one(const DirectionSampler& method, const TrialOptions& /*options*/) {
+Finding numbers_next_to_one(const DirectionSamplerInfo& method, const TrialOptions& /*options*/) {
   Finding found = check_points(method.sample, last_points(), true);
   return found.outcome == StabilityOutcome::right ? check_one(method.sample) : found;
 }
 
-Finding round_trip(const DirectionSampler& method, const TrialOptions& /*options*/) {
+Finding round_trip(const DirectionSamplerInfo& method, const TrialOptions& /*options*/) {
   return check_round_trip(method.sample, method.pdf);
 }
 

@@ -19,9 +19,9 @@ Finding check_lobe(const LobeMethod& method, double roughness, double view_cosin
 
 namespace trials {
 
-Finding zero_numbers(const DirectionSampler& method, const TrialOptions& options);
-Finding numbers_next_to_one(const DirectionSampler& method, const TrialOptions& options);
-Finding round_trip(const DirectionSampler& method, const TrialOptions& options);
+Finding zero_numbers(const DirectionSamplerInfo& method, const TrialOptions& options);
+Finding numbers_next_to_one(const DirectionSamplerInfo& method, const TrialOptions& options);
+Finding round_trip(const DirectionSamplerInfo& method, const TrialOptions& options);
 
 Finding zero_numbers(const LobeMethod& method, const TrialOptions& options);
 Finding numbers_next_to_one(const LobeMethod& method, const TrialOptions& options);

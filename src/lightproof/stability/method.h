@@ -61,8 +61,8 @@ struct BrdfTableMethod {
 
 /// Everything that is held against hard inputs, by kind.
 struct StabilityMethods {
-  std::vector<SamplerUnderTest> samplers = {};  ///< of maps, under all densities
-  std::vector<DirectionSampler> warps = {};     ///< of the hemisphere
+  std::vector<SamplerUnderTest> samplers = {};   ///< of maps, under all densities
+  std::vector<DirectionSamplerInfo> warps = {};  ///< of the hemisphere
   std::vector<LobeMethod> lobes = {};
   std::vector<FrameMethod> frames = {};
   std::vector<PrefilterMethodInfo> prefilters = {};

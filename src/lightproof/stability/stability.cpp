@@ -29,7 +29,7 @@ std::string_view limit_of(const StabilityCase& row, std::string_view method) {
 
 /// The trial, with what it throws as its finding.
 template <class Method>
-Finding finding_of(Trial<Method> trial, const Method& method, const TrialOptions& options) {
+Finding finding_of(MethodTrial<Method> trial, const Method& method, const TrialOptions& options) {
   try {
     return trial(method, options);
   } catch (const InputError& error) {
@@ -65,8 +65,9 @@ void check_names(const StabilityMethods& methods, const StabilityOptions& option
 
 /// What one method makes of one case.
 template <class Method>
-StabilityRecord record_of(const StabilityCase& row, std::string_view kind, Trial<Method> trial,
-                          const Method& method, const TrialOptions& options) {
+StabilityRecord record_of(const StabilityCase& row, std::string_view kind,
+                          MethodTrial<Method> trial, const Method& method,
+                          const TrialOptions& options) {
   Finding found = finding_of(trial, method, options);
   return {row.number,
           std::string(kind),
@@ -86,7 +87,7 @@ using Cells = std::vector<WorkCell<StabilityRecord>>;
 /// Adds the cells of one case and one kind of method.
 template <class Method>
 void add_cells(Cells& cells, const StabilityCase& row, std::string_view kind,
-               const std::vector<Method>& methods, Trial<Method> trial,
+               const std::vector<Method>& methods, MethodTrial<Method> trial,
                const StabilityOptions& options) {
   if (trial == nullptr) return;
   for (const Method& method : methods) {

@@ -28,7 +28,7 @@ struct TrialOptions {
 
 /// Puts an input into a method. What it throws as InputError is a refusal.
 template <class Method>
-using Trial = Finding (*)(const Method& method, const TrialOptions& options);
+using MethodTrial = Finding (*)(const Method& method, const TrialOptions& options);
 
 /// A method that cannot pass by its nature, and why.
 struct StabilityLimit {
@@ -45,17 +45,17 @@ struct StabilityCase {
   std::string_view source;
   bool may_refuse = false;  ///< whether an error that says why is what is required
   std::span<const StabilityLimit> limits = {};
-  Trial<SamplerUnderTest> sampler = nullptr;
-  Trial<DirectionSampler> warp = nullptr;
-  Trial<LobeMethod> lobe = nullptr;
-  Trial<FrameMethod> frame = nullptr;
-  Trial<PrefilterMethodInfo> prefilter = nullptr;
-  Trial<ReflectivityMethod> reflectivity = nullptr;
-  Trial<BrdfTableMethod> brdf_table = nullptr;
-  Trial<MeanMethod> mean = nullptr;
-  Trial<EstimatorInfo> estimator = nullptr;
-  Trial<PointSetInfo> point_set = nullptr;
-  Trial<MapFormatInfo> format = nullptr;
+  MethodTrial<SamplerUnderTest> sampler = nullptr;
+  MethodTrial<DirectionSamplerInfo> warp = nullptr;
+  MethodTrial<LobeMethod> lobe = nullptr;
+  MethodTrial<FrameMethod> frame = nullptr;
+  MethodTrial<PrefilterMethodInfo> prefilter = nullptr;
+  MethodTrial<ReflectivityMethod> reflectivity = nullptr;
+  MethodTrial<BrdfTableMethod> brdf_table = nullptr;
+  MethodTrial<MeanMethod> mean = nullptr;
+  MethodTrial<EstimatorInfo> estimator = nullptr;
+  MethodTrial<PointSetInfo> point_set = nullptr;
+  MethodTrial<MapFormatInfo> format = nullptr;
 };
 
 /// All cases, by their numbers.

@@ -238,9 +238,9 @@ class Bends {
   Vector straight_;  ///< smallest p-values of straight lines, ascending
 };
 
-Vector column_of(const std::vector<LinePoint>& points, double LinePoint::*coordinate) {
+Vector column_of(const std::vector<DataPoint>& points, double DataPoint::*coordinate) {
   Vector values;
-  for (const LinePoint& point : points) values.push_back(point.*coordinate);
+  for (const DataPoint& point : points) values.push_back(point.*coordinate);
   return values;
 }
 
@@ -262,9 +262,9 @@ class AllBends {
 }  // namespace
 
 std::vector<std::optional<SegmentedLine>> segmented_lines(
-    std::span<const std::vector<LinePoint>> lines, double alpha) {
-  const auto may_bend = [](const std::vector<LinePoint>& points) {
-    return !breakpoints_of(column_of(points, &LinePoint::x)).empty();
+    std::span<const std::vector<DataPoint>> lines, double alpha) {
+  const auto may_bend = [](const std::vector<DataPoint>& points) {
+    return !breakpoints_of(column_of(points, &DataPoint::x)).empty();
   };
   const auto tested = static_cast<std::size_t>(std::ranges::count_if(lines, may_bend));
   const double ranks = kRanksAtLevel / strictest_level(alpha, tested);
@@ -275,7 +275,7 @@ std::vector<std::optional<SegmentedLine>> segmented_lines(
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (!may_bend(lines[i])) continue;
     clearest[i] =
-        tests.of(column_of(lines[i], &LinePoint::x)).clearest(column_of(lines[i], &LinePoint::y));
+        tests.of(column_of(lines[i], &DataPoint::x)).clearest(column_of(lines[i], &DataPoint::y));
     members.push_back(i);
     log10_p.push_back(clearest[i] ? std::log10(clearest[i]->p_value) : 0.0);
   }

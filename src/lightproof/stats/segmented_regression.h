@@ -25,7 +25,7 @@
 namespace lightproof {
 
 /// A measured point of a line.
-struct LinePoint {
+struct DataPoint {
   double x = 0.0;
   double y = 0.0;
 };
@@ -47,6 +47,6 @@ struct SegmentedLine {
 /// procedure (see stats/family.h) tells it from a straight one. If all are straight, none of them
 /// gets a breakpoint with a probability of at least 1 - alpha, however many lines there are.
 std::vector<std::optional<SegmentedLine>> segmented_lines(
-    std::span<const std::vector<LinePoint>> lines, double alpha);
+    std::span<const std::vector<DataPoint>> lines, double alpha);
 
 }  // namespace lightproof

@@ -63,8 +63,8 @@ std::optional<Extent> first_beyond(const std::vector<ThroughputRecord>& records,
   return found->extent;
 }
 
-std::vector<LinePoint> logarithms_of(const std::vector<StepTime>& steps) {
-  std::vector<LinePoint> points;
+std::vector<DataPoint> logarithms_of(const std::vector<StepTime>& steps) {
+  std::vector<DataPoint> points;
   for (const StepTime& step : steps) {
     points.push_back({std::log(sides(step.extent)), std::log(step.ns)});
   }
@@ -73,7 +73,7 @@ std::vector<LinePoint> logarithms_of(const std::vector<StepTime>& steps) {
 
 /// The breakpoints of all samplers, judged together.
 void add_breakpoints(std::vector<GrowthFit>& fits) {
-  std::vector<std::vector<LinePoint>> lines;
+  std::vector<std::vector<DataPoint>> lines;
   for (const GrowthFit& fit : fits) lines.push_back(logarithms_of(fit.steps));
   const std::vector<std::optional<SegmentedLine>> segmented = segmented_lines(lines, kFamilyAlpha);
   for (std::size_t i = 0; i < fits.size(); ++i) {
