@@ -13,7 +13,7 @@ import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFi
 import { cpus } from "node:os";
 import { dirname, join, relative, resolve, sep } from "node:path";
 import { fileURLToPath } from "node:url";
-import { groupsOf } from "./unity.mjs";
+import { groupsOf, sourcesOf } from "./unity.mjs";
 
 const isDeep = process.argv.includes("--deep");
 const analysis = isDeep ? "mode=shallow" : "mode=shallow,ipa=none";
@@ -66,11 +66,6 @@ function joined(files) {
   }).join("");
 }
 
-/** The headers of ours that a file includes, directly or not. */
-function headersOf(file) {
-  return [...sourcesOf(file)].filter((path) => path !== file);
-}
-
 /**
  * What clang-tidy runs over: a file, or some that have command, checks and configuration in common.
  * Files that name a header without its folder stay in theirs.
@@ -89,7 +84,7 @@ function units() {
   }
   const groups = [...alike.values()].flatMap((members) => {
     const commands = new Map(members.map((unit) => [unit.file, unit]));
-    const options = { largest: largestGroup, headersOf };
+    const options = { largest: largestGroup, mayRetry: true };
     return groupsOf([...commands.keys()], options).map((files) => files.map((file) => commands.get(file)));
   });
   return [...singles, ...groups.map((group) => unitOf(group.reverse()))];
@@ -104,21 +99,6 @@ function unitOf(parts) {
   writeFileSync(file, joined(parts.map((part) => part.file)));
   const command = first.command.replaceAll(first.file, file).replace(" -c ", ` -iquote ${folder} -c `);
   return { ...first, file, command, parts };
-}
-
-/** A file and those of ours that it includes, directly or not. */
-const includes = new Map();
-function sourcesOf(file, found = new Set()) {
-  if (found.has(file)) return found;
-  found.add(file);
-  if (!includes.has(file)) {
-    const names = [...content(file).toString().matchAll(/^\s*#\s*include "(.+)"/gm)].map((m) => m[1]);
-    const places = [dirname(file), join(root, "src"), root];
-    const paths = names.map((name) => places.map((place) => join(place, name)).find(existsSync));
-    includes.set(file, paths.filter((path) => path !== undefined));
-  }
-  for (const path of includes.get(file)) sourcesOf(path, found);
-  return found;
 }
 
 /** The .clang-tidy files that hold for a source file. */

@@ -1,11 +1,14 @@
 // Which sources of a folder one compiler run can take together, one included after the other.
 //
 // Two files stay apart where a name that one of them declares outside of functions occurs in the
-// other: there it would be defined twice, hidden or taken for another. So nobody has to keep names
-// apart between files. As a program: node ci/unity.mjs FILE… prints a line for each file that goes
+// other or is declared by a header of that: there it would be defined twice, hidden or taken for
+// another. So nobody has to keep names apart between files. As a program: node ci/unity.mjs FILE… prints a line for each file that goes
 // with others: the number of its group and its path.
-import { readFileSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+
+const root = resolve(dirname(fileURLToPath(import.meta.url)), "..");
 
 /** More files save little, and keep a core busy at the end of a build while the other is idle. */
 const largestGroup = 8;
@@ -46,6 +49,22 @@ function declared(code) {
   return names;
 }
 
+/** A file and those of ours that it includes, directly or not. */
+const includes = new Map();
+export function sourcesOf(file, found = new Set()) {
+  if (found.has(file)) return found;
+  found.add(file);
+  if (!includes.has(file)) {
+    const code = readFileSync(file, "utf8");
+    const names = [...code.matchAll(/^\s*#\s*include "(.+)"/gm)].map((match) => match[1]);
+    const places = [dirname(file), join(root, "src"), root];
+    const paths = names.map((name) => places.map((place) => join(place, name)).find(existsSync));
+    includes.set(file, paths.filter((path) => path !== undefined));
+  }
+  for (const path of includes.get(file)) sourcesOf(path, found);
+  return found;
+}
+
 /** What a header declares, functions too. */
 const declaredByHeaders = new Map();
 function declaredBy(header) {
@@ -57,26 +76,25 @@ function declaredBy(header) {
 }
 
 /**
- * The files in groups, in their order; a file that must be alone is a group of its own. With
- * `headersOf`, which gives the headers that a file includes, names may occur in another file, but not
- * be declared there or in its headers: nearly always that serves, and makes far larger groups. It is
- * for those who take files one by one where a group fails.
+ * The files in groups, in their order; a file that must be alone is a group of its own. Who takes
+ * files one by one where a group fails may let names occur in another file if they are not declared
+ * there or in its headers: nearly always that serves, and makes far larger groups.
  */
-export function groupsOf(files, { largest = largestGroup, headersOf } = {}) {
+export function groupsOf(files, { largest = largestGroup, mayRetry = false } = {}) {
   const groups = [];
   for (const file of files) {
     const text = readFileSync(file, "utf8");
     const code = bare(text);
     const names = declared(code);
-    const words = headersOf
-      ? new Set([names, ...headersOf(file).map(declaredBy)].flatMap((set) => [...set]))
-      : new Set(code.match(/\b[A-Za-z_]\w*/g));
+    const headers = [...sourcesOf(resolve(file))].filter((path) => path !== resolve(file));
+    const own = mayRetry ? names : code.match(/\b[A-Za-z_]\w*/g);
+    const words = new Set([own, ...headers.map(declaredBy)].flatMap((set) => [...set]));
     const source = { file, names, words };
     const occursIn = (one, other) => [...one.names].some((name) => other.words.has(name));
     const goesWith = (other) => !occursIn(source, other) && !occursIn(other, source);
     const fits = ({ alone, sources }) =>
       !alone && sources.length < largest && sources.every(goesWith);
-    const alone = standsAlone.test(text) || (!headersOf && standsAloneForGcc.test(text));
+    const alone = standsAlone.test(text) || (!mayRetry && standsAloneForGcc.test(text));
     const group = alone ? undefined : groups.find(fits);
     if (group) group.sources.push(source);
     else groups.push({ alone, sources: [source] });

@@ -22,16 +22,16 @@ struct RoughMirror {
 /// ∫ f_r (n.l) dl = F0 scale + bias with Schlick's Fresnel factor; scale + bias is the white
 /// furnace's, with the factor 1 (Karis 2013, eq. 8).
 struct SplitSum {
-  double scale;  ///< ∫ (1 - (1 - v.h)^5) ...
-  double bias;   ///< ∫ (1 - v.h)^5 ...
+  double scale;  ///< ∫ (1 - (1 - v.h)^5) D G / (4 (n.v)) dl
+  double bias;   ///< ∫ (1 - v.h)^5 D G / (4 (n.v)) dl
 
   double white() const { return scale + bias; }
   double of(double normal_reflectance) const { return normal_reflectance * scale + bias; }
 };
 
-/// For a view of cosine `mu` in (0, 1] to the normal. Nested Gauss-Kronrod rules, divided until
-/// they agree to 1e-7; with Smith's masking, which is smooth, errors are some 1e-8, with the kinks
-/// of grooves up to 1e-5.
+/// Scale and bias for a view of cosine `mu` in (0, 1] to the normal. Nested Gauss-Kronrod rules,
+/// divided until they agree to 1e-7; with Smith's masking, which is smooth, errors are some 1e-8,
+/// with the kinks of grooves up to 1e-5.
 SplitSum split_sum(const RoughMirror& mirror, double mu);
 
 }  // namespace lightproof::reference

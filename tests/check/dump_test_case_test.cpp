@@ -295,7 +295,7 @@ TEST(Dump, OfAnotherLuminanceIsRejectedAndTheLuminanceIsRecognised) {
   EnvironmentMap by_average = coloured;
   by_average.weights = kAverageLuminance;
   EXPECT_EQ(recognised(by_average), "--luminance average");
-  EXPECT_EQ(recognised(grey_of_largest_channel(coloured)), "--luminance max");
+  EXPECT_EQ(recognised(map_of_largest_channel(coloured)), "--luminance max");
 }
 
 TEST(Dump, ThatIsRightIsRecognisedAsNothingElse) {

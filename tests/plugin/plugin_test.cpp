@@ -342,7 +342,7 @@ TEST(PluginInTheGate, LeavesNoProcessBehind) {
 
 TEST(PluginInTheGate, IsReplayedByItsFile) {
   GateResult result = InTheGate("flipped-t").judged();
-  result.foreign_samplers = {{"flipped-t", "--plugin ./flipped.so"}};
+  result.third_party_samplers = {{"flipped-t", "--plugin ./flipped.so"}};
   EXPECT_THAT(replay_command(result, result.rejections[0]),
               AllOf(HasSubstr("lightproof gate sun-sky --plugin ./flipped.so --density C"),
                     Not(HasSubstr("--sampler"))));

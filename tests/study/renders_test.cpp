@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "lightproof/core/serialise.h"
 #include "lightproof/estimators/registry.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/materials/material.h"
@@ -47,6 +48,23 @@ TEST(Renders, OfEveryEstimatorShowEachThatServesTheMaterialOnce) {
   for (const RenderRecord& r : renders) {
     EXPECT_TRUE(std::isfinite(r.rmse)) << r.estimator << " on " << r.material;
   }
+}
+
+// What a resumed study reads of its pictures.
+TEST(Renders, AreReadBackAsTheyAreKept) {
+  RenderRecord folded;
+  folded.estimator = "uniform";
+  folded.is_of_each_kind = false;
+  folded.samples = 7;
+  ValueWriter writer;
+  writer.add(folded);
+  const std::string bytes = writer.take();
+  ValueReader reader(bytes);
+  const auto read = reader.value<RenderRecord>();
+  EXPECT_FALSE(read.is_of_each_kind);
+  EXPECT_EQ(read.estimator, "uniform");
+  EXPECT_EQ(read.samples, 7U);
+  EXPECT_TRUE(reader.is_at_end());
 }
 
 TEST(Renders, StandForTheirKindsAloneUnlessEveryOneIsAskedFor) {

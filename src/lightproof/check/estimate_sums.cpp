@@ -86,7 +86,7 @@ EstimateSums::EstimateSums(const SampleDump& dump, const EnvironmentMap& map,
       is_hit_(luminance_.extent()) {
   first_ = std::max<std::uint64_t>(1, dump.count() / 5);
   rest_ = dump.count() - first_;
-  see();
+  screen();
   set_exact();
   count_rest();
 }
@@ -187,7 +187,7 @@ double EstimateSums::all_light() const {
   return light;
 }
 
-void EstimateSums::see() {
+void EstimateSums::screen() {
   struct Part {
     std::vector<double> largest;
     FaultyRows faulty;

@@ -126,7 +126,7 @@ class EstimateSums {
   void visit_range(std::uint64_t first, std::uint64_t count, FaultyRows& faulty,
                    FaultyRows& faulty_weights, const Visit& visit) const;
   /// The first fifth: which texels it finds, and the largest values in their blocks.
-  void see();
+  void screen();
   void set_exact();
   void count_rest();
 

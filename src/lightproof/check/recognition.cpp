@@ -236,7 +236,7 @@ void add_densities(std::vector<Candidate>& found, const DeclaredMap& declared,
                    const std::vector<Direction>& directions) {
   const EnvironmentMap& colours = declared.colours != nullptr ? *declared.colours : *declared.map;
   const bool declares_largest = declared.colours != nullptr;
-  const EnvironmentMap largest = grey_of_largest_channel(colours);
+  const EnvironmentMap largest = map_of_largest_channel(colours);
   const TargetDensity target = declared.target;
   for (const DensityInfo& density : kDensities) {
     const TargetDensity changed = {density.density_space, target.weights, target.lookup};

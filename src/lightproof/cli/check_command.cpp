@@ -168,7 +168,7 @@ void load_map(Declared& declared, const Options& options) {
   declared.maps = load_maps(options);
   if (options.luminance != "max") return;
   declared.colours = declared.maps.front();
-  declared.maps.front() = grey_of_largest_channel(std::move(declared.maps.front()));
+  declared.maps.front() = map_of_largest_channel(std::move(declared.maps.front()));
 }
 
 /// A picture of a density over (phi, theta), whose luminance is in proportion to it per steradian.

@@ -117,7 +117,7 @@ int run(const Options& options) {
   }
   Judged judged = run_on(test_cases, options);
   judged.result.left_out = std::move(left_out);
-  judged.result.foreign_samplers = foreign_samplers(plugins, options.plugins);
+  judged.result.third_party_samplers = third_party_samplers(plugins, options.plugins);
   if (!options.quiet) print_notes(plugin_notes->all());
   print_verdict(options, options.outputs, judged, stdout_is_taken);
   const RunDescription description = describe_run(options, std::move(maps.descriptions));

@@ -19,7 +19,7 @@ struct InputOptions {
   bool to_rgb = false;
   std::string luminance = "rec709";
   /// Whether --luminance may be max, the largest of red, green and blue: whoever allows it makes
-  /// the map grey by grey_of_largest_channel(), since samplers know weights alone.
+  /// the map grey by map_of_largest_channel(), since samplers know weights alone.
   bool allows_max = false;
 };
 

@@ -79,8 +79,8 @@ void print_notes(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) tell("{}\n", terminal_text(note));
 }
 
-std::vector<ForeignSampler> foreign_samplers(const PluginLibraries& libraries,
-                                             const ChosenPlugins& plugins) {
+std::vector<ThirdPartySampler> third_party_samplers(const PluginLibraries& libraries,
+                                                    const ChosenPlugins& plugins) {
   const ChosenPlugins usual;
   std::string limits;
   if (plugins.batch_seconds != usual.batch_seconds) {
@@ -89,7 +89,7 @@ std::vector<ForeignSampler> foreign_samplers(const PluginLibraries& libraries,
   if (plugins.memory_bytes != usual.memory_bytes) {
     limits += fmt::format(" --plugin-memory {}", plugins.memory_bytes);
   }
-  std::vector<ForeignSampler> samplers;
+  std::vector<ThirdPartySampler> samplers;
   for (const auto& library : libraries) {
     samplers.push_back(
         {library->name(),

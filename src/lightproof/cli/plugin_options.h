@@ -41,7 +41,7 @@ void add_plugins(const std::vector<SamplerUnderTest>& plugins,
 void print_notes(const std::vector<std::string>& notes);
 
 /// How a command line that repeats a run names each plug-in.
-std::vector<ForeignSampler> foreign_samplers(const PluginLibraries& libraries,
-                                             const ChosenPlugins& plugins);
+std::vector<ThirdPartySampler> third_party_samplers(const PluginLibraries& libraries,
+                                                    const ChosenPlugins& plugins);
 
 }  // namespace lightproof::cli

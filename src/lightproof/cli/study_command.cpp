@@ -177,7 +177,7 @@ int run(Options options, std::vector<RunInput> from_options) {
   options.study.cache = kept_measurements(description.commit, options.measure_again);
   keeping_parts(unfinished, folder, [&] {
     StudyResult result = run_on(std::move(maps), options, unfinished);
-    result.gate.foreign_samplers = foreign_samplers(plugins, options.plugins);
+    result.gate.third_party_samplers = third_party_samplers(plugins, options.plugins);
     if (!throughput.samplers.empty()) set_throughput(result, std::move(throughput));
     write_report(result, options.output, description, overwriting(replaces));
   });

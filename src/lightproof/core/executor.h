@@ -71,11 +71,11 @@ struct Communicator {
   /// Gives these bytes to all processes and returns those of each, its own among them. All
   /// processes call it equally often and outside of parallel loops. Empty for one that is alone.
   std::function<std::vector<std::string>(std::string bytes)> all_gather = {};
-  /// Of the share of this process.
+  /// The cells of this process's share that an earlier, unfinished run has kept.
   KeptCells kept = {};
 };
 
-/// By key, and so in the order in which they are folded.
+/// Results of cells by key, which is the order in which they are folded.
 template <class Result>
 using CellResults = std::map<std::string, Result>;
 

@@ -69,7 +69,7 @@ class ValueWriter {
     add(value.index());
     std::visit([this](const auto& chosen) { this->add(chosen); }, value);
   }
-  /// Of glm.
+  /// Adds a vector of glm, component by component.
   template <class Vector>
   requires requires(const Vector& vector) {
     typename Vector::value_type;

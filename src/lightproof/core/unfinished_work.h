@@ -75,7 +75,7 @@ class UnfinishedWork {
 
   /// Whether parts are kept now, of this run or an earlier one.
   bool holds_something() const;
-  /// Once the results are written.
+  /// Removes all that is kept: for when the results are written.
   void remove();
 
  private:

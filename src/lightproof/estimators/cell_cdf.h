@@ -32,8 +32,8 @@ inline FoundCell find_cell(std::span<const double> sums, double before, double u
   return {index, std::min((at - low) / width, 1.0 - 0x1p-53), width};
 }
 
-/// The distribution of cells in proportion to their weights, monotone in u.t along and in u.s
-/// across.
+/// The distribution of cells in proportion to their weights, rows monotone in u.t, and
+/// columns of a row in u.s.
 class CellCdf {
  public:
   /// The weights are >= 0.

@@ -20,10 +20,11 @@ struct CellSize {
 /// The size of the cells of an even grid over the whole map.
 inline CellSize cell_size(Extent extent) { return {1.0 / extent.width, 1.0 / extent.height}; }
 
-/// The directions at s = (x + place) size.s, t = (y + place) size.t, which is at most 1.
+/// The directions at s = (x + fraction) size.s, t = (y + fraction) size.t, which is at most 1.
 class TexelDirections {
  public:
-  /// The place in each cell is in [0,1]: 1/2 are the centres, 0 the corners.
+  /// Directions at this fraction, in [0,1], of the width and the height of each cell: 1/2 are the
+  /// centres, 0 the corners.
   TexelDirections(CellSize size, double fraction, Extent count);
 
   int columns() const { return static_cast<int>(cosine_.size()); }

@@ -19,14 +19,14 @@
 
 namespace lightproof {
 
-/// Their shares sum to 1.
+/// Cosine lobes that a distribution over directions is the sum of; their shares sum to 1.
 using CosineLobes = std::vector<reference::CosineLobe>;
 
 /// A density over directions that could be drawn by mistake.
 struct MistakenDensity {
   std::string_view name;       ///< "alpha-squared"
   std::string_view diagnosis;  ///< what it looks like, as a clause
-  /// In proportion to it.
+  /// A function of direction to which it is proportional.
   std::function<double(Direction)> density;
 };
 

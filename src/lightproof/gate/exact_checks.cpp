@@ -29,11 +29,11 @@ constexpr int kFewestPieces = 64;
 constexpr double kSamePdf = 1e-5;
 
 /// A position, seen from a sample's on a map of this size, whose pdf may be taken for its own.
-struct OtherPlace {
+struct OtherPosition {
   std::string_view name;
   SquarePoint (*of)(SquarePoint at, Extent map);
 };
-constexpr std::array<OtherPlace, 6> kOtherPlaces = {{
+constexpr std::array<OtherPosition, 6> kOtherPositions = {{
     {"one column to the right",
      [](SquarePoint at, Extent map) {
        return SquarePoint{std::fmod(at.s + 1.0 / map.width, 1.0), at.t};
@@ -153,7 +153,7 @@ std::optional<std::string_view> position_of_returned_pdf(const BoundSampler& sam
     if (!is_same_pdf(densities[i], drawn[i].pdf, rounding)) differ.push_back(drawn[i]);
   }
   if (differ.size() < kFewestThatDiffer) return std::nullopt;
-  for (const OtherPlace& other : kOtherPlaces) {
+  for (const OtherPosition& other : kOtherPositions) {
     const bool all = std::all_of(differ.begin(), differ.end(), [&](const TexelSample& sample) {
       return is_same_pdf(sampler.pdf(other.of(sample.at, map)), sample.pdf);
     });
@@ -376,7 +376,8 @@ std::array<CheckResult, 2> check_edges(const BoundSampler& sampler,
 }
 
 CheckResult check_support(const DensityComparison& density) {
-  CheckResult result{TestId::pdf_support, density.lost_cells == 0 && density.unlit_cells == 0,
+  CheckResult result{TestId::pdf_support,
+                     density.zero_density_cells == 0 && density.unlit_cells == 0,
                      density.unreachable_mass, ""};
   if (density.unlit_cells > 0) {
     const ComparedCell& cell = *density.first_unlit;

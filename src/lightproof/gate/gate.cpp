@@ -64,6 +64,7 @@ struct RunState {
 
 Draws draw_stage(const TestRun& run, const Expectation& expectation, const BoundSampler& sampler,
                  StageSamples samples, bool is_confirmed) {
+  // The streams' names decide the samples: who renames them changes every verdict's numbers.
   return is_confirmed ? draw_samples_of(run, expectation, sampler, "draws again",
                                         samples.confirmation, samples.screening)
                       : draw_samples_of(run, expectation, sampler, "draws", samples.screening);

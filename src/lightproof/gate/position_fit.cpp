@@ -19,15 +19,14 @@ struct Rows {
   int height;
   MapMeasure declared;
 
-  /// The share of row y by the other measure below which lies the share `along` by the declared
-  /// one.
-  double by_other_measure(int y, double along) const {
+  /// The share of row y by the other measure below which lies this share by the declared one.
+  double by_other_measure(int y, double share) const {
     const double low = cos_theta(static_cast<double>(y) / height);
     const double high = cos_theta((y + 1.0) / height);
     if (declared == MapMeasure::square) {
-      return (cos_theta((y + along) / height) - low) / (high - low);
+      return (cos_theta((y + share) / height) - low) / (high - low);
     }
-    const double cosine = std::clamp(low + along * (high - low), -1.0, 1.0);
+    const double cosine = std::clamp(low + share * (high - low), -1.0, 1.0);
     return std::clamp(std::acos(-cosine) / kPi * height - y, 0.0, 1.0);
   }
 };

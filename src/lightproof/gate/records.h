@@ -38,7 +38,8 @@ class Records {
   void add_fit(TestId test, std::span<const std::uint64_t> observed,
                std::span<const double> probability);
 
-  /// The same of cells in a grid, along its serpentine(); no copy of either is made.
+  /// Adds the goodness of fit of counts in a grid, whose cells are taken along its serpentine(), to
+  /// probabilities; no copy of either is made.
   void add_fit(TestId test, const Grid<std::uint64_t>& observed, const Grid<double>& probability);
 
   /// Adds a fit, judged already, of `fit_samples` of the samples or of what is made of them.

@@ -24,7 +24,7 @@ struct RowBand {
 std::vector<RowBand> row_bands(std::span<const double> row_masses);
 
 /// The equal cells in which positions are counted: of the share of the cell's mass to the left
-/// (across) and of the share of the row's mass below (along).
+/// (conditional) and of the share of the row's mass below (marginal).
 inline constexpr Extent kPositionCells = {8, 8};
 
 }  // namespace lightproof

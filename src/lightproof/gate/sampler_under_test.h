@@ -58,7 +58,7 @@ std::vector<SamplerUnderTest> all_samplers_under_test();
 /// exact side: whoever binds a sampler holds that.
 std::vector<TestCase> test_cases_of(std::span<const MapSource> maps,
                                     std::span<const SamplerUnderTest> samplers_under_test);
-/// The same of maps that outlive them.
+/// The test cases of maps that are in memory, and which must outlive them.
 std::vector<TestCase> test_cases_of(std::span<const EnvironmentMap> maps,
                                     std::span<const SamplerUnderTest> samplers_under_test);
 

@@ -142,10 +142,10 @@ Finding watch(const TestRun& run, const Expectation& expectation, const GateOpti
 }
 
 /// Test cases, and what was kept of their runs.
-class Watches {
+class SequentialRun {
  public:
-  Watches(std::span<const TestCase> test_cases, const GateOptions& options,
-          const Communicator& communicator)
+  SequentialRun(std::span<const TestCase> test_cases, const GateOptions& options,
+                const Communicator& communicator)
       : test_cases_(test_cases),
         options_(options),
         communicator_(communicator),
@@ -219,7 +219,7 @@ class Watches {
 
 GateResult run_sequential_gate(std::span<const TestCase> test_cases, const GateOptions& options,
                                const Progress& progress, const Communicator& communicator) {
-  return Watches(test_cases, options, communicator)(progress);
+  return SequentialRun(test_cases, options, communicator)(progress);
 }
 
 }  // namespace lightproof

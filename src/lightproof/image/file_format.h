@@ -34,7 +34,7 @@ class OpenFile {
   OpenFile& operator=(const OpenFile&) = delete;
 
   int descriptor() const { return descriptor_; }
-  /// In bytes.
+  /// The size of the file in bytes.
   std::uint64_t size() const { return size_; }
 
  private:

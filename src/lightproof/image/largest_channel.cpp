@@ -4,7 +4,7 @@
 
 namespace lightproof {
 
-EnvironmentMap grey_of_largest_channel(EnvironmentMap map) {
+EnvironmentMap map_of_largest_channel(EnvironmentMap map) {
   for (Rgb& rgb : map.radiance.values()) rgb = Rgb(std::max({rgb.r, rgb.g, rgb.b}));
   map.weights = kRec709;
   return map;

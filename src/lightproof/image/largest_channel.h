@@ -7,6 +7,6 @@ namespace lightproof {
 
 /// The map as a grey one of the largest channel of every texel, whose luminance by any weights that
 /// sum to 1 it is.
-EnvironmentMap grey_of_largest_channel(EnvironmentMap map);
+EnvironmentMap map_of_largest_channel(EnvironmentMap map);
 
 }  // namespace lightproof

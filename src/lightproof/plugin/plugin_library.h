@@ -89,7 +89,7 @@ struct PluginTime {
 /// A process of a plug-in with the sampler of a map, for timing it.
 class TimedPlugin {
  public:
-  /// As bound_plugin().
+  /// Starts a process with the sampler of a map. Throws what bound_plugin() throws.
   TimedPlugin(const PluginLibrary& library, const EnvironmentMap& map);
   ~TimedPlugin();
   TimedPlugin(const TimedPlugin&) = delete;

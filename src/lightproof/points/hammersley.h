@@ -11,9 +11,9 @@
 
 namespace lightproof {
 
-/// In double, exact up to the quotient's rounding. The numbers are n = 0 … N-1, as Hammersley has
-/// them, or n = 1 … N, as the lecture's listing of the BRDF integration map counts them: there the
-/// last s, which is 1, is taken as 0, the same azimuth.
+/// Hammersley's point set in double, exact up to the quotient's rounding. The numbers are n = 0 …
+/// N-1, as Hammersley has them, or n = 1 … N, as the lecture's listing of the BRDF integration map
+/// counts them: there the last s, which is 1, is taken as 0, the same azimuth.
 class Hammersley {
  public:
   /// The count N is in [1, 2^32]; the first number 0 or 1.

@@ -15,7 +15,8 @@ namespace lightproof {
 /// 1/2 in units of 2^-32, where R2 starts.
 inline constexpr std::uint32_t kR2Start = 0x80000000U;
 
-/// In fixed point. The second step is even, so that t repeats after 2^31 points; the pair does not.
+/// Roberts' R2 sequence in fixed point of 32 bits. The second step is even, so that t repeats after
+/// 2^31 points; the pair does not.
 class R2 {
  public:
   explicit R2(PointSeed seed)

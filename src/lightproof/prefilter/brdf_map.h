@@ -35,10 +35,11 @@ struct HammersleyRange {
   static constexpr HammersleyRange published(std::uint32_t count) { return {count, 1}; }
 };
 
-/// The lecture's sum over half-vectors. `cosine` in (0,1]: at 0 the published weight is 0/0.
+/// Scale and bias by the lecture's sum over half-vectors. `cosine` in (0,1]: at 0 the published
+/// weight is 0/0.
 ScaleBias integrate_brdf(double cosine, double roughness, Masking masking, HammersleyRange points);
 
-/// By quadrature, with an error below 2e-6, for a cosine and a roughness in [0,1].
+/// Scale and bias by quadrature, with an error below 2e-6, for a cosine and a roughness in [0,1].
 ScaleBias integrate_brdf(double cosine, double roughness, Masking masking);
 
 /// The whole map, by quadrature with an error below 5e-5: texel (x, y) at cosine (x + 1/2)/width

@@ -94,12 +94,12 @@ void BandTransform::set_seeds() {
   std::vector<double> sines;
   for (const double square : squares_) sines.push_back(std::sqrt(square));
   sectoral_ = sectoral_values(sines, degree_);
-  integrals_.resize(slots() * (static_cast<std::size_t>(degree_) + 1));
+  integrals_.resize(padded_rows() * (static_cast<std::size_t>(degree_) + 1));
   for (int m = 0; m <= degree_; ++m) {
     const double* p = sectoral_.data() + static_cast<std::size_t>(m) * sines.size();
-    double* now = integrals_.data() + static_cast<std::size_t>(m) * slots();
+    double* now = integrals_.data() + static_cast<std::size_t>(m) * padded_rows();
     const double scale = m < 2 ? 0.0 : m / (m + 1.0) * sectoral_step(m) * sectoral_step(m - 1);
-    for (std::size_t slot = 0; slot < slots(); ++slot) {
+    for (std::size_t slot = 0; slot < padded_rows(); ++slot) {
       const std::size_t upper = slot + slot / (vectors_ * lanes_) * lanes_;
       const std::size_t lower = upper + lanes_;
       // Integration by parts gives the integral of sin^(m+1) over the angle from the one of
@@ -110,7 +110,7 @@ void BandTransform::set_seeds() {
             std::atan2(sines[lower], cosines_[lower]) - std::atan2(sines[upper], cosines_[upper]);
         now[slot] += 0.5 * angle * sectoral_step(0) * sectoral_step(1);
       }
-      if (m >= 2) now[slot] += scale * *(now + slot - 2 * slots());
+      if (m >= 2) now[slot] += scale * *(now + slot - 2 * padded_rows());
     }
   }
 }
@@ -123,7 +123,7 @@ void BandTransform::analyse(const LegendreRecursion& recursion, int order,
   TableVector<double> states(2 * edge_values + 2 * row_values);
   std::vector<double> sums((coefficients.size() / kParts + 1) / 2 * 2 * kParts);
   LegendreBlock block = {vectors_,
-                         slots(),
+                         padded_rows(),
                          nullptr,
                          nullptr,
                          nullptr,
@@ -165,11 +165,11 @@ void LatitudeTransform::synthesise(const LegendreRecursion& recursion, int order
   std::vector<double> whole(coefficients.begin(), coefficients.end());
   whole.resize((coefficients.size() / kParts + 1) / 2 * 2 * kParts);
   const std::size_t lanes = row_lanes();
-  const double* sectoral = sectoral_.data() + static_cast<std::size_t>(order) * slots();
-  for (std::size_t row = 0; row < slots(); row += lanes) {
-    synthesise_rows(
-        recursion, whole,
-        {slots(), cosines_.data() + row, sectoral + row, even.data() + row, odd.data() + row});
+  const double* sectoral = sectoral_.data() + static_cast<std::size_t>(order) * padded_rows();
+  for (std::size_t row = 0; row < padded_rows(); row += lanes) {
+    synthesise_rows(recursion, whole,
+                    {padded_rows(), cosines_.data() + row, sectoral + row, even.data() + row,
+                     odd.data() + row});
   }
 }
 

@@ -19,15 +19,15 @@
 
 namespace lightproof {
 
-/// From the rows of a map to coefficients.
+/// The Legendre transform of the rows of a map to coefficients.
 class BandTransform {
  public:
   /// For maps of this many rows, up to this degree.
   BandTransform(int height, int degree);
 
-  /// Places for folded rows, some of them empty.
-  std::size_t slots() const { return blocks_ * vectors_ * lanes_; }
-  /// The row of the lower half (or the middle one) that a slot holds; an empty slot holds one of
+  /// The number of folded rows, filled up to whole vectors: some of them are empty.
+  std::size_t padded_rows() const { return blocks_ * vectors_ * lanes_; }
+  /// The row of the lower half (or the middle one) that stands at a place; an empty one has one of
   /// rows() or more.
   int row_of(std::size_t slot) const;
   int rows() const { return (height_ + 1) / 2; }
@@ -54,13 +54,13 @@ class BandTransform {
   TableVector<double> integrals_;  ///< of P_m^m over the bands, [m][slot]
 };
 
-/// From coefficients to the latitudes of row centres.
+/// The inverse Legendre transform, from coefficients to the latitudes of row centres.
 class LatitudeTransform {
  public:
   LatitudeTransform(int height, int degree);
 
   /// Folded rows, filled up to whole vectors.
-  std::size_t slots() const { return cosines_.size(); }
+  std::size_t padded_rows() const { return cosines_.size(); }
   int rows() const { return (height_ + 1) / 2; }
   int degree() const { return degree_; }
 

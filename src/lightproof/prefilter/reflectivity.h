@@ -79,7 +79,7 @@ class ReflectivityAccumulation {
   /// good, at numbers that the next frame draws again.
   void add_frame(int samples);
 
-  /// Of a texel without a good sample, 0.
+  /// The mean radiance of all samples so far, texel by texel; 0 of a texel without a good sample.
   Grid<Rgb> mean() const;
   std::uint64_t samples() const { return samples_; }
 

@@ -72,14 +72,14 @@ class RowAnalysis {
   /// Sets what the slots from `first` on hold of all orders.
   void operator()(std::size_t first, FoldedOrders& orders) const {
     const auto width = static_cast<std::size_t>(map_.extent().width);
-    const std::size_t count = std::min(kSlots, bands_.slots() - first);
+    const std::size_t count = std::min(kSlots, bands_.padded_rows() - first);
     std::vector<Complex> spectra(count * width);
     for (int channel = 0; channel < kChannels; ++channel) {
       for (std::size_t i = 0; i < count; ++i) {
         transform_pair(bands_.row_of(first + i), channel,
                        std::span(spectra).subspan(i * width, width));
       }
-      const std::size_t at = 2 * static_cast<std::size_t>(channel) * bands_.slots() + first;
+      const std::size_t at = 2 * static_cast<std::size_t>(channel) * bands_.padded_rows() + first;
       for (std::size_t m = 0; m < columns_.size(); ++m) {
         const auto even = orders.even(static_cast<int>(m)).subspan(at);
         const auto odd = orders.odd(static_cast<int>(m)).subspan(at);
@@ -120,9 +120,9 @@ class RowAnalysis {
       const Complex of_even = finite_product(sum + difference, columns_[m]);
       const Complex of_odd = finite_product(sum - difference, columns_[m]);
       even[i] = of_even.real();
-      even[i + bands_.slots()] = of_even.imag();
+      even[i + bands_.padded_rows()] = of_even.imag();
       odd[i] = of_odd.real();
-      odd[i + bands_.slots()] = of_odd.imag();
+      odd[i + bands_.padded_rows()] = of_odd.imag();
     }
   }
 
@@ -151,7 +151,8 @@ class RowSynthesis {
     std::vector<Complex> spectra(count * width);
     for (int channel = 0; channel < kChannels; ++channel) {
       std::fill(spectra.begin(), spectra.end(), Complex());
-      const std::size_t at = 2 * static_cast<std::size_t>(channel) * latitudes_.slots() + first;
+      const std::size_t at =
+          2 * static_cast<std::size_t>(channel) * latitudes_.padded_rows() + first;
       for (std::size_t m = 0; m < phases_.size(); ++m) {
         unfold(orders.even(static_cast<int>(m)).subspan(at),
                orders.odd(static_cast<int>(m)).subspan(at), m, spectra);
@@ -170,7 +171,7 @@ class RowSynthesis {
     const auto width = static_cast<std::size_t>(output_.extent().width);
     const std::size_t at = m % width;
     const std::size_t opposite = (width - at) % width;
-    const std::size_t imaginary = latitudes_.slots();
+    const std::size_t imaginary = latitudes_.padded_rows();
     for (std::size_t i = 0; i * width < spectra.size(); ++i) {
       const Complex of_even = {even[i], even[i + imaginary]};
       const Complex of_odd = {odd[i], odd[i + imaginary]};
@@ -208,7 +209,7 @@ struct Output {
   explicit Output(const ZonalFilter& of)
       : filter(&of),
         transform(of.extent.height, static_cast<int>(of.factors.size()) - 1),
-        orders(transform.degree(), transform.slots()) {}
+        orders(transform.degree(), transform.padded_rows()) {}
 
   void synthesise(const LegendreRecursion& recursion, int order,
                   std::span<const double> coefficients) {
@@ -239,9 +240,9 @@ std::vector<Grid<Rgb>> convolve(const Grid<Rgb>& map, std::span<const ZonalFilte
   const int degree = static_cast<int>(factors) - 1;
   assert(degree <= kLargestDegree);
   const BandTransform bands(map.extent().height, degree);
-  FoldedOrders rows(degree, bands.slots());
+  FoldedOrders rows(degree, bands.padded_rows());
   const RowAnalysis analysis(map, bands);
-  parallel_for(chunks_of(bands.slots(), kSlots),
+  parallel_for(chunks_of(bands.padded_rows(), kSlots),
                [&](std::size_t chunk) { analysis(chunk * kSlots, rows); });
   std::vector<Output> outputs;
   for (const ZonalFilter& filter : filters) outputs.emplace_back(filter);

@@ -85,7 +85,7 @@ bool is_uncertain(const Candidate& candidate, const MethodDemand& demand);
 /// that will be tried by the slope of the best point sets and by what may be blocked; else what is
 /// predicted.
 std::uint64_t hoped_samples(const Candidate& candidate, const MethodDemand& demand);
-/// The time of so many.
+/// Seconds that a shading point takes with hoped_samples().
 double hoped_seconds(const Candidate& candidate, const MethodDemand& demand);
 
 /// The largest number of samples with which the candidate keeps to budget and kMostDirections, in
@@ -97,7 +97,8 @@ std::uint64_t most_samples(const Candidate& candidate, const MethodDemand& deman
 std::optional<Obstacle> obstacle_to(const MethodDemand& demand, const Candidate& candidate,
                                     std::uint64_t samples);
 
-/// So many samples, or the next whole number of the estimator's independent estimates.
+/// The least number of samples, not below `samples`, that is a whole number of the estimator's
+/// independent estimates.
 std::uint64_t in_steps(const EstimatorInfo& info, double samples);
 
 /// What predictions and costs say of every estimator.

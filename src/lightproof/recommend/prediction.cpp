@@ -163,8 +163,7 @@ class Predictor {
     const auto density_of = [](MicrofacetSampling of) {
       return of == MicrofacetSampling::spherical_caps ? MicrofacetSampling::visible_normals : of;
     };
-    std::map<MicrofacetSampling, ErrorAt> known = {
-        {density_of(ggx->sampling), errors.find("brdf")->second}};
+    std::map<MicrofacetSampling, ErrorAt> known = {{density_of(ggx->sampling), errors.at("brdf")}};
     for (const EstimatorInfo& info : estimators()) {
       if (!info.microfacets) continue;
       const MicrofacetSampling sampling = density_of(*info.microfacets);
@@ -271,7 +270,7 @@ class Predictor {
 
   /// Point sets that are no worse than strata.
   static void add_sets(std::string_view base, const StrataVariances& inside, ErrorsAt& errors) {
-    ErrorAt error = errors.find(base)->second;
+    ErrorAt error = errors.at(base);
     error.model = ErrorModel::at_most;
     error.inside = inside;
     for (const EstimatorInfo& info : estimators()) {

@@ -55,7 +55,7 @@ struct Prediction {
   double mean = 0.0;  ///< of the exact radiance's luminance over the points
   std::vector<EstimatorPrediction> estimators;
 
-  /// That of this estimator, or nothing.
+  /// What is predicted of this estimator; a null pointer if the material does not serve it.
   const EstimatorPrediction* find(std::string_view estimator) const;
 };
 

@@ -158,10 +158,10 @@ std::string replay_command(const GateResult& gate, const TestRecord& test) {
   if (gate.must_detect != kMustDetect)
     options += fmt::format(" --must-detect {}", gate.must_detect);
   const std::string map = shell_word(test.source.empty() ? test.map : test.source);
-  const auto foreign =
-      std::ranges::find(gate.foreign_samplers, test.sampler, &ForeignSampler::name);
-  const std::string sampler = foreign != gate.foreign_samplers.end()
-                                  ? foreign->options
+  const auto third_party =
+      std::ranges::find(gate.third_party_samplers, test.sampler, &ThirdPartySampler::name);
+  const std::string sampler = third_party != gate.third_party_samplers.end()
+                                  ? third_party->options
                                   : "--sampler " + shell_word(test.sampler);
   return fmt::format("lightproof gate{} {}{} --samples {} --seed {}{}", of_map ? " " + map : "",
                      sampler, of_map ? " --density " + test.density_space + gate.input_options : "",

@@ -66,7 +66,7 @@ std::string all_of(std::size_t count, std::string_view noun) {
   return fmt::format("all {}", counted(count, noun));
 }
 
-struct Range {
+struct Bounds {
   double low = HUGE_VAL;
   double high = -HUGE_VAL;
   void add(double value) {
@@ -75,7 +75,7 @@ struct Range {
   }
 };
 
-std::string slope_sentence(const Agreement& slopes, Range range, Range errors) {
+std::string slope_sentence(const Agreement& slopes, Bounds range, Bounds errors) {
   if (slopes.within == slopes.all) {
     return capitalised(fmt::format(
         "{} {} with slope \u22120.5 as predicted: fitted slopes from {} to {}, each within 3 of "
@@ -104,8 +104,8 @@ bool has_slope(const ConvergenceRecord& record) {
 
 std::string convergence_finding(const std::vector<ConvergenceRecord>& records) {
   Agreement slopes;
-  Range range;
-  Range errors;
+  Bounds range;
+  Bounds errors;
   for (const ConvergenceRecord& r : records) {
     if (!has_slope(r)) continue;
     slopes.add(deviation(r.slope, kExpectedSlope, r.slope_error), r);
@@ -156,7 +156,7 @@ bool has_telling_ratio(const ConvergenceRecord& record) {
 
 std::string variance_finding(const std::vector<ConvergenceRecord>& records) {
   Agreement ratios;
-  Range range;
+  Bounds range;
   std::size_t vague = 0;
   for (const ConvergenceRecord& r : records) {
     if (!has_ratio(r)) continue;

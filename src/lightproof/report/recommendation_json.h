@@ -12,13 +12,14 @@
 
 namespace lightproof {
 
-/// The answers, without what made them.
+/// Recommendations as JSON, without the command and the machine that made them.
 nlohmann::ordered_json recommendations_json(const std::vector<Recommendation>& recommendations);
 
-/// Those that no method reaches.
+/// Questions that no method answers, as JSON, with what stops each family.
 nlohmann::ordered_json refused_recommendations_json(
     const std::vector<RefusedRecommendation>& refused);
-/// How good answers are, maps that were looked at while building first; null without a survey.
+/// The survey of how good recommendations are, as JSON: maps that were looked at while building
+/// first; null without a survey.
 nlohmann::ordered_json recommendation_survey_json(
     const std::optional<RecommendationSurvey>& survey);
 

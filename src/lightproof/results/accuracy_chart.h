@@ -32,7 +32,7 @@ struct AccuracyPoint {
 /// One estimator: a falling line, or a single point if its budget is without meaning to it.
 struct AccuracyLine {
   std::string estimator;  ///< name in the registry of estimators
-  std::string family;     ///< what it belongs to: "environment", "mis", "precomputed", …
+  std::string family;     ///< what it belongs to: "environment", "MIS", "precomputed", …
   bool is_biased = false;
   double set_up_seconds = 0.0;            ///< elapsed, once for a map and a material
   double set_up_processor_seconds = 0.0;  ///< the same as processor time of all threads

@@ -45,7 +45,7 @@ struct LeftOut {
 };
 
 /// A sampler that came from a plug-in.
-struct ForeignSampler {
+struct ThirdPartySampler {
   std::string name;
   std::string options;  ///< words of the command line that name it: "--plugin ./libmine.so"
 
@@ -69,12 +69,12 @@ struct GateResult {
   std::string replay = {};
   /// Of rejected samples of another program: what would make them right, the likeliest first.
   std::vector<Recognition> recognitions = {};
-  std::vector<ForeignSampler> foreign_samplers = {};
+  std::vector<ThirdPartySampler> third_party_samplers = {};
 
   static auto fields(auto& gate) {
     return std::tie(gate.family_alpha, gate.samples, gate.seed, gate.tests, gate.rejections,
                     gate.input_options, gate.family, gate.sequential, gate.left_out,
-                    gate.must_detect, gate.replay, gate.recognitions, gate.foreign_samplers);
+                    gate.must_detect, gate.replay, gate.recognitions, gate.third_party_samplers);
   }
 };
 

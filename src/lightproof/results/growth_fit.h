@@ -31,7 +31,7 @@ struct GrowthBreakpoint {
 struct SegmentedGrowth {
   double exponent_before = 0.0;               ///< exponent up to the first breakpoint
   std::vector<GrowthBreakpoint> breakpoints;  ///< one or two, ascending sizes
-  double p_value = 1.0;  ///< P(scatter about one power law seems to bend so clearly)
+  double p_value = 1.0;  ///< P(scatter about one power law seems to have so clear a breakpoint)
 };
 
 /// How a sampler's costs grow with the map.

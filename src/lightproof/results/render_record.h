@@ -28,9 +28,10 @@ struct RenderRecord {
   double point_seconds = 0.0;
 
   static auto fields(auto& record) {
-    return std::tie(record.map, record.receiver, record.material, record.estimator, record.samples,
-                    record.picture, record.reference, record.error, record.rmse, record.seconds,
-                    record.reference_samples, record.point_seconds);
+    return std::tie(record.map, record.receiver, record.material, record.estimator,
+                    record.is_of_each_kind, record.samples, record.picture, record.reference,
+                    record.error, record.rmse, record.seconds, record.reference_samples,
+                    record.point_seconds);
   }
 };
 

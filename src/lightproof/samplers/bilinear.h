@@ -36,8 +36,8 @@ class BilinearPatches {
   /// B.
   Grid<double> weights() const;
   /// The sample in patch (column, row), which is drawn with probability `mass`, at the point below
-  /// whose t lies the share `along` of the patch's mass, and to the left of which lies the share
-  /// `across` of the mass at that t.
+  /// whose t lies the share `row_fraction` of the patch's mass, and to the left of which lies the
+  /// share `column_fraction` of the mass at that t.
   TexelSample sample(int column, int row, double column_fraction, double row_fraction,
                      double mass) const;
   /// The column of patches that this s lies in.

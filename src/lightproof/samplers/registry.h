@@ -38,7 +38,7 @@ struct SamplerInfo {
   /// it reads; 0 if it searches no such sums.
   double resolution;
   MassRounding (*rounding)(Extent map);  ///< what it declares of the probabilities of texels
-  bool monotone;              ///< in u.t along and in u.s across: it keeps stratification
+  bool monotone;              ///< rows in u.t and columns of a row in u.s: it keeps stratification
   bool inverts_rows = false;  ///< u.t alone, all its 53 bits, gives the row and the share of it
   bool known_defects;         ///< kept as published, to show what the gate finds
   bool inverts_shared_cdf;    ///< must return the texel of LinearScan for every point

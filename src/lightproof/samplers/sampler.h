@@ -32,8 +32,8 @@ struct LightSample {
 };
 
 /// A texel that was drawn with probability `mass`, and what is left of the two random numbers: the
-/// sample's place in the texel as uniform shares in [0,1) of its width and of its height (under B:
-/// of its solid angle).
+/// sample's position in the texel as uniform shares in [0,1) of its width and of its height (under
+/// B: of its solid angle).
 struct TexelDraw {
   int x;
   int y;

@@ -27,7 +27,7 @@ struct SelfTestOptions {
   }
 };
 
-/// As the report shows it, with this seed throughout.
+/// The options of the self-test that a report shows, with this seed throughout.
 SelfTestOptions self_test_options(std::uint64_t seed);
 
 /// Calibration, power and mutants: what the program and its options determine, whatever the maps.

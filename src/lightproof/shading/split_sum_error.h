@@ -20,7 +20,7 @@
 
 namespace lightproof {
 
-/// Of degrees up to which both powers are computed.
+/// The degree of spherical harmonics up to which both angular powers are computed.
 inline constexpr int kSplitSumDegree = 160;
 
 /// A function over directions as far as rotations leave it alone.
@@ -56,7 +56,8 @@ struct SplitSumError {
   double left_out;  ///< what further degrees would add in quadrature, at most
 };
 
-/// Both of one degree. A black map has no error.
+/// The error of the split sum over all orientations of a map, from the kernel's and the map's
+/// angular power, which have one degree. It is 0 for a black map.
 SplitSumError split_sum_error(const SplitSumKernel& kernel, const AngularPower& luminance);
 
 }  // namespace lightproof

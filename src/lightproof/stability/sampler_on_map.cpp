@@ -139,12 +139,12 @@ Finding check_density(const SamplerOnMap& on_map) {
   if (found.worst && std::isnan(found.worst->pdf)) {
     finding.outcome = StabilityOutcome::not_a_number;
     finding.came_out = fmt::format("density NaN at texel ({}, {})", found.worst->x, found.worst->y);
-  } else if (found.lost_cells > 0) {
+  } else if (found.zero_density_cells > 0) {
     finding.outcome = StabilityOutcome::wrong;
     finding.amount = found.unreachable_mass;
     finding.came_out =
-        fmt::format("density 0 at {} lit {}, first at texel ({}, {})", found.lost_cells,
-                    found.compared, found.first_lost->x, found.first_lost->y);
+        fmt::format("density 0 at {} lit {}, first at texel ({}, {})", found.zero_density_cells,
+                    found.compared, found.first_zero_density->x, found.first_zero_density->y);
   } else if (found.unlit_cells > 0) {
     finding.outcome = StabilityOutcome::wrong;
     finding.came_out = fmt::format("density {:.4g} at {} {} without light, first at texel ({}, {})",

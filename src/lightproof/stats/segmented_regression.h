@@ -30,17 +30,17 @@ struct DataPoint {
   double y = 0.0;
 };
 
-/// Where a line bends.
+/// Where the slope of a line changes.
 struct Breakpoint {
-  std::size_t point = 0;     ///< index of the measured point that lies in the bend
+  std::size_t point = 0;     ///< index of the measured point at which it changes
   double slope_after = 0.0;  ///< slope from there to the next breakpoint or the end
 };
 
-/// A line that bends once or twice.
+/// A line of two or three segments.
 struct SegmentedLine {
   double slope = 0.0;                   ///< slope before the first breakpoint
   std::vector<Breakpoint> breakpoints;  ///< one or two, ascending
-  double p_value = 1.0;                 ///< P(a straight line seems to bend so clearly, anywhere)
+  double p_value = 1.0;  ///< P(a straight line seems to have so clear a breakpoint, anywhere)
 };
 
 /// For each of several lines, of points with ascending x, the clearest segmented one if Holm's

@@ -113,8 +113,8 @@ FrameOf<T> bare_rotation_frame(UnitVector<T> n) {
   return {{T(1) - n.x * n.x / d, b, -n.x}, {b, T(1) - n.y * n.y / d, -n.y}, n};
 }
 
-/// As published: the poles treated apart, the matrix everywhere else, whose error near -z is some
-/// epsilon / d^2 at a distance d.
+/// A frame by the matrix of a quaternion as published: the poles treated apart, the matrix
+/// everywhere else, whose error near -z is some epsilon / d^2 at a distance d.
 template <class T>
 FrameOf<T> published_quaternion_frame(UnitVector<T> n) {
   if (n.x == T(0) && n.y == T(0)) return {{1, 0, 0}, {0, n.z, 0}, n};
