@@ -1,8 +1,8 @@
 // Which sources of a folder one compiler run can take together, one included after the other.
 //
 // Two files stay apart where a name that one of them declares outside of functions occurs in the
-// other or is declared by a header of that: there it would be defined twice, hidden or taken for
-// another. So nobody has to keep names apart between files. As a program: node ci/unity.mjs FILE… prints a line for each file that goes
+// other: there it would be defined twice, hidden or taken for another. So nobody has to keep names
+// apart between files. As a program: node ci/unity.mjs FILE… prints a line for each file that goes
 // with others: the number of its group and its path.
 import { existsSync, readFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
@@ -28,9 +28,10 @@ function bare(text) {
 
 /**
  * The names that declarations give which begin a line (the body of a namespace is not indented),
- * but for functions that other files may call: a header declares these.
+ * but for functions that other files may call: a header declares these. Whoever is wary takes every
+ * name that might be one, so that no build fails.
  */
-function declared(code) {
+function declared(code, { isWary = false } = {}) {
   const names = new Set();
   const begins =
     /^namespace \{|^\} hidden_end|^(?!#|\}|namespace\b|(?:TYPED_)?TEST|INSTANTIATE)(?=[A-Za-z_[])[\s\S]*?[;{]/gm;
@@ -41,6 +42,9 @@ function declared(code) {
     let head = declaration;
     for (let inner = ""; inner !== head; head = head.replace(/<[^<>;]*>/g, " ")) inner = head;
     if (!hidden && /^[^=]*\(/.test(head)) continue;
+    if (isWary) {
+      for (const [, name] of head.matchAll(/(\w+)\s*(?:\(|=|\{|;|\[)/g)) names.add(name);
+    }
     const type = /\b(?:using|struct|class|enum(?: class)?|union|concept)\s+(\w+)/.exec(head);
     const other = /\b(?!requires\b)([A-Za-z_]\w*)\s*(?:\(|=|\{|;|\[)/.exec(head);
     const found = type ?? other;
@@ -85,10 +89,11 @@ export function groupsOf(files, { largest = largestGroup, mayRetry = false } = {
   for (const file of files) {
     const text = readFileSync(file, "utf8");
     const code = bare(text);
-    const names = declared(code);
+    const names = declared(code, { isWary: !mayRetry });
     const headers = [...sourcesOf(resolve(file))].filter((path) => path !== resolve(file));
-    const own = mayRetry ? names : code.match(/\b[A-Za-z_]\w*/g);
-    const words = new Set([own, ...headers.map(declaredBy)].flatMap((set) => [...set]));
+    const words = mayRetry
+      ? new Set([names, ...headers.map(declaredBy)].flatMap((set) => [...set]))
+      : new Set(code.match(/\b[A-Za-z_]\w*/g));
     const source = { file, names, words };
     const occursIn = (one, other) => [...one.names].some((name) => other.words.has(name));
     const goesWith = (other) => !occursIn(source, other) && !occursIn(other, source);

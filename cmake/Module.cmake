@@ -9,9 +9,8 @@ target_compile_options(lightproof_settings INTERFACE
   # Clang counts the float INFINITY of <cmath> as a promotion.
   $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion>
   $<$<BOOL:${LIGHTPROOF_WERROR}>:-Werror>
-  # False alarms of GCC 12 in std::string, one by itself and in vectors of it (GCC bug 105651).
+  # False alarms of GCC 12 in std::string (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>
   -ffp-contract=off
   -fno-math-errno -fno-trapping-math  # change no value, but allow vectors
   $<$<BOOL:${LIGHTPROOF_NATIVE}>:-march=native>)
