@@ -155,6 +155,7 @@ function findingsIn(unit) {
 async function lint(unit) {
   const findings = await findingsIn(unit);
   if (!findings || unit.parts.length === 1) return findings;
+  console.log(`         one by one, since together they do not pass: ${unit.parts.length} files`);
   const ofParts = [];
   for (const part of unit.parts) ofParts.push(await findingsIn(unitOf([part])));
   return ofParts.join("");

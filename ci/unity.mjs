@@ -42,13 +42,11 @@ function declared(code, { isWary = false } = {}) {
     let head = declaration;
     for (let inner = ""; inner !== head; head = head.replace(/<[^<>;]*>/g, " ")) inner = head;
     if (!hidden && /^[^=]*\(/.test(head)) continue;
-    if (isWary) {
-      for (const [, name] of head.matchAll(/(\w+)\s*(?:\(|=|\{|;|\[)/g)) names.add(name);
-    }
-    const type = /\b(?:using|struct|class|enum(?: class)?|union|concept)\s+(\w+)/.exec(head);
-    const other = /\b(?!requires\b)([A-Za-z_]\w*)\s*(?:\(|=|\{|;|\[)/.exec(head);
-    const found = type ?? other;
-    if (found) names.add(found[1]);
+    const found = [
+      ...head.matchAll(/\b(?:using|struct|class|enum(?: class)?|union|concept)\s+(\w+)/g),
+      ...head.matchAll(/\b(?!requires\b)([A-Za-z_]\w*)\s*(?:\(|=|\{|;|\[)/g),
+    ];
+    for (const [, name] of isWary ? found : found.slice(0, 1)) names.add(name);
   }
   return names;
 }
@@ -68,6 +66,8 @@ export function sourcesOf(file, found = new Set()) {
   for (const path of includes.get(file)) sourcesOf(path, found);
   return found;
 }
+
+const headersOf = (file) => [...sourcesOf(file)].filter((path) => path !== file);
 
 /** What a header declares, functions too. */
 const declaredByHeaders = new Map();
@@ -90,9 +90,8 @@ export function groupsOf(files, { largest = largestGroup, mayRetry = false } = {
     const text = readFileSync(file, "utf8");
     const code = bare(text);
     const names = declared(code, { isWary: !mayRetry });
-    const headers = [...sourcesOf(resolve(file))].filter((path) => path !== resolve(file));
     const words = mayRetry
-      ? new Set([names, ...headers.map(declaredBy)].flatMap((set) => [...set]))
+      ? new Set([names, ...headersOf(resolve(file)).map(declaredBy)].flatMap((set) => [...set]))
       : new Set(code.match(/\b[A-Za-z_]\w*/g));
     const source = { file, names, words };
     const occursIn = (one, other) => [...one.names].some((name) => other.words.has(name));

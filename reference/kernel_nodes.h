@@ -17,9 +17,7 @@ void visit_kernel_row(const Kernel& kernel, const SphereQuadrature& quadrature, 
   // Laplacian is n^2/24 (h/r)^2 of k: 6e-4 for GGX, whose n is 4, and less at the peak.
   constexpr double kMiddleReach = 8.0;
   const double radius = quadrature.radius(0);
-  const auto is_dark = [&](bool may_have_edge, Direction centre) {
-    return !may_have_edge && kernel.is_lit && !kernel.is_lit(centre);
-  };
+  const auto is_dark = [&](Direction centre) { return kernel.is_lit && !kernel.is_lit(centre); };
   const auto visit_cell = [&](int x, const QuadratureCell& cell, CellNodes nodes, bool looks_each) {
     quadrature.visit(cell, nodes, [&](const Node& node) {
       if (looks_each && kernel.is_lit && !kernel.is_lit(node.direction)) return;
@@ -33,7 +31,7 @@ void visit_kernel_row(const Kernel& kernel, const SphereQuadrature& quadrature, 
     quadrature.visit_parts(cell, [&](const QuadratureCell& part) {
       const Direction centre = quadrature.centre(part);
       if (kernel.straddles(centre, quadrature.radius(part.depth))) return self(self, x, part);
-      if (is_dark(false, centre)) return;
+      if (is_dark(centre)) return;
       visit_cell(x, part, CellNodes::gauss, false);
     });
   };
@@ -42,7 +40,7 @@ void visit_kernel_row(const Kernel& kernel, const SphereQuadrature& quadrature, 
   for (int index = 0; index < quadrature.runs(); ++index) {
     const CellRun run = quadrature.run(index, y);
     const bool run_may_have_edge = kernel.straddles(run.centre, run.radius + margin);
-    if (is_dark(run_may_have_edge, run.centre)) continue;
+    if (!run_may_have_edge && is_dark(run.centre)) continue;
     for (int x = run.begin; x < run.end; ++x) {
       if (!is_wanted(x)) continue;
       const QuadratureCell cell = {x, y, 0};
@@ -55,7 +53,7 @@ void visit_kernel_row(const Kernel& kernel, const SphereQuadrature& quadrature, 
         visit_parts(visit_parts, x, cell);
         continue;
       }
-      if (is_dark(false, centre)) continue;
+      if (is_dark(centre)) continue;
       const bool is_smooth = margin <= radius || !kernel.straddles(centre, margin);
       visit_cell(x, cell, is_smooth ? smooth : CellNodes::gauss, false);
     }

@@ -165,9 +165,8 @@ class SphereQuadrature {
 
   Extent extent_;
   double run_radius_;
-  std::vector<Level> levels_;  ///< by depth
-  std::vector<std::array<double, 2>>
-      run_columns_;  ///< cosine and sine of phi in the middles of runs
+  std::vector<Level> levels_;                       ///< by depth
+  std::vector<std::array<double, 2>> run_columns_;  ///< cosine and sine of runs' middle phi
 };
 
 }  // namespace lightproof::reference

@@ -100,7 +100,8 @@ struct RowComparison {
     const double over = std::abs(ratio - 1.0) * mass / bound;
     if (over <= 1.0) return;  // false for NaN
     ++found.cells_off;
-    if (cell.pdf <= 0.0 && found.zero_density_cells++ == 0) found.first_zero_density = cell;
+    if (cell.pdf <= 0.0 && found.undeclared_unreachable_cells++ == 0)
+      found.first_undeclared_unreachable = cell;
     if (found.worst && over <= excess) return;
     excess = over;
     found.worst = cell;
@@ -135,10 +136,11 @@ void merge(DensityComparison& all, double& excess, const RowComparison& row) {
   const DensityComparison& found = row.found;
   if (!all.first_unreachable) all.first_unreachable = found.first_unreachable;
   if (!all.first_unlit) all.first_unlit = found.first_unlit;
-  if (!all.first_zero_density) all.first_zero_density = found.first_zero_density;
+  if (!all.first_undeclared_unreachable)
+    all.first_undeclared_unreachable = found.first_undeclared_unreachable;
   all.unreachable_cells += found.unreachable_cells;
   all.unreachable_mass += found.unreachable_mass;
-  all.zero_density_cells += found.zero_density_cells;
+  all.undeclared_unreachable_cells += found.undeclared_unreachable_cells;
   all.unlit_cells += found.unlit_cells;
   all.largest_error = std::max(all.largest_error, found.largest_error);
   all.rounding_variance += found.rounding_variance;

@@ -43,8 +43,8 @@ struct DensityComparison {
   double unreachable_mass = 0.0;        ///< share of all light that lies in unreachable cells
   std::optional<ComparedCell> first_unreachable;
   /// Unreachable cells with more light than the sampler declares that its rounding may lose.
-  std::size_t zero_density_cells = 0;
-  std::optional<ComparedCell> first_zero_density;
+  std::size_t undeclared_unreachable_cells = 0;
+  std::optional<ComparedCell> first_undeclared_unreachable;
   std::size_t unlit_cells = 0;  ///< cells with a declared density of 0 and a pdf above 0 or NaN
   std::optional<ComparedCell> first_unlit;
   double largest_error = 0.0;         ///< largest relative error of a cell with declared density

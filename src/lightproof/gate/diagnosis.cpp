@@ -198,7 +198,7 @@ Name name_of_wrong_pdf(const ScoredAlternatives& distributions, const Expectatio
       "pdf() shows it all over the map, and the samples fit the declared distribution";
   if (verdicts.rejected(TestId::declared_density)) {
     const bool has_support =
-        inspection.density.zero_density_cells == 0 && inspection.density.unlit_cells == 0;
+        inspection.density.undeclared_unreachable_cells == 0 && inspection.density.unlit_cells == 0;
     if (!returned && has_support && inspection.density.ratio.is_constant()) {
       return {"pdf-scaled", whole};
     }

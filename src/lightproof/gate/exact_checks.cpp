@@ -377,7 +377,7 @@ std::array<CheckResult, 2> check_edges(const BoundSampler& sampler,
 
 CheckResult check_support(const DensityComparison& density) {
   CheckResult result{TestId::pdf_support,
-                     density.zero_density_cells == 0 && density.unlit_cells == 0,
+                     density.undeclared_unreachable_cells == 0 && density.unlit_cells == 0,
                      density.unreachable_mass, ""};
   if (density.unlit_cells > 0) {
     const ComparedCell& cell = *density.first_unlit;

@@ -38,6 +38,7 @@ SharedDraws shared_draws(const TestCase& test_case, std::shared_ptr<const Expect
   SharedDraws shared{std::move(expectation), samples, {}, std::nullopt};
   shared.uniform = draw_uniformly(*shared.expectation, stream("uniform"), samples);
   if (with_reference) {
+    // The stream's name decides the samples: it stays.
     shared.reference_implementation = draw_reference(test_case.reference_implementation(),
                                                      *shared.expectation, stream("twin"), samples);
   }

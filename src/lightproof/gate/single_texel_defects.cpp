@@ -57,8 +57,9 @@ bool is_in_one_texel(const Expectation& expectation, const Draws& draws) {
 
 bool is_one_texel_missing(const Expectation& expectation, const Draws& draws,
                           const DensityComparison& density) {
-  if (density.zero_density_cells != 1 || expectation.lookup != Lookup::nearest) return false;
-  const ComparedCell& cell = *density.first_zero_density;
+  if (density.undeclared_unreachable_cells != 1 || expectation.lookup != Lookup::nearest)
+    return false;
+  const ComparedCell& cell = *density.first_undeclared_unreachable;
   const double expected = static_cast<double>(draws.samples) * expectation.masses(cell.x, cell.y);
   if (draws.texels(cell.x, cell.y) > 0 || std::exp(-expected) > kFitLevel) return false;
   RemainingTexels texels(expectation, draws);

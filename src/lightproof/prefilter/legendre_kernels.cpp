@@ -68,7 +68,7 @@ HWY_INLINE void add_two_degrees(const LegendreBlock& block, const Step& first, c
       hn::Store(band_next, d, block.integrals_before + row);
       hn::Store(second.bands(upper_next, next, band), d, block.integrals + row);
       for (std::size_t part = 0; part < kParts; ++part) {
-        const std::size_t value = part * block.slots + row;
+        const std::size_t value = part * block.padded_rows + row;
         even[part] = hn::MulAdd(band, hn::Load(d, block.even + value), even[part]);
         odd[part] = hn::MulAdd(band_next, hn::Load(d, block.odd + value), odd[part]);
       }
@@ -114,8 +114,8 @@ void synthesise_rows(const LegendreRecursion& recursion, std::span<const double>
                      hn::Mul(hn::Set(d, recursion.back[l + 1]), now));
   }
   for (std::size_t part = 0; part < kParts; ++part) {
-    hn::Store(even[part], d, rows.even + part * rows.slots);
-    hn::Store(odd[part], d, rows.odd + part * rows.slots);
+    hn::Store(even[part], d, rows.even + part * rows.padded_rows);
+    hn::Store(odd[part], d, rows.odd + part * rows.padded_rows);
   }
 }
 

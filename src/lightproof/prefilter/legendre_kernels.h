@@ -24,7 +24,7 @@ struct LegendreRecursion {
 /// One block of rows, and where its coefficients go.
 struct LegendreBlock {
   std::size_t vectors;
-  std::size_t slots;  ///< from part to part of the rows' values
+  std::size_t padded_rows;  ///< from part to part of the rows' values
   const double* cosines;
   const double* even;
   const double* odd;
@@ -37,7 +37,7 @@ struct LegendreBlock {
 
 /// The rows of one vector, and where their values go.
 struct LatitudeRows {
-  std::size_t slots;  ///< from part to part
+  std::size_t padded_rows;  ///< from part to part
   const double* cosines;
   const double* sectoral;  ///< P_m^m
   double* even;

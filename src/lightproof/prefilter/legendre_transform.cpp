@@ -69,10 +69,10 @@ BandTransform::BandTransform(int height, int degree)
   set_seeds();
 }
 
-int BandTransform::row_of(std::size_t slot) const {
-  const std::size_t lane = slot % lanes_;
-  const std::size_t vector = slot / lanes_ % vectors_;
-  const std::size_t block = slot / lanes_ / vectors_;
+int BandTransform::row_of(std::size_t index) const {
+  const std::size_t lane = index % lanes_;
+  const std::size_t vector = index / lanes_ % vectors_;
+  const std::size_t block = index / lanes_ / vectors_;
   return static_cast<int>((block * lanes_ + lane) * vectors_ + vector);
 }
 
@@ -81,7 +81,7 @@ void BandTransform::set_edges() {
     for (std::size_t vector = 0; vector <= vectors_; ++vector) {
       for (std::size_t lane = 0; lane < lanes_; ++lane) {
         const auto edge = static_cast<double>((block * lanes_ + lane) * vectors_ + vector);
-        // Both edges of empty slots are the equator.
+        // Both edges of the padding are the equator.
         const double t = std::min(edge / height_, 0.5);
         cosines_.push_back(std::sin(kPi * (0.5 - t)));
         squares_.push_back(sin_theta(t) * sin_theta(t));
@@ -99,18 +99,18 @@ void BandTransform::set_seeds() {
     const double* p = sectoral_.data() + static_cast<std::size_t>(m) * sines.size();
     double* now = integrals_.data() + static_cast<std::size_t>(m) * padded_rows();
     const double scale = m < 2 ? 0.0 : m / (m + 1.0) * sectoral_step(m) * sectoral_step(m - 1);
-    for (std::size_t slot = 0; slot < padded_rows(); ++slot) {
-      const std::size_t upper = slot + slot / (vectors_ * lanes_) * lanes_;
+    for (std::size_t index = 0; index < padded_rows(); ++index) {
+      const std::size_t upper = index + index / (vectors_ * lanes_) * lanes_;
       const std::size_t lower = upper + lanes_;
       // Integration by parts gives the integral of sin^(m+1) over the angle from the one of
       // sin^(m-1).
-      now[slot] = (cosines_[upper] * p[upper] - cosines_[lower] * p[lower]) / (m + 1.0);
+      now[index] = (cosines_[upper] * p[upper] - cosines_[lower] * p[lower]) / (m + 1.0);
       if (m == 1) {
         const double angle =
             std::atan2(sines[lower], cosines_[lower]) - std::atan2(sines[upper], cosines_[upper]);
-        now[slot] += 0.5 * angle * sectoral_step(0) * sectoral_step(1);
+        now[index] += 0.5 * angle * sectoral_step(0) * sectoral_step(1);
       }
-      if (m >= 2) now[slot] += scale * *(now + slot - 2 * padded_rows());
+      if (m >= 2) now[index] += scale * *(now + index - 2 * padded_rows());
     }
   }
 }

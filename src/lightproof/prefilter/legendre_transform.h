@@ -7,7 +7,7 @@
 // rows it has. Backwards a row is the latitude through its centres.
 //
 // Rows are folded at the equator, where P_l^m is even or odd with l - m: half of the values are
-// computed. Every function here writes to its own slots alone; the recursions run over vectors of
+// computed. Every function here writes to its own rows alone; the recursions run over vectors of
 // rows.
 #pragma once
 
@@ -25,17 +25,17 @@ class BandTransform {
   /// For maps of this many rows, up to this degree.
   BandTransform(int height, int degree);
 
-  /// The number of folded rows, filled up to whole vectors: some of them are empty.
+  /// The number of folded rows with the padding that fills them up to whole vectors.
   std::size_t padded_rows() const { return blocks_ * vectors_ * lanes_; }
-  /// The row of the lower half (or the middle one) that stands at a place; an empty one has one of
+  /// The row of the lower half (or the middle one) that a padded row is; of the padding it is
   /// rows() or more.
-  int row_of(std::size_t slot) const;
+  int row_of(std::size_t index) const;
   int rows() const { return (height_ + 1) / 2; }
   int degree() const { return degree_; }
 
   /// coefficients[l - m][part], for l = m … degree: the sums over all rows of the integrals of
   /// P_l^m over cos(theta) times what the row holds. `even` and `odd` are the sum and the
-  /// difference of row y and row height - 1 - y, [part][slot]; 0 in empty slots.
+  /// difference of row y and row height - 1 - y, [part][padded row]; 0 in the padding.
   void analyse(const LegendreRecursion& recursion, int order, std::span<const double> even,
                std::span<const double> odd, std::span<double> coefficients) const;
 
@@ -51,7 +51,7 @@ class BandTransform {
   TableVector<double> cosines_;    ///< of the edges, [block][vectors + 1][lane]
   TableVector<double> squares_;    ///< of their sines
   TableVector<double> sectoral_;   ///< P_m^m at the edges, [m][…]
-  TableVector<double> integrals_;  ///< of P_m^m over the bands, [m][slot]
+  TableVector<double> integrals_;  ///< of P_m^m over the bands, [m][padded row]
 };
 
 /// The inverse Legendre transform, from coefficients to the latitudes of row centres.
@@ -64,8 +64,9 @@ class LatitudeTransform {
   int rows() const { return (height_ + 1) / 2; }
   int degree() const { return degree_; }
 
-  /// even[part][slot], odd[part][slot]: the sums over l of coefficients[l - m][part] P_l^m at the
-  /// row's latitude, over even and odd l - m. Row y has even + odd, row height - 1 - y even - odd.
+  /// even[part][padded row], odd[part][padded row]: the sums over l of coefficients[l - m][part]
+  /// P_l^m at the row's latitude, over even and odd l - m. Row y has even + odd, row height - 1 - y
+  /// even - odd.
   void synthesise(const LegendreRecursion& recursion, int order,
                   std::span<const double> coefficients, std::span<double> even,
                   std::span<double> odd) const;
@@ -74,7 +75,7 @@ class LatitudeTransform {
   int height_;
   int degree_;
   TableVector<double> cosines_;
-  TableVector<double> sectoral_;  ///< P_m^m, [m][slot]
+  TableVector<double> sectoral_;  ///< P_m^m, [m][padded row]
 };
 
 }  // namespace lightproof

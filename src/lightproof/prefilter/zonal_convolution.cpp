@@ -17,11 +17,12 @@ namespace {
 using Complex = std::complex<double>;
 constexpr int kChannels = 3;
 
-/// Folded rows of all orders: [m][even, odd][part][slot].
+/// Folded rows of all orders: [m][even, odd][part][padded row].
 class FoldedOrders {
  public:
-  FoldedOrders(int degree, std::size_t slots)
-      : slots_(slots), values_((static_cast<std::size_t>(degree) + 1) * 2 * kParts * slots) {}
+  FoldedOrders(int degree, std::size_t padded_rows)
+      : padded_rows_(padded_rows),
+        values_((static_cast<std::size_t>(degree) + 1) * 2 * kParts * padded_rows) {}
 
   std::span<double> even(int order) { return part_of(order, 0); }
   std::span<double> odd(int order) { return part_of(order, 1); }
@@ -30,16 +31,16 @@ class FoldedOrders {
 
  private:
   std::size_t begin(int order, std::size_t parity) const {
-    return (2 * static_cast<std::size_t>(order) + parity) * kParts * slots_;
+    return (2 * static_cast<std::size_t>(order) + parity) * kParts * padded_rows_;
   }
   std::span<double> part_of(int order, std::size_t parity) {
-    return std::span(values_).subspan(begin(order, parity), kParts * slots_);
+    return std::span(values_).subspan(begin(order, parity), kParts * padded_rows_);
   }
   std::span<const double> part_of(int order, std::size_t parity) const {
-    return std::span(values_).subspan(begin(order, parity), kParts * slots_);
+    return std::span(values_).subspan(begin(order, parity), kParts * padded_rows_);
   }
 
-  std::size_t slots_;
+  std::size_t padded_rows_;
   TableVector<double> values_;
 };
 
@@ -56,8 +57,8 @@ std::vector<Complex> column_integrals(int width, int degree) {
   return integrals;
 }
 
-/// Slots that a task does together: a line of the cache of each part.
-constexpr std::size_t kSlots = 8;
+/// Padded rows that a task does together: a line of the cache of each part.
+constexpr std::size_t kRowsAtOnce = 8;
 
 /// The Fourier integrals over longitude of the rows of a map, folded at the equator. Two real rows
 /// go through one complex transform.
@@ -69,10 +70,10 @@ class RowAnalysis {
         transform_(static_cast<std::size_t>(map.extent().width), false),
         columns_(column_integrals(map.extent().width, bands.degree())) {}
 
-  /// Sets what the slots from `first` on hold of all orders.
+  /// Sets what the padded rows from `first` on hold of all orders.
   void operator()(std::size_t first, FoldedOrders& orders) const {
     const auto width = static_cast<std::size_t>(map_.extent().width);
-    const std::size_t count = std::min(kSlots, bands_.padded_rows() - first);
+    const std::size_t count = std::min(kRowsAtOnce, bands_.padded_rows() - first);
     std::vector<Complex> spectra(count * width);
     for (int channel = 0; channel < kChannels; ++channel) {
       for (std::size_t i = 0; i < count; ++i) {
@@ -89,8 +90,7 @@ class RowAnalysis {
   }
 
  private:
-  /// The transform of row `row` plus i times that of the row opposite the equator; 0 of an empty
-  /// slot.
+  /// The transform of row `row` plus i times that of the row opposite the equator; 0 of the padding.
   void transform_pair(int row, int channel, std::span<Complex> spectrum) const {
     const auto width = static_cast<std::size_t>(map_.extent().width);
     if (row >= bands_.rows()) {
@@ -144,10 +144,11 @@ class RowSynthesis {
     }
   }
 
-  /// Writes the rows of the slots from `first` on, and those opposite the equator.
+  /// Writes the padded rows from `first` on, and those opposite the equator.
   void operator()(std::size_t first, const FoldedOrders& orders) const {
     const auto width = static_cast<std::size_t>(output_.extent().width);
-    const std::size_t count = std::min(kSlots, static_cast<std::size_t>(latitudes_.rows()) - first);
+    const std::size_t count =
+        std::min(kRowsAtOnce, static_cast<std::size_t>(latitudes_.rows()) - first);
     std::vector<Complex> spectra(count * width);
     for (int channel = 0; channel < kChannels; ++channel) {
       std::fill(spectra.begin(), spectra.end(), Complex());
@@ -226,8 +227,8 @@ struct Output {
   Grid<Rgb> grid() const {
     auto output = Grid<Rgb>::without_values(filter->extent);
     const RowSynthesis synthesis(output, transform);
-    parallel_for(chunks_of(static_cast<std::size_t>(transform.rows()), kSlots),
-                 [&](std::size_t chunk) { synthesis(chunk * kSlots, orders); });
+    parallel_for(chunks_of(static_cast<std::size_t>(transform.rows()), kRowsAtOnce),
+                 [&](std::size_t chunk) { synthesis(chunk * kRowsAtOnce, orders); });
     return output;
   }
 };
@@ -242,8 +243,8 @@ std::vector<Grid<Rgb>> convolve(const Grid<Rgb>& map, std::span<const ZonalFilte
   const BandTransform bands(map.extent().height, degree);
   FoldedOrders rows(degree, bands.padded_rows());
   const RowAnalysis analysis(map, bands);
-  parallel_for(chunks_of(bands.padded_rows(), kSlots),
-               [&](std::size_t chunk) { analysis(chunk * kSlots, rows); });
+  parallel_for(chunks_of(bands.padded_rows(), kRowsAtOnce),
+               [&](std::size_t chunk) { analysis(chunk * kRowsAtOnce, rows); });
   std::vector<Output> outputs;
   for (const ZonalFilter& filter : filters) outputs.emplace_back(filter);
   parallel_for(factors, [&](std::size_t m) {

@@ -11,8 +11,8 @@ namespace lightproof {
 
 /// A sampler of directions with one injected defect.
 struct DirectionMutant {
-  DirectionSamplerInfo
-      sampler;                 ///< its description names the defect, its distribution is the claim
+  /// Its description names the defect, its distribution is the claim.
+  DirectionSamplerInfo sampler;
   std::string_view diagnosis;  ///< what the gate should say that it looks like
   Oracle oracle;               ///< the oracle that must reject it
 };

@@ -139,12 +139,13 @@ Finding check_density(const SamplerOnMap& on_map) {
   if (found.worst && std::isnan(found.worst->pdf)) {
     finding.outcome = StabilityOutcome::not_a_number;
     finding.came_out = fmt::format("density NaN at texel ({}, {})", found.worst->x, found.worst->y);
-  } else if (found.zero_density_cells > 0) {
+  } else if (found.undeclared_unreachable_cells > 0) {
     finding.outcome = StabilityOutcome::wrong;
     finding.amount = found.unreachable_mass;
     finding.came_out =
-        fmt::format("density 0 at {} lit {}, first at texel ({}, {})", found.zero_density_cells,
-                    found.compared, found.first_zero_density->x, found.first_zero_density->y);
+        fmt::format("density 0 at {} lit {}, first at texel ({}, {})",
+                    found.undeclared_unreachable_cells, found.compared,
+                    found.first_undeclared_unreachable->x, found.first_undeclared_unreachable->y);
   } else if (found.unlit_cells > 0) {
     finding.outcome = StabilityOutcome::wrong;
     finding.came_out = fmt::format("density {:.4g} at {} {} without light, first at texel ({}, {})",
