@@ -90,7 +90,8 @@ class RowAnalysis {
   }
 
  private:
-  /// The transform of row `row` plus i times that of the row opposite the equator; 0 of the padding.
+  /// The transform of row `row` plus i times that of the row opposite the equator; 0 of the
+  /// padding.
   void transform_pair(int row, int channel, std::span<Complex> spectrum) const {
     const auto width = static_cast<std::size_t>(map_.extent().width);
     if (row >= bands_.rows()) {
