@@ -69,7 +69,25 @@ function faultsOf(folders) {
       if (!includes.has(folder)) faults.push(`${path}/CMakeLists.txt links to ${folder}, which no file of ${name} includes`);
     }
   }
-  return [...faults, ...clashesOf(folders), ...circlesOf(folders)];
+  return [...faults, ...privateHeadersOf(folders), ...clashesOf(folders), ...circlesOf(folders)];
+}
+
+/** Whether a header says at its head that it is private, so that cmake/Install.cmake leaves it out. */
+const isPrivate = (code) => /\bPrivate\s+(\/\/ )?to /.test(code.split("#pragma once")[0]);
+
+/** Headers that are installed and include one that is not. */
+function privateHeadersOf(folders) {
+  const faults = [];
+  for (const { path, isProgram } of folders.values()) {
+    for (const file of readdirSync(join(root, path)).filter((f) => f.endsWith(".h"))) {
+      const code = text(`${path}/${file}`);
+      if (isProgram || isPrivate(code)) continue;
+      for (const [, included] of code.matchAll(/#include "(lightproof\/\w+\/[\w-]+\.h)"/g)) {
+        if (isPrivate(text(`src/${included}`))) faults.push(`${path}/${file}, which is installed, includes ${included}, which is private`);
+      }
+    }
+  }
+  return faults;
 }
 
 /**

@@ -1,5 +1,5 @@
-# The libraries Lightproof stands on; every one is a package of Debian 12. Installed with the
-# package file: who uses the libraries finds the same ones.
+# The libraries Lightproof stands on; every one is a package of Debian 12. Who uses the installed libraries
+# finds the same ones by cmake/lightproofConfig.cmake.in.
 find_package(glm REQUIRED)
 find_package(TBB REQUIRED)
 find_package(fmt REQUIRED)

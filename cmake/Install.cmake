@@ -12,15 +12,28 @@ install(TARGETS lightproof-decode lightproof-plugin-host
   RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/lightproof COMPONENT runtime)
 install(EXPORT lightproof NAMESPACE lightproof:: FILE lightproofTargets.cmake
   DESTINATION ${package_folder} COMPONENT development)
+# What lives in src/lightproof, but for programs and for headers that say at their head that they are
+# private to their folder.
+file(GLOB private_headers CONFIGURE_DEPENDS src/lightproof/*/*.h)
+list(TRANSFORM private_headers REPLACE "^${PROJECT_SOURCE_DIR}/src/" "")
+set(excluded "")
+foreach(header IN LISTS private_headers)
+  file(READ src/${header} head LIMIT 1200)
+  if(head MATCHES "[.] ?\n?/?/? ?Private( |\n// )to .*#pragma once")
+    list(APPEND excluded PATTERN ${header} EXCLUDE)
+  endif()
+endforeach()
 install(DIRECTORY src/lightproof DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
   FILES_MATCHING PATTERN "*.h" PATTERN "*-inl.h" EXCLUDE PATTERN "cli" EXCLUDE PATTERN "decoder" EXCLUDE
-  PATTERN "plugin_host" EXCLUDE PATTERN "skeletons" EXCLUDE PATTERN "assets" EXCLUDE)
+  PATTERN "plugin_host" EXCLUDE PATTERN "skeletons" EXCLUDE PATTERN "assets" EXCLUDE ${excluded})
 install(DIRECTORY reference DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lightproof
   COMPONENT development
   FILES_MATCHING PATTERN "*.h")
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/lightproofConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
-install(FILES cmake/lightproofConfig.cmake cmake/Dependencies.cmake
+configure_package_config_file(cmake/lightproofConfig.cmake.in
+  ${CMAKE_CURRENT_BINARY_DIR}/lightproofConfig.cmake INSTALL_DESTINATION ${package_folder})
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/lightproofConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/lightproofConfigVersion.cmake DESTINATION ${package_folder}
   COMPONENT development)
 include(PkgConfig)

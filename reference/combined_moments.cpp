@@ -136,42 +136,72 @@ double emphasised(Heuristic heuristic, double x) {
   return heuristic == Heuristic::balance ? x : x * x;
 }
 
+/// The sums of combined estimators and of densities.
+struct SumsOfBoth {
+  AllOf<Techniques> combined;
+  AllOf<Technique> densities;
+
+  void merge(const SumsOfBoth& other) {
+    combined.merge(other.combined);
+    densities.merge(other.densities);
+  }
+};
+
 }  // namespace
+
+SamplingMoments sampling_moments(const Kernel& kernel, std::span<const Grid<double>> radiance,
+                                 std::span<const CombinedSampling> samplings,
+                                 std::span<const DensityAtNode> pdfs, CellRule rule) {
+  std::vector<std::vector<MapDensity>> of_maps;  // [estimator][grid]
+  for (const CombinedSampling& sampling : samplings) {
+    of_maps.emplace_back();
+    for (const auto& grid : radiance) {
+      of_maps.back().push_back(density_of(grid, sampling.compensation));
+    }
+  }
+  const auto sums =
+      sums_over<SumsOfBoth>(kernel, radiance, rule,
+                            [&](SumsOfBoth& sum, std::size_t map, double light,
+                                const KernelValue& value, const Node& node) {
+                              sum.combined.of.resize(samplings.size());
+                              sum.densities.of.resize(pdfs.size());
+                              const double f = light * value.k;
+                              for (std::size_t i = 0; i < samplings.size(); ++i) {
+                                const double p = value.pdf;
+                                const double q = of_maps[i][map].pdf(light);
+                                const double a = emphasised(samplings[i].heuristic, p);
+                                const double b = emphasised(samplings[i].heuristic, q);
+                                sum.combined.of[i].lobes.add(a / (a + b), f, p, node.solid_angle);
+                                sum.combined.of[i].map.add(b / (a + b), f, q, node.solid_angle);
+                              }
+                              for (std::size_t i = 0; i < pdfs.size(); ++i) {
+                                sum.densities.of[i].add(1.0, f, pdfs[i](node), node.solid_angle);
+                              }
+                            });
+  SamplingMoments moments{std::vector<std::vector<MeanAndVariance>>(samplings.size()),
+                          std::vector<std::vector<MeanAndVariance>>(pdfs.size())};
+  for (const SumsOfBoth& all : sums) {
+    for (std::size_t i = 0; i < samplings.size(); ++i) {
+      const bool is_black = all.combined.of.empty();
+      moments.combined[i].push_back(is_black ? MeanAndVariance{}
+                                    : samplings[i].is_one_sample
+                                        ? one_sample_moments(all.combined.of[i])
+                                        : pair_moments(all.combined.of[i]));
+    }
+    for (std::size_t i = 0; i < pdfs.size(); ++i) {
+      const bool is_black = all.densities.of.empty();
+      const EstimatorMoments sum = is_black ? EstimatorMoments{} : all.densities.of[i].moments();
+      moments.densities[i].push_back(
+          {sum.mean(), sum.variance(), sum.largest, sum.fourth_central()});
+    }
+  }
+  return moments;
+}
 
 std::vector<std::vector<MeanAndVariance>> combined_moments(
     const Kernel& kernel, std::span<const Grid<double>> radiance,
     std::span<const CombinedSampling> samplings, CellRule rule) {
-  std::vector<std::vector<MapDensity>> densities;  // [estimator][grid]
-  for (const CombinedSampling& sampling : samplings) {
-    densities.emplace_back();
-    for (const auto& grid : radiance) {
-      densities.back().push_back(density_of(grid, sampling.compensation));
-    }
-  }
-  const auto sums =
-      sums_over<AllOf<Techniques>>(kernel, radiance, rule,
-                                   [&](AllOf<Techniques>& sum, std::size_t map, double light,
-                                       const KernelValue& value, const Node& node) {
-                                     sum.of.resize(samplings.size());
-                                     for (std::size_t i = 0; i < samplings.size(); ++i) {
-                                       const double f = light * value.k;
-                                       const double p = value.pdf;
-                                       const double q = densities[i][map].pdf(light);
-                                       const double a = emphasised(samplings[i].heuristic, p);
-                                       const double b = emphasised(samplings[i].heuristic, q);
-                                       sum.of[i].lobes.add(a / (a + b), f, p, node.solid_angle);
-                                       sum.of[i].map.add(b / (a + b), f, q, node.solid_angle);
-                                     }
-                                   });
-  std::vector<std::vector<MeanAndVariance>> moments(samplings.size());
-  for (std::size_t i = 0; i < samplings.size(); ++i) {
-    for (const AllOf<Techniques>& all : sums) {
-      moments[i].push_back(all.of.empty()               ? MeanAndVariance{}
-                           : samplings[i].is_one_sample ? one_sample_moments(all.of[i])
-                                                        : pair_moments(all.of[i]));
-    }
-  }
-  return moments;
+  return sampling_moments(kernel, radiance, samplings, {}, rule).combined;
 }
 
 std::vector<MeanAndVariance> combined_moments(const Kernel& kernel,
@@ -180,31 +210,16 @@ std::vector<MeanAndVariance> combined_moments(const Kernel& kernel,
   return combined_moments(kernel, radiance, std::span(&sampling, 1)).front();
 }
 
-std::vector<std::vector<MeanAndVariance>> density_moments(
-    const Kernel& kernel, std::span<const Grid<double>> radiance,
-    std::span<const std::function<double(Direction)>> pdfs, CellRule rule) {
-  const auto sums = sums_over<AllOf<Technique>>(
-      kernel, radiance, rule,
-      [&](AllOf<Technique>& sum, std::size_t /*map*/, double light, const KernelValue& value,
-          const Node& node) {
-        sum.of.resize(pdfs.size());
-        for (std::size_t i = 0; i < pdfs.size(); ++i) {
-          sum.of[i].add(1.0, light * value.k, pdfs[i](node.direction), node.solid_angle);
-        }
-      });
-  std::vector<std::vector<MeanAndVariance>> moments(pdfs.size());
-  for (const auto& all : sums) {
-    for (std::size_t i = 0; i < pdfs.size(); ++i) {
-      const EstimatorMoments sum = all.of.empty() ? EstimatorMoments{} : all.of[i].moments();
-      moments[i].push_back({sum.mean(), sum.variance(), sum.largest, sum.fourth_central()});
-    }
-  }
-  return moments;
+std::vector<std::vector<MeanAndVariance>> density_moments(const Kernel& kernel,
+                                                          std::span<const Grid<double>> radiance,
+                                                          std::span<const DensityAtNode> pdfs,
+                                                          CellRule rule) {
+  return sampling_moments(kernel, radiance, {}, pdfs, rule).densities;
 }
 
 std::vector<MeanAndVariance> density_moments(const Kernel& kernel,
                                              std::span<const Grid<double>> radiance,
-                                             const std::function<double(Direction)>& pdf) {
+                                             const DensityAtNode& pdf) {
   return density_moments(kernel, radiance, std::span(&pdf, 1)).front();
 }
 

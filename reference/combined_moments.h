@@ -56,15 +56,29 @@ std::vector<std::vector<MeanAndVariance>> combined_moments(
     const Kernel& kernel, std::span<const Grid<double>> radiance,
     std::span<const CombinedSampling> samplings, CellRule rule = CellRule::gauss);
 
-/// The moments of the one-sample estimator of any density over directions: `pdf` of a direction,
-/// positive wherever k is.
+/// A density over directions, per steradian, at a node; positive wherever k is.
+using DensityAtNode = std::function<double(const Node&)>;
+
+/// The moments of the one-sample estimator of any density over directions.
 std::vector<MeanAndVariance> density_moments(const Kernel& kernel,
                                              std::span<const Grid<double>> radiance,
-                                             const std::function<double(Direction)>& pdf);
+                                             const DensityAtNode& pdf);
 
 /// The moments of several of them, as [density][grid of radiance]; they share the kernel's values.
-std::vector<std::vector<MeanAndVariance>> density_moments(
-    const Kernel& kernel, std::span<const Grid<double>> radiance,
-    std::span<const std::function<double(Direction)>> pdfs, CellRule rule = CellRule::gauss);
+std::vector<std::vector<MeanAndVariance>> density_moments(const Kernel& kernel,
+                                                          std::span<const Grid<double>> radiance,
+                                                          std::span<const DensityAtNode> pdfs,
+                                                          CellRule rule = CellRule::gauss);
+
+/// The moments of combined estimators and of densities, as [estimator][grid of radiance].
+struct SamplingMoments {
+  std::vector<std::vector<MeanAndVariance>> combined;
+  std::vector<std::vector<MeanAndVariance>> densities;
+};
+
+/// Both at once: they share the kernel's values.
+SamplingMoments sampling_moments(const Kernel& kernel, std::span<const Grid<double>> radiance,
+                                 std::span<const CombinedSampling> samplings,
+                                 std::span<const DensityAtNode> pdfs, CellRule rule);
 
 }  // namespace lightproof::reference

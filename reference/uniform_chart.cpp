@@ -1,7 +1,9 @@
 #include "reference/uniform_chart.h"
 
 #include <algorithm>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <cstdint>
 
 namespace lightproof::reference {
 namespace {
@@ -128,14 +130,14 @@ struct Hemisphere {
 /// The part of a unit disc to the left of the abscissa sin(psi): the chord's length integrated.
 double disc_to_the_left(double psi) { return 0.5 + (psi + 0.5 * std::sin(2.0 * psi)) / kPi; }
 
-/// The angle psi of which disc_to_the_left(psi) is this share, by bisection.
+/// The angle psi of which disc_to_the_left(psi) is this share.
 double angle_of_share(double share) {
-  double low = -0.5 * kPi;
-  double high = 0.5 * kPi;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (disc_to_the_left(middle) < share ? low : high) = middle;
-  }
+  if (share <= 0.0) return -0.5 * kPi;
+  if (share >= 1.0) return 0.5 * kPi;
+  std::uintmax_t halvings = 60;  // all that a double resolves
+  const auto [low, high] = boost::math::tools::bisect(
+      [share](double psi) { return disc_to_the_left(psi) - share; }, -0.5 * kPi, 0.5 * kPi,
+      boost::math::tools::eps_tolerance<double>(), halvings);
   return 0.5 * (low + high);
 }
 

@@ -106,13 +106,17 @@ struct Exact {
       samplings.push_back(*info.combined);
     }
     const reference::Kernel kernel = stage.kernel(pixel, stage.material);
-    const auto moments = reference::combined_moments(kernel, stage.luminances, samplings);
-    for (std::size_t i = 0; i < combined.size(); ++i) of_estimator[combined[i]] = moments[i];
-    of_estimator["hemisphere"] =
-        reference::density_moments(kernel, stage.luminances, [](Direction) { return 0.5 / kPi; });
     const Direction normal = stage.pixels[pixel].point.frame.normal;
-    of_estimator["cosine"] = reference::density_moments(
-        kernel, stage.luminances, [normal](Direction d) { return glm::dot(normal, d) / kPi; });
+    const std::array<reference::DensityAtNode, 2> densities = {
+        [](const reference::Node& /*node*/) { return 0.5 / kPi; },
+        [normal](const reference::Node& node) { return glm::dot(normal, node.direction) / kPi; }};
+    const auto moments = reference::sampling_moments(kernel, stage.luminances, samplings, densities,
+                                                     reference::CellRule::gauss);
+    for (std::size_t i = 0; i < combined.size(); ++i) {
+      of_estimator[combined[i]] = moments.combined[i];
+    }
+    of_estimator["hemisphere"] = moments.densities[0];
+    of_estimator["cosine"] = moments.densities[1];
   }
 
   std::optional<MeanAndVariance> known(std::string_view estimator, std::size_t map) const {

@@ -83,23 +83,27 @@ std::vector<Exact> exact_of(const Stage& stage, const Material& material,
       exact[map].variance[std::string(name)] += variance / stage.count();
     };
     const auto light = reference::light_moments(kernel, luminances);
-    const auto combined = reference::combined_moments(kernel, luminances, samplings);
-    const auto hemisphere =
-        reference::density_moments(kernel, luminances, [](Direction) { return 0.5 / kPi; });
-    const auto cosine = reference::density_moments(
-        kernel, luminances,
-        [normal = pixel.point.frame.normal](Direction d) { return glm::dot(normal, d) / kPi; });
+    const std::array<reference::DensityAtNode, 2> densities = {
+        [](const reference::Node& /*node*/) { return 0.5 / kPi; },
+        [normal = pixel.point.frame.normal](const reference::Node& node) {
+          return glm::dot(normal, node.direction) / kPi;
+        }};
+    const auto [combined, of_densities] = reference::sampling_moments(
+        kernel, luminances, samplings, densities, reference::CellRule::gauss);
     for (std::size_t map = 0; map < maps.size(); ++map) {
       exact[map].mean += light[map][reference::SampledDensity::uniform].mean() / stage.count();
       for (const EstimatorInfo& info : estimators()) {
         if (info.density) add(map, info.name, light[map][*info.density].variance());
       }
       for (std::size_t i = 0; i < names.size(); ++i) add(map, names[i], combined[i][map].variance);
-      add(map, "hemisphere", hemisphere[map].variance);
-      add(map, "cosine", cosine[map].variance);
+      add(map, "hemisphere", of_densities[0][map].variance);
+      add(map, "cosine", of_densities[1][map].variance);
       for (const int factor : {2, 8}) {
-        const auto reduced = reference::density_moments(kernel, std::span(&luminances[map], 1),
-                                                        reduced_table_pdf(maps[map], factor));
+        const auto reduced = reference::density_moments(
+            kernel, std::span(&luminances[map], 1),
+            [pdf = reduced_table_pdf(maps[map], factor)](const reference::Node& node) {
+              return pdf(node.at).value;
+            });
         add(map, fmt::format("environment B alias 1/{}", factor), reduced.front().variance);
       }
     }

@@ -119,14 +119,14 @@ TEST(Candidates, DoNotIgnoreOcclusionWhereThereIsSome) {
   EXPECT_EQ(names_of(candidates), (std::vector<std::string>{"environment B", "brdf"}));
   const auto unreached = candidates.obstacles.list({});
   ASSERT_EQ(unreached.size(), 1U);
-  EXPECT_EQ(unreached[0].family, "precomputed");
+  EXPECT_EQ(unreached[0].family, EstimatorFamily::precomputed);
   EXPECT_THAT(unreached[0].reason, HasSubstr("ignores what is in the way"));
 }
 
 std::vector<std::string> reasons_of(const Candidates& candidates) {
   std::vector<std::string> reasons;
   for (const UnreachedFamily& family : candidates.obstacles.list({})) {
-    reasons.push_back(family.family + ": " + family.reason);
+    reasons.push_back(std::string(to_string(family.family)) + ": " + family.reason);
   }
   return reasons;
 }
@@ -332,7 +332,7 @@ TEST_F(Recommended, IsRefusedWithWhatStopsEachFamily) {
                                    HasSubstr("precomputed: the floor of")));
     std::vector<std::string> families;
     for (const UnreachedFamily& family : none.refused().unreached) {
-      families.push_back(family.family);
+      families.emplace_back(to_string(family.family));
     }
     EXPECT_THAT(families, ElementsAre("uniform", "lobes", "environment", "product", "MIS", "RIS",
                                       "point sets", "lights", "quadrature", "precomputed"));

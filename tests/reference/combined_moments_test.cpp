@@ -122,7 +122,7 @@ TEST(DensityMoments, OfUniformDirectionsAreThoseOfOneDensity) {
   const Kernel kernel = cosine_kernel(kOblique);
   const EstimatorMoments expected = light_moments(kernel, {&map, 1})[0][SampledDensity::uniform];
   const MeanAndVariance m =
-      density_moments(kernel, {&map, 1}, [](Direction) { return 1.0 / kSphere; })[0];
+      density_moments(kernel, {&map, 1}, [](const Node&) { return 1.0 / kSphere; })[0];
   EXPECT_NEAR(m.mean / expected.mean(), 1.0, 1e-12);
   EXPECT_NEAR(m.variance / expected.variance(), 1.0, 1e-11);
   EXPECT_NEAR(m.largest / expected.largest, 1.0, 1e-12);

@@ -20,22 +20,24 @@ using testing::falling;
 using testing::look_up;
 
 TEST(FrontSentence, GoesFromFastToExact) {
-  EXPECT_EQ(front_sentence(chart_of({falling("a", "lobes"), look_up("c", 1e-7, 0.3)})),
-            "On the front, from fast to exact: c (100\u00a0ns, 30\u00a0%); a "
-            "(16\u00a0\u00b5s, 25\u00a0%).");
+  EXPECT_EQ(
+      front_sentence(chart_of({falling("a", EstimatorFamily::lobes), look_up("c", 1e-7, 0.3)})),
+      "On the front, from fast to exact: c (100\u00a0ns, 30\u00a0%); a "
+      "(16\u00a0\u00b5s, 25\u00a0%).");
 }
 
 TEST(AccuracyFinding, NamesTheFastestToEachErrorAndTheHandicapOfUniform) {
-  EXPECT_EQ(accuracy_finding(chart_of({falling("uniform", "uniform", 0.2),
-                                       falling("b", "MIS", 0.0245), look_up("c", 1e-7, 0.04)})),
+  EXPECT_EQ(accuracy_finding(
+                chart_of({falling("uniform", EstimatorFamily::uniform, 0.2),
+                          falling("b", EstimatorFamily::mis, 0.0245), look_up("c", 1e-7, 0.04)})),
             "5\u00a0% error takes 100\u00a0ns (c), 1\u00a0% error takes 6.0\u00a0\u00b5s (b, 7 "
             "samples); to 5\u00a0% uniform sampling takes 160 times as long");
-  EXPECT_EQ(accuracy_finding(chart_of({falling("uniform", "uniform", 9.0)})),
+  EXPECT_EQ(accuracy_finding(chart_of({falling("uniform", EstimatorFamily::uniform, 9.0)})),
             "5\u00a0% error is reached by none");
 }
 
 TEST(AccuracyCaveats, SayWhatIsPredictedAndWhatIgnoresOcclusion) {
-  AccuracyChart chart = chart_of({falling("a", "lobes")});
+  AccuracyChart chart = chart_of({falling("a", EstimatorFamily::lobes)});
   EXPECT_EQ(accuracy_caveats(chart), "1 estimator, 24 shading points, quality draft.");
   chart.lines[0].points[0].rmse_error = 0.6;
   chart.is_occluded = true;
@@ -45,8 +47,8 @@ TEST(AccuracyCaveats, SayWhatIsPredictedAndWhatIgnoresOcclusion) {
 }
 
 TEST(SlopeFinding, SetsTheAliasTableAgainstTheMonotoneOne) {
-  AccuracyLine monotone = falling("environment B sobol", "point sets");
-  AccuracyLine alias = falling("environment B alias sobol", "point sets");
+  AccuracyLine monotone = falling("environment B sobol", EstimatorFamily::points);
+  AccuracyLine alias = falling("environment B alias sobol", EstimatorFamily::points);
   monotone.slope = -0.8;
   alias.slope = -0.5;
   monotone.slope_error = alias.slope_error = 0.01;
@@ -54,8 +56,8 @@ TEST(SlopeFinding, SetsTheAliasTableAgainstTheMonotoneOne) {
       "sobol points fall with \u22120.800 \u00b1 0.010 by the monotone table and with "
       "\u22120.500 \u00b1 0.010 by the alias table";
   EXPECT_EQ(slope_finding(chart_of({monotone, alias})), finding);
-  AccuracyLine even = falling("environment B R2", "point sets");
-  AccuracyLine even_alias = falling("environment B alias R2", "point sets");
+  AccuracyLine even = falling("environment B R2", EstimatorFamily::points);
+  AccuracyLine even_alias = falling("environment B alias R2", EstimatorFamily::points);
   even.slope = even_alias.slope = -0.6;
   even.slope_error = even_alias.slope_error = 0.01;
   EXPECT_EQ(slope_finding(chart_of({even, even_alias, monotone, alias})),
@@ -63,7 +65,7 @@ TEST(SlopeFinding, SetsTheAliasTableAgainstTheMonotoneOne) {
 }
 
 AccuracyLine table_of(const char* name, std::size_t bytes, double scale) {
-  AccuracyLine line = falling(name, "environment", scale);
+  AccuracyLine line = falling(name, EstimatorFamily::environment, scale);
   line.bytes = bytes;
   return line;
 }
@@ -77,7 +79,8 @@ TEST(MemoryFinding, NamesTheSmallestTableThatIsAsGood) {
   EXPECT_EQ(
       memory_finding(chart_of({whole, table_of("sixteenth", 32U << 10U, 1.5)})),
       "At 64 samples no smaller table of the map is as good as whole (8\u00a0MiB, 12\u00a0%)");
-  EXPECT_EQ(memory_finding(chart_of({falling("a", "environment")})), "Error against memory");
+  EXPECT_EQ(memory_finding(chart_of({falling("a", EstimatorFamily::environment)})),
+            "Error against memory");
 }
 
 TEST(MemoryChart, HasWhatKeepsMemoryAt64SamplesOrAsItIs) {
@@ -85,8 +88,8 @@ TEST(MemoryChart, HasWhatKeepsMemoryAt64SamplesOrAsItIs) {
   kept.bytes = 4096;
   AccuracyLine predicted = table_of("b", 1024, 2.0);
   for (AccuracyPoint& point : predicted.points) point.predicted = 1.1 * point.rmse;
-  const json rows = json::parse(
-      memory_chart({chart_of({falling("a", "MIS"), predicted, kept})}))["data"]["values"];
+  const json rows = json::parse(memory_chart(
+      {chart_of({falling("a", EstimatorFamily::mis), predicted, kept})}))["data"]["values"];
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0]["estimator"], "b");
   EXPECT_EQ(rows[0]["rmse"], 0.25);
@@ -94,15 +97,16 @@ TEST(MemoryChart, HasWhatKeepsMemoryAt64SamplesOrAsItIs) {
   EXPECT_EQ(rows[1]["bytes"], 4096.0);
   EXPECT_EQ(rows[1]["rmse"], 0.3);
   EXPECT_TRUE(rows[1]["predicted"].is_null());
-  EXPECT_EQ(memory_chart({chart_of({falling("a", "MIS")})}), "");
+  EXPECT_EQ(memory_chart({chart_of({falling("a", EstimatorFamily::mis)})}), "");
 }
 
 TEST(AccuracyChartSpec, MarksWhatLeadsAndDashesWhatIsPredicted) {
-  AccuracyLine rare = falling("uniform", "uniform", 30.0);
+  AccuracyLine rare = falling("uniform", EstimatorFamily::uniform, 30.0);
   for (AccuracyPoint& point : rare.points) point.predicted = 1.1 * point.rmse;
   rare.points[0].rmse_error = rare.points[0].rmse;
   const json spec = json::parse(accuracy_chart(
-      {chart_of({rare, falling("a", "MIS"), falling("b", "MIS", 2.0), look_up("c", 1e-7, 0.3)})}));
+      {chart_of({rare, falling("a", EstimatorFamily::mis), falling("b", EstimatorFamily::mis, 2.0),
+                 look_up("c", 1e-7, 0.3)})}));
   json of_rare;
   json of_b;
   for (const json& row : spec["data"]["values"]) {
@@ -121,7 +125,8 @@ TEST(AccuracyChartSpec, MarksWhatLeadsAndDashesWhatIsPredicted) {
 TEST(AccuracyChartSpec, HasAFrontForEachShareOfTheSetUp) {
   AccuracyLine prepared = look_up("c", 1e-7, 0.3);
   prepared.set_up_processor_seconds = 1.0;
-  const json spec = json::parse(accuracy_chart({chart_of({falling("a", "MIS"), prepared})}));
+  const json spec =
+      json::parse(accuracy_chart({chart_of({falling("a", EstimatorFamily::mis), prepared})}));
   std::vector<double> first(4, HUGE_VAL);
   json leads;
   for (const json& row : spec["data"]["values"]) {

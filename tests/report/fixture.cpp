@@ -306,8 +306,8 @@ std::vector<SplitSumRecord> split_sum() {
 }
 
 /// A falling line, or a point if it has one.
-AccuracyLine accuracy_line(const char* estimator, const char* family, double error, double seconds,
-                           bool is_biased) {
+AccuracyLine accuracy_line(const char* estimator, EstimatorFamily family, double error,
+                           double seconds, bool is_biased) {
   AccuracyLine line;
   line.estimator = estimator;
   line.family = family;
@@ -345,13 +345,14 @@ std::vector<AccuracyChart> accuracy() {
       chart.replicates = 3;
       chart.quality = "draft";
       chart.mean = 1.1;
-      chart.lines = {accuracy_line("uniform", "uniform", 30.0 * scale, 2e-7, false),
-                     accuracy_line("brdf", "lobes", 2.0 * scale, 3e-7, false),
-                     accuracy_line("environment B", "environment", 1.0, 5e-7, false),
-                     accuracy_line("environment B sobol", "point sets", 0.5, 5e-7, false),
-                     accuracy_line("environment B alias sobol", "point sets", 0.8, 4e-7, false),
-                     accuracy_line("mis balance", "MIS", 0.8, 6e-7, false),
-                     accuracy_line("split-sum", "precomputed", 0.08 * scale, 8e-8, true)};
+      chart.lines = {
+          accuracy_line("uniform", EstimatorFamily::uniform, 30.0 * scale, 2e-7, false),
+          accuracy_line("brdf", EstimatorFamily::lobes, 2.0 * scale, 3e-7, false),
+          accuracy_line("environment B", EstimatorFamily::environment, 1.0, 5e-7, false),
+          accuracy_line("environment B sobol", EstimatorFamily::points, 0.5, 5e-7, false),
+          accuracy_line("environment B alias sobol", EstimatorFamily::points, 0.8, 4e-7, false),
+          accuracy_line("mis balance", EstimatorFamily::mis, 0.8, 6e-7, false),
+          accuracy_line("split-sum", EstimatorFamily::precomputed, 0.08 * scale, 8e-8, true)};
       chart.lines[0].points[0].rmse_error = 20.0 * scale;
       chart.lines[3].slope = -0.8;
       chart.left_out = {{"sh-9", "it does not serve this material"}};
@@ -372,7 +373,7 @@ std::vector<Recommendation> recommendations() {
   first.runner_up = RecommendedMethod{"split-sum", 1, false, 3163136, {}, 0.05};
   first.runner_up->predicted_time = {0.0004, 31.0};
   first.reason = "Small lights rule this map, and the material is rough.";
-  first.unreached = {{"precomputed", "its floor is 8 %"}};
+  first.unreached = {{EstimatorFamily::precomputed, "its floor is 8 %"}};
   all[1] = all[0];
   all[1].question.map = kMaps[7];
   all[1].runner_up.reset();
@@ -397,9 +398,10 @@ RecommendationSurvey survey() {
 MethodRegimes method_regimes() {
   MethodRegimes regimes{0.05, {}, "2024-06-07T13:41:08+00:00"};
   for (const double roughness : {0.1, 0.3, 1.0}) {
-    regimes.regimes.push_back({roughness, 0.4, "split-sum", "precomputed", 1e-7, "brdf", 4e-6});
-    regimes.regimes.push_back({roughness, 0.002, "environment B", "environment", 9e-6,
-                               roughness < 0.2 ? "" : "environment B", 9e-6});
+    regimes.regimes.push_back(
+        {roughness, 0.4, "split-sum", EstimatorFamily::precomputed, 1e-7, "brdf", 4e-6});
+    regimes.regimes.push_back({roughness, 0.002, "environment B", EstimatorFamily::environment,
+                               9e-6, roughness < 0.2 ? "" : "environment B", 9e-6});
   }
   return regimes;
 }
@@ -465,8 +467,9 @@ StudyResult synthetic_study() {
   }
   study.accuracy = accuracy();
   study.recommendations = recommendations();
-  study.refused_recommendations = {{{kMaps[3], "sphere", "ggx:0.3", 0.05, 307200},
-                                    {{"lobes", "brdf needs 2e+05 samples, of 65536 at most"}}}};
+  study.refused_recommendations = {
+      {{kMaps[3], "sphere", "ggx:0.3", 0.05, 307200},
+       {{EstimatorFamily::lobes, "brdf needs 2e+05 samples, of 65536 at most"}}}};
   study.recommendation_survey = survey();
   study.method_regimes = method_regimes();
   study.warps = warps();

@@ -11,7 +11,7 @@
 namespace lightproof::testing {
 
 /// Error 1 / sqrt(N), a microsecond a sample, at N = 1, 4, 16, 64.
-inline AccuracyLine falling(const char* name, const char* family, double scale = 1.0) {
+inline AccuracyLine falling(const char* name, EstimatorFamily family, double scale = 1.0) {
   AccuracyLine line;
   line.estimator = name;
   line.family = family;
@@ -26,7 +26,7 @@ inline AccuracyLine falling(const char* name, const char* family, double scale =
 inline AccuracyLine look_up(const char* name, double seconds, double error) {
   AccuracyLine line;
   line.estimator = name;
-  line.family = "precomputed";
+  line.family = EstimatorFamily::precomputed;
   line.is_biased = true;
   line.floor = error;
   line.points = {{1, seconds, error, 0.0}};

@@ -21,7 +21,7 @@ std::vector<std::string> names_of(const std::vector<const AccuracyLine*>& lines)
 }
 
 TEST(AccuracyReading, GoesStraightBetweenLogarithms) {
-  const AccuracyLine line = falling("a", "lobes");
+  const AccuracyLine line = falling("a", EstimatorFamily::lobes);
   const auto place = at_error(line, 1.0 / std::sqrt(8.0));
   ASSERT_TRUE(place);
   EXPECT_NEAR(place->samples, 8.0, 1e-9);
@@ -32,7 +32,7 @@ TEST(AccuracyReading, GoesStraightBetweenLogarithms) {
 }
 
 TEST(AccuracyReading, DoesNotGoBeyondWhatWasMeasured) {
-  const AccuracyLine line = falling("a", "lobes");
+  const AccuracyLine line = falling("a", EstimatorFamily::lobes);
   EXPECT_FALSE(at_error(line, 0.1));
   EXPECT_FALSE(at_time(line, 65e-6));
   EXPECT_FALSE(at_time(line, 0.9e-6));
@@ -57,7 +57,7 @@ TEST(AccuracyReading, TakesThePredictionWhereRareHitsWereMissed) {
 }
 
 TEST(AccuracyReading, HasTheSameEfficiencyAllAlongALine) {
-  AccuracyLine line = falling("a", "lobes");
+  AccuracyLine line = falling("a", EstimatorFamily::lobes);
   EXPECT_NEAR(efficiency(line), 1e6, 1e-3);
   line.points.resize(2);
   EXPECT_NEAR(efficiency(line), 1e6, 1e-3);
@@ -65,7 +65,8 @@ TEST(AccuracyReading, HasTheSameEfficiencyAllAlongALine) {
 
 TEST(AccuracyFront, LeavesOutWhatIsSlowerAndHardlyBetter) {
   const AccuracyChart chart =
-      chart_of({falling("a", "lobes"), falling("b", "MIS", 0.95), look_up("c", 1e-7, 0.3)});
+      chart_of({falling("a", EstimatorFamily::lobes), falling("b", EstimatorFamily::mis, 0.95),
+                look_up("c", 1e-7, 0.3)});
   std::vector<std::pair<std::string, std::uint64_t>> front;
   for (const ChartPoint& p : pareto_front(chart)) {
     front.emplace_back(p.line->estimator, p.point->samples);
@@ -77,16 +78,17 @@ TEST(AccuracyFront, LeavesOutWhatIsSlowerAndHardlyBetter) {
 TEST(AccuracyFront, CountsTheShareOfTheSetUpThatIsAskedFor) {
   AccuracyLine prepared = look_up("c", 1e-7, 0.3);
   prepared.set_up_processor_seconds = 10.0;
-  const AccuracyChart chart = chart_of({falling("a", "lobes"), prepared});
+  const AccuracyChart chart = chart_of({falling("a", EstimatorFamily::lobes), prepared});
   EXPECT_EQ(pareto_front(chart).front().line->estimator, "c");
   EXPECT_EQ(pareto_front(chart, 1e-2).front().line->estimator, "a");
   EXPECT_DOUBLE_EQ(total_seconds({&chart.lines[1], &chart.lines[1].points[0]}, 1e-2), 0.1 + 1e-7);
 }
 
 TEST(LeadingLines, AreTheFrontAndTheBestOfEveryOtherFamily) {
-  const AccuracyChart chart =
-      chart_of({falling("worse", "lobes", 3.0), falling("better", "lobes", 2.0),
-                falling("best", "MIS"), falling("second", "MIS", 1.5), look_up("c", 1e-7, 0.3)});
+  const AccuracyChart chart = chart_of(
+      {falling("worse", EstimatorFamily::lobes, 3.0),
+       falling("better", EstimatorFamily::lobes, 2.0), falling("best", EstimatorFamily::mis),
+       falling("second", EstimatorFamily::mis, 1.5), look_up("c", 1e-7, 0.3)});
   std::vector<std::string> names = names_of(leading_lines(chart));
   std::sort(names.begin(), names.end());
   EXPECT_EQ(names, (std::vector<std::string>{"best", "better", "c"}));

@@ -1,7 +1,12 @@
 // The published sampler's edge behaviour, kept as it was printed.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 #include "lightproof/image/synthetic.h"
 #include "lightproof/samplers/binary_search.h"
@@ -38,6 +43,37 @@ TEST(LinearScanPublished, SumsThatRoundBelowOneRunOffTheEnd) {
     ran_off += LinearScanPublished(map, kTarget).sample({1.0 - 0x1p-24, 0.5}).x == width ? 1 : 0;
   }
   EXPECT_GT(ran_off, 0);
+}
+
+/// Whether two samples are one, bit for bit.
+bool is_same(const TexelSample& a, const TexelSample& b) {
+  return std::bit_cast<std::array<std::uint64_t, 3>>(std::array{a.at.s, a.at.t, a.pdf.value}) ==
+             std::bit_cast<std::array<std::uint64_t, 3>>(std::array{b.at.s, b.at.t, b.pdf.value}) &&
+         a.x == b.x && a.y == b.y;
+}
+
+// Ordinary numbers, and those at which a scan stops early, runs off the end, or sums what is none.
+TEST(RememberedScan, DrawsWhatTheScanDrawsBitForBit) {
+  std::vector<double> numbers = {0.0, 0x1p-24, 0.5, 1.0 - 0x1p-24, 1.0 - 0x1p-53};
+  for (int i = 0; i < 200; ++i) numbers.push_back(std::fmod(0.618 * i, 1.0));
+  const Rgb not_a_number(std::numeric_limits<float>::quiet_NaN());
+  for (const char* name : {"sun-sky", "gradient", "constant", "black-first-row", "checker"}) {
+    for (const bool is_spoilt : {false, true}) {
+      EnvironmentMap map = make_synthetic_map(name, {61, 29});
+      if (is_spoilt) map.radiance(7, 11) = not_a_number;
+      for (const DensityInfo& density : kDensities) {
+        const TargetDensity target = {density.density_space, kPublishedLuminance};
+        const LinearScanPublished scan = LinearScanPublished::as_listed(map, target);
+        const RememberedScan remembered(scan);
+        for (const double s : numbers) {
+          for (const double t : numbers) {
+            ASSERT_TRUE(is_same(remembered.sample({s, t}), scan.sample({s, t})))
+                << name << ", u = (" << s << ", " << t << ")";
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(LinearScanPublished, AwayFromTheEdgesItIsTheExactSampler) {

@@ -30,7 +30,7 @@ TEST(OneLight, IsBrightestWhereTheCameraSeesItsReflection) {
 AccuracyLine line_of(const char* estimator, bool is_biased, double seconds, double error) {
   AccuracyLine line;
   line.estimator = estimator;
-  line.family = is_biased ? "precomputed" : "lobes";
+  line.family = is_biased ? EstimatorFamily::precomputed : EstimatorFamily::lobes;
   line.is_biased = is_biased;
   line.points = {{1, seconds, error, 0.01 * error}, {4, 4.0 * seconds, 0.5 * error, 0.01 * error}};
   return line;
@@ -44,7 +44,7 @@ TEST(RegimeOf, NamesTheFastestWithBiasAndWithout) {
   EXPECT_EQ(regime.roughness, 0.3);
   EXPECT_EQ(regime.effective_fraction, 0.02);
   EXPECT_EQ(regime.estimator, "sh-9");
-  EXPECT_EQ(regime.family, "precomputed");
+  EXPECT_EQ(regime.family, EstimatorFamily::precomputed);
   EXPECT_DOUBLE_EQ(regime.seconds, 1e-8);
   EXPECT_EQ(regime.unbiased_estimator, "brdf");
   EXPECT_NEAR(regime.unbiased_seconds, 4e-6, 1e-18);  // where 10 % has fallen to 5 %

@@ -30,29 +30,25 @@ void add_densities(std::span<const EstimatorInfo* const> asked,
   }
 }
 
-void add_combined(std::span<const EstimatorInfo* const> asked, const reference::Kernel& kernel,
-                  const Grid<double>& luminance, MomentsAtPoint& moments) {
-  std::vector<reference::CombinedSampling> samplings;
-  for (const EstimatorInfo* info : asked) {
-    if (info->combined) samplings.push_back(*info->combined);
-  }
-  if (samplings.empty()) return;
-  const auto found = reference::combined_moments(kernel, {&luminance, 1}, samplings,
-                                                 reference::CellRule::midpoint);
-  auto next = found.begin();
-  for (const EstimatorInfo* info : asked) {
-    if (info->combined) moments[info->name] = (*next++)[0];
-  }
-}
-
 /// Densities of directions, per steradian, by estimator.
-using Densities = std::vector<std::pair<std::string_view, std::function<double(Direction)>>>;
+struct Densities {
+  std::vector<std::string_view> names;
+  std::vector<reference::DensityAtNode> pdfs;
+
+  void add(std::string_view name, reference::DensityAtNode pdf) {
+    names.push_back(name);
+    pdfs.push_back(std::move(pdf));
+  }
+};
 
 /// Those that depend on the map and not on the point.
 Densities map_densities(std::span<const EstimatorInfo* const> asked, const EnvironmentMap& map) {
   Densities densities;
   for (const EstimatorInfo* info : asked) {
-    if (info->map_pdf != nullptr) densities.emplace_back(info->name, info->map_pdf(map));
+    if (info->map_pdf == nullptr) continue;
+    densities.add(info->name, [pdf = info->map_pdf(map)](const reference::Node& node) {
+      return pdf(node.at).value;
+    });
   }
   return densities;
 }
@@ -63,21 +59,42 @@ Densities densities_at(std::span<const EstimatorInfo* const> asked, const Densit
   Densities densities = of_map;
   for (const EstimatorInfo* info : asked) {
     if (info->pdf == nullptr || !info->serves(material)) continue;
-    densities.emplace_back(info->name, [pdf = info->pdf, &material, &at](Direction direction) {
-      return pdf(material, at, direction);
+    densities.add(info->name, [pdf = info->pdf, &material, &at](const reference::Node& node) {
+      return pdf(material, at, node.direction);
     });
   }
   return densities;
 }
 
-void add_other_densities(const Densities& densities, const reference::Kernel& kernel,
-                         const Grid<double>& luminance, MomentsAtPoint& moments) {
-  if (densities.empty()) return;
-  std::vector<std::function<double(Direction)>> pdfs;
-  for (const auto& [name, pdf] : densities) pdfs.push_back(pdf);
-  const auto found =
-      reference::density_moments(kernel, {&luminance, 1}, pdfs, reference::CellRule::midpoint);
-  for (std::size_t i = 0; i < densities.size(); ++i) moments[densities[i].first] = found[i][0];
+/// The combinations of two densities that estimators make.
+struct Combinations {
+  std::vector<std::string_view> names;
+  std::vector<reference::CombinedSampling> samplings;
+};
+
+Combinations combinations_of(std::span<const EstimatorInfo* const> asked) {
+  Combinations combinations;
+  for (const EstimatorInfo* info : asked) {
+    if (!info->combined) continue;
+    combinations.names.push_back(info->name);
+    combinations.samplings.push_back(*info->combined);
+  }
+  return combinations;
+}
+
+/// Those of all other densities and of combinations, in one pass over the sphere.
+void add_others(const Combinations& combinations, const Densities& densities,
+                const reference::Kernel& kernel, const Grid<double>& luminance,
+                MomentsAtPoint& moments) {
+  if (combinations.names.empty() && densities.names.empty()) return;
+  const auto found = reference::sampling_moments(kernel, {&luminance, 1}, combinations.samplings,
+                                                 densities.pdfs, reference::CellRule::midpoint);
+  for (std::size_t i = 0; i < combinations.names.size(); ++i) {
+    moments[combinations.names[i]] = found.combined[i][0];
+  }
+  for (std::size_t i = 0; i < densities.names.size(); ++i) {
+    moments[densities.names[i]] = found.densities[i][0];
+  }
 }
 
 /// Estimators that are asked for.
@@ -120,14 +137,14 @@ LitReceiver::LitReceiver(const EnvironmentMap& map, const ReceiverInfo& receiver
   }
   const std::vector<const EstimatorInfo*> asked = asked_for(filter);
   const Densities of_map = asked.empty() ? Densities() : map_densities(asked, map);
+  const Combinations combinations = combinations_of(asked);
   std::vector<MomentsAtPoint> moments(pixels_.size());
   parallel_for(pixels_.size(), [&](std::size_t i) {
     const ShadingPoint& at = pixels_[i].point;
     const auto kernel = kernel_at(receiver, scene_, material_.material, at);
     add_densities(asked, light[i], moments[i]);
-    add_combined(asked, kernel, luminance, moments[i]);
-    add_other_densities(densities_at(asked, of_map, material_.material, at), kernel, luminance,
-                        moments[i]);
+    add_others(combinations, densities_at(asked, of_map, material_.material, at), kernel, luminance,
+               moments[i]);
   });
   for (const MomentsAtPoint& at_point : moments) {
     for (const auto& [name, exact] : at_point) {

@@ -208,7 +208,7 @@ AccuracyLine line_of(const Course& course, const Round& levels) {
   const EstimatorInfo& info = *course.contender->info;
   AccuracyLine line;
   line.estimator = info.name;
-  line.family = to_string(info.family);
+  line.family = info.family;
   line.is_biased = info.is_biased || (info.ignores_occlusion && course.lit->receiver().occluded);
   line.set_up_seconds = course.contender->set_up_seconds;
   line.set_up_processor_seconds = course.contender->set_up_processor_seconds;

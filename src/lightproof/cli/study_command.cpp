@@ -102,7 +102,9 @@ void add_kept_measurements(const Options& options, const UnfinishedWork& unfinis
                                   progress);
         });
   }
-  result.published_pictures = system_pictures(progress);
+  PublishedForms forms = kept_published_forms(cache, progress);
+  result.published_forms = std::move(forms.comparisons);
+  result.published_pictures = std::move(forms.pictures);
   if (!options.no_stability) {
     result.stability =
         unfinished.stage<StabilityResult>("stability", [&](const Communicator& /*alone*/) {
@@ -123,7 +125,6 @@ StudyResult run_on(std::vector<EnvironmentMap> maps, const Options& options,
   const Progress progress = progress_of(options);
   StudyResult result = run_study(std::move(maps), options.study, progress, unfinished);
   result.gate.input_options = input_options(options);
-  result.published_forms = system_comparisons();
   result.frames = study_frames();
   if (!options.no_accuracy) {
     result.recommendation_survey = kept_survey(options.study.cache.folder);
@@ -238,7 +239,7 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
   command
       ->add_flag("--measure-again", options->measure_again,
                  "measure what is kept of this program and machine: throughput, self-test, first "
-                 "tests of warps and materials, costs of levels, point sets")
+                 "tests of warps and materials, costs of levels, point sets, published forms")
       ->excludes(file);
   add_plugin_options(*command, options->plugins);
   add_accuracy_options(*command, *options);

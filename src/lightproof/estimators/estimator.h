@@ -14,6 +14,7 @@
 #include "lightproof/image/environment_map.h"
 #include "lightproof/materials/material.h"
 #include "lightproof/render/scene.h"
+#include "lightproof/results/estimator_family.h"
 #include "reference/combined_moments.h"
 #include "reference/estimator_moments.h"
 
@@ -66,24 +67,6 @@ enum class EstimatorKind {
 /// "precomputed".
 std::string_view to_string(EstimatorKind kind);
 
-/// What an estimator belongs to: what charts switch on and off together.
-enum class EstimatorFamily {
-  uniform,      ///< directions whatever the light and the material
-  lobes,        ///< the material
-  environment,  ///< the map
-  product,      ///< the product of both
-  mis,          ///< both, weighted
-  ris,          ///< candidates of both, chosen
-  points,       ///< any of these, at points that depend on each other
-  lights,       ///< lights that were chosen beforehand
-  quadrature,   ///< sums at fixed directions
-  precomputed,  ///< look-ups in what was integrated beforehand
-};
-
-/// The name of a family: "uniform", "lobes", "environment", "product", "MIS", "RIS", "point sets",
-/// "lights", "quadrature", "precomputed".
-std::string_view to_string(EstimatorFamily family);
-
 /// Serves every material.
 constexpr bool serves_all(const Material& /*material*/) { return true; }
 
@@ -105,9 +88,10 @@ struct EstimatorInfo {
   /// The density per steradian with which it draws a direction, if it is a mean over independent
   /// samples of one density that is none of `density`'s. The direction is above the surface.
   double (*pdf)(const Material& material, const ShadingPoint& at, Direction direction) = nullptr;
-  /// The density per steradian with which it draws a direction, if that depends on the map alone
-  /// and is none of `density`'s. The function that is returned refers to nothing outside of it.
-  std::function<double(Direction)> (*map_pdf)(const EnvironmentMap& map) = nullptr;
+  /// The density with which it draws a direction, at a position in the square of latitude and
+  /// longitude, if that depends on the map alone and is none of `density`'s. The function that is
+  /// returned refers to nothing outside of it.
+  std::function<PerSteradian(SquarePoint)> (*map_pdf)(const EnvironmentMap& map) = nullptr;
   /// The row that draws the same at independent points; empty for one whose points are.
   std::string_view at_independent_points = {};
   /// Samples of the budget that make one of the independent estimates that are shown; budgets that
@@ -131,6 +115,8 @@ struct EstimatorInfo {
   std::string_view unpredicted = {};
   /// Whether studies measure how it converges, if its moments are known, and render by it.
   bool is_studied = false;
+  /// Whether it stands for its kind where not every estimator is shown, as in pictures.
+  bool is_of_each_kind = false;
   /// Whether it can be used for a material. Binding to one that it cannot serve throws InputError.
   bool (*serves)(const Material& material) = serves_all;
   /// Makes what prepare() gives, of a map in texels of latitude and longitude.

@@ -127,7 +127,7 @@ PreparedSource reduced_table_source(const EnvironmentMap& map, int factor) {
           table->table_bytes()};
 }
 
-std::function<double(Direction)> reduced_table_pdf(const EnvironmentMap& map, int factor) {
+std::function<PerSteradian(SquarePoint)> reduced_table_pdf(const EnvironmentMap& map, int factor) {
   BlockSums sums = block_sums(map, reduced_extent(map.radiance.extent(), factor));
   Grid<double> densities = std::move(sums.light);
   double whole = 0.0;
@@ -136,10 +136,9 @@ std::function<double(Direction)> reduced_table_pdf(const EnvironmentMap& map, in
     const double area = sums.solid_angle[static_cast<std::size_t>(y)];
     for (double& density : densities.row(y)) density = whole > 0.0 ? density / area / whole : 0.0;
   }
-  return [densities = std::make_shared<const Grid<double>>(std::move(densities))](Direction d) {
-    const SquarePoint at = square_from_direction(d);
+  return [densities = std::make_shared<const Grid<double>>(std::move(densities))](SquarePoint at) {
     const Extent extent = densities->extent();
-    return (*densities)(cell_of(at.s, extent.width), cell_of(at.t, extent.height));
+    return PerSteradian{(*densities)(cell_of(at.s, extent.width), cell_of(at.t, extent.height))};
   };
 }
 

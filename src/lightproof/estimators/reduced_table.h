@@ -28,8 +28,9 @@ Extent reduced_extent(Extent map, int factor);
 /// if the map is black. The factor is at least 1.
 PreparedSource reduced_table_source(const EnvironmentMap& map, int factor);
 
-/// The density of such a table, per steradian, of any direction. 0 everywhere for a black map.
-std::function<double(Direction)> reduced_table_pdf(const EnvironmentMap& map, int factor);
+/// The density of such a table at any position in the square of latitude and longitude. 0
+/// everywhere for a black map.
+std::function<PerSteradian(SquarePoint)> reduced_table_pdf(const EnvironmentMap& map, int factor);
 
 /// What the reduced table adds to the variance of one sample of ∫ L, relative to its square: the
 /// sum over blocks of q CV^2, q the block's share of the light, CV the coefficient of variation of

@@ -39,12 +39,12 @@ constexpr std::string_view kSobol = "sobol";
 constexpr std::string_view kStratified = "stratified";
 
 template <int kFactor>
-std::function<double(Direction)> pdf_of_reduced(const EnvironmentMap& map) {
+std::function<PerSteradian(SquarePoint)> pdf_of_reduced(const EnvironmentMap& map) {
   return reduced_table_pdf(map, kFactor);
 }
 
 template <MassForm kForm>
-std::function<double(Direction)> pdf_of_rounded(const EnvironmentMap& map) {
+std::function<PerSteradian(SquarePoint)> pdf_of_rounded(const EnvironmentMap& map) {
   return rounded_table_pdf(map, kForm);
 }
 
@@ -95,6 +95,7 @@ constexpr std::array kEstimators = {
         .source = "Kajiya 1986",
         .density = SampledDensity::uniform,
         .is_studied = true,
+        .is_of_each_kind = true,
         .make = [](const EnvironmentMap& map) { return prepare_one_sample(map, UniformSphere{}); }},
     EstimatorInfo{
         .name = "hemisphere",
@@ -117,6 +118,7 @@ constexpr std::array kEstimators = {
         .family = EstimatorFamily::lobes,
         .density = SampledDensity::material,
         .is_studied = true,
+        .is_of_each_kind = true,
         .make = [](const EnvironmentMap& map) { return prepare_one_sample(map, MaterialLobes{}); }},
     EstimatorInfo{.name = "ggx normals",
                   .description = "GGX's normals, whatever the view",
@@ -181,6 +183,7 @@ constexpr std::array kEstimators = {
                   .family = EstimatorFamily::environment,
                   .density = SampledDensity::solid_angle,
                   .is_studied = true,
+                  .is_of_each_kind = true,
                   .make =
                       [](const EnvironmentMap& map) {
                         return prepare_one_sample(map, MapDensity{DensitySpace::solid_angle});
@@ -270,6 +273,7 @@ constexpr std::array kEstimators = {
                   .description = "the product of map and material down a quadtree",
                   .source = "Clarberg and Akenine-Möller 2008",
                   .family = EstimatorFamily::product,
+                  .is_of_each_kind = true,
                   .make =
                       [](const EnvironmentMap& map) {
                         return independent_samples(hierarchical_product_source(map));
@@ -283,6 +287,7 @@ constexpr std::array kEstimators = {
         .kind = EstimatorKind::multi_sample,
         .combined = CombinedSampling{.heuristic = Heuristic::balance, .compensation = 0.0},
         .samples_per_estimate = 2,
+        .is_of_each_kind = true,
         .make =
             [](const EnvironmentMap& map) {
               return multi_sample(map, DensitySpace::solid_angle, Heuristic::balance, 0.0);
@@ -379,6 +384,7 @@ constexpr std::array kEstimators = {
         .family = EstimatorFamily::ris,
         .kind = EstimatorKind::resampled,
         .candidates = 16,
+        .is_of_each_kind = true,
         .make = resampled_of<16>},
     EstimatorInfo{
         .name = "ris 64",
@@ -418,6 +424,7 @@ constexpr std::array kEstimators = {
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "environment B",
                   .is_studied = true,
+                  .is_of_each_kind = true,
                   .make = from_map_at<kSobol>},
     EstimatorInfo{.name = "brdf stratified",
                   .description = "as brdf, one at random in each cell of a grid",
@@ -576,6 +583,7 @@ constexpr std::array kEstimators = {
                   .is_biased = true,
                   .ignores_occlusion = true,
                   .ignores_budget = true,
+                  .is_of_each_kind = true,
                   .serves = is_lambert,
                   .make = harmonic_irradiance},
     EstimatorInfo{.name = "tabulated irradiance",
@@ -598,6 +606,7 @@ constexpr std::array kEstimators = {
         .is_biased = true,
         .ignores_occlusion = true,
         .ignores_budget = true,
+        .is_of_each_kind = true,
         .serves = is_ggx,
         .make = split_sum},
     EstimatorInfo{.name = "prefiltered phong",

@@ -163,12 +163,16 @@ PreparedSource rounded_table_source(const EnvironmentMap& map, MassForm form) {
           table->bytes()};
 }
 
-std::function<double(Direction)> rounded_table_pdf(const EnvironmentMap& map, MassForm form) {
+std::function<PerSteradian(SquarePoint)> rounded_table_pdf(const EnvironmentMap& map,
+                                                           MassForm form) {
+  const Extent extent = map.radiance.extent();
   const auto table = std::make_shared<const RoundedTable>(map, form);
-  return [table, extent = map.radiance.extent()](Direction d) {
-    const SquarePoint at = square_from_direction(d);
+  std::vector<double> solid_angles;
+  for (int y = 0; y < extent.height; ++y) solid_angles.push_back(texel_solid_angle(extent, y));
+  return [table, extent, solid_angles = std::move(solid_angles)](SquarePoint at) {
     const int y = cell_of(at.t, extent.height);
-    return table->mass(cell_of(at.s, extent.width), y) / texel_solid_angle(extent, y);
+    return PerSteradian{table->mass(cell_of(at.s, extent.width), y) /
+                        solid_angles[static_cast<std::size_t>(y)]};
   };
 }
 

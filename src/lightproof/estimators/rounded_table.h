@@ -53,9 +53,10 @@ class RoundedTable {
 /// Directions by such a table. Throws InputError if the map is black.
 PreparedSource rounded_table_source(const EnvironmentMap& map, MassForm form);
 
-/// The density of such a table, per steradian, of any direction. Throws InputError if the map is
-/// black.
-std::function<double(Direction)> rounded_table_pdf(const EnvironmentMap& map, MassForm form);
+/// The density of such a table at any position in the square of latitude and longitude. Throws
+/// InputError if the map is black.
+std::function<PerSteradian(SquarePoint)> rounded_table_pdf(const EnvironmentMap& map,
+                                                           MassForm form);
 
 /// What rounding adds to the variance of one sample of ∫ L, relative to its square: the sum of
 /// m^2/M less 1, m and M the probabilities of texels before and after. 0 of a black map.

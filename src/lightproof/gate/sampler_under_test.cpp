@@ -90,6 +90,15 @@ TestCase test_case_of(const MapSource& source, TargetDensity target) {
           source.extent.count()};
 }
 
+/// A sampler as a source of the many samples of a run.
+template <EnvSampler Sampler>
+BoundSampler bound_for_run(Sampler sampler) {
+  return bound(std::move(sampler));
+}
+BoundSampler bound_for_run(LinearScanPublished scan) {
+  return bound(RememberedScan(std::move(scan)));
+}
+
 }  // namespace
 
 SamplerUnderTest sampler_under_test(const SamplerInfo& sampler, DensitySpace density_space) {
@@ -98,7 +107,7 @@ SamplerUnderTest sampler_under_test(const SamplerInfo& sampler, DensitySpace den
           sampler.known_defects,
           sampler.inverts_shared_cdf,
           [make = sampler.make, density_space](const EnvironmentMap& map) {
-            return std::visit([](auto made) { return bound(std::move(made)); },
+            return std::visit([](auto made) { return bound_for_run(std::move(made)); },
                               make(map, density_space));
           },
           sampler.resolution,

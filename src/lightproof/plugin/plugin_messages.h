@@ -1,6 +1,6 @@
 // What the libraries and lightproof-plugin-host say to each other over a socket: requests and
 // replies of fixed size, as they lie in memory (both are one build on one machine). Numbers of
-// samples stand in memory that both share. Private to the two.
+// samples stand in memory that both share. A plug-in sees none of it.
 #pragma once
 
 #include <cstddef>

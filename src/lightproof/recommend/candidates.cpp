@@ -97,7 +97,7 @@ std::vector<UnreachedFamily> FamilyObstacles::list(
   std::vector<UnreachedFamily> list;
   for (const auto& [family, obstacle] : nearest_) {
     if (std::ranges::find(reached, family) != reached.end()) continue;
-    list.push_back({std::string(to_string(family)), obstacle.reason});
+    list.push_back({family, obstacle.reason});
   }
   return list;
 }

@@ -121,7 +121,7 @@ std::string refusal_of(const RefusedRecommendation& refused) {
       fmt::format("{}: no method reaches an error of {} on the receiver '{}' in '{}'", question.map,
                   plain_percent(question.error), question.receiver, question.material);
   for (const UnreachedFamily& family : refused.unreached) {
-    text += fmt::format("; {}: {}", family.family, family.reason);
+    text += fmt::format("; {}: {}", to_string(family.family), family.reason);
   }
   return text;
 }

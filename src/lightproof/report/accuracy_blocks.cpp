@@ -57,7 +57,8 @@ Table equal_error_table(const AccuracyChart& chart) {
   columns.emplace_back("1 / (variance \u00d7 time), 1/s");
   Table table("At equal error", columns);
   for (const AccuracyLine* line : by_time(chart)) {
-    std::vector<Cell> row = {text_cell(line->estimator), text_cell(line->family)};
+    std::vector<Cell> row = {text_cell(line->estimator),
+                             text_cell(std::string(to_string(line->family)))};
     for (const double error : kErrors) {
       const std::optional<LinePoint> point = at_error(*line, error);
       row.push_back(point ? time_cell(point->seconds) : none_cell("not reached"));
@@ -82,7 +83,8 @@ Table equal_time_table(const AccuracyChart& chart) {
   for (const double seconds : kTimes) columns.push_back("RMSE / mean in " + seconds_text(seconds));
   Table table("At equal time", columns);
   for (const AccuracyLine* line : by_time(chart)) {
-    std::vector<Cell> row = {text_cell(line->estimator), text_cell(line->family)};
+    std::vector<Cell> row = {text_cell(line->estimator),
+                             text_cell(std::string(to_string(line->family)))};
     for (const double seconds : kTimes) {
       const std::optional<LinePoint> point = at_time(*line, seconds);
       row.push_back(point ? percent_cell(point->error)
@@ -99,7 +101,7 @@ Table set_up_table(const AccuracyChart& chart) {
       {"Estimator", "Family", "Set-up", "Memory beside the map", "Slope of error over N", "Floor"});
   for (const AccuracyLine& line : chart.lines) {
     table.add({text_cell(line.estimator),
-               text_cell(line.family),
+               text_cell(std::string(to_string(line.family))),
                time_cell(line.set_up_seconds),
                {bytes_text(static_cast<double>(line.bytes)), "number", ""},
                std::isfinite(line.slope)

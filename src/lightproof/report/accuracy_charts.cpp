@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "lightproof/page/chart_parts.h"
 #include "lightproof/page/numbers.h"
@@ -22,27 +23,13 @@ constexpr std::array<const char*, 4> kSetUpWords = {
 constexpr const char* kFaint = "#d3d8de";
 constexpr const char* kFrontColour = "#1d232a";
 
-/// A family looks the same in every chart.
-constexpr std::array<std::array<const char*, 3>, 10> kFamilyLooks = {{
-    {"uniform", "#8a6d00", "circle"},
-    {"lobes", "#d55e00", "square"},
-    {"environment", "#0072b2", "triangle-up"},
-    {"product", "#009e73", "diamond"},
-    {"MIS", "#b5478c", "cross"},
-    {"RIS", "#4b3f9e", "triangle-down"},
-    {"point sets", "#00909e", "triangle-right"},
-    {"lights", "#b3121d", "triangle-left"},
-    {"quadrature", "#5f6b78", "square"},
-    {"precomputed", "#1a1a1a", "circle"},
-}};
-
 std::vector<SeriesStyle> family_styles(const std::vector<AccuracyChart>& charts) {
-  std::vector<std::string> names;
+  std::set<EstimatorFamily> families;
   for (const AccuracyChart& chart : charts) {
-    for (const AccuracyLine& line : chart.lines) names.push_back(line.family);
+    for (const AccuracyLine& line : chart.lines) families.insert(line.family);
   }
   std::vector<SeriesStyle> styles;
-  for (const std::string& name : unique_names(names)) styles.push_back(family_style(name));
+  for (const EstimatorFamily family : families) styles.push_back(family_style(family));
   return styles;
 }
 
@@ -65,7 +52,7 @@ Json point_row(const AccuracyLine& line, std::size_t i) {
   const bool measured = is_measured(p);
   const double half = kBarHalfLength * p.rmse_error;
   Json row = {{"series", line.estimator},
-              {"family", line.family},
+              {"family", to_string(line.family)},
               {"n", p.samples},
               {"seconds", rounded(p.seconds)},
               {"setup", rounded(line.set_up_processor_seconds)},
@@ -84,7 +71,7 @@ Json point_row(const AccuracyLine& line, std::size_t i) {
 /// From the mark to the right edge of the chart.
 Json floor_row(const AccuracyLine& line, double right) {
   return {{"series", line.estimator},
-          {"family", line.family},
+          {"family", to_string(line.family)},
           {"floor", drawn(line.floor)},
           {"seconds", rounded(line.points.back().seconds)},
           {"setup", rounded(line.set_up_processor_seconds)},
@@ -289,11 +276,33 @@ Json dots(const std::vector<SeriesStyle>& styles) {
 
 }  // namespace
 
-SeriesStyle family_style(const std::string& family) {
-  for (const auto& [name, colour, shape] : kFamilyLooks) {
-    if (family == name) return {family, colour, shape};
+SeriesStyle family_style(EstimatorFamily family) {
+  const auto drawn = [family](const char* colour, const char* shape) {
+    return SeriesStyle{std::string(to_string(family)), colour, shape};
+  };
+  switch (family) {
+    case EstimatorFamily::uniform:
+      return drawn("#8a6d00", "circle");
+    case EstimatorFamily::lobes:
+      return drawn("#d55e00", "square");
+    case EstimatorFamily::environment:
+      return drawn("#0072b2", "triangle-up");
+    case EstimatorFamily::product:
+      return drawn("#009e73", "diamond");
+    case EstimatorFamily::mis:
+      return drawn("#b5478c", "cross");
+    case EstimatorFamily::ris:
+      return drawn("#4b3f9e", "triangle-down");
+    case EstimatorFamily::points:
+      return drawn("#00909e", "triangle-right");
+    case EstimatorFamily::lights:
+      return drawn("#b3121d", "triangle-left");
+    case EstimatorFamily::quadrature:
+      return drawn("#5f6b78", "square");
+    case EstimatorFamily::precomputed:
+      return drawn("#1a1a1a", "circle");
   }
-  return {family, "#7a7a7a", "circle"};
+  return drawn("#7a7a7a", "circle");
 }
 
 SceneKey scene_of(const AccuracyChart& chart) {

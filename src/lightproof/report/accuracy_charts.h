@@ -19,7 +19,7 @@ SceneKey scene_of(const AccuracyChart& chart);
 SceneChoice accuracy_choice(const std::vector<AccuracyChart>& charts);
 
 /// How a family of estimators looks, the same in every chart.
-SeriesStyle family_style(const std::string& family);
+SeriesStyle family_style(EstimatorFamily family);
 
 /// RMSE over the mean against the time of a shading point, log-log, with lists to choose from.
 /// Leading lines are coloured by family, the others grey until their family is clicked in the

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "lightproof/page/chart_parts.h"
 #include "lightproof/page/numbers.h"
@@ -17,7 +18,6 @@ namespace {
 
 constexpr std::uint64_t kSamples = 64;
 constexpr double kAlike = 1.1;  // errors of tables that are as good as the best
-constexpr const char* kOfTheMap = "environment";
 
 /// The point of so many samples, or the only one of an estimator that takes what it takes.
 const AccuracyPoint* point_of(const AccuracyLine& line) {
@@ -31,7 +31,7 @@ Json row_of(const AccuracyLine& line, const AccuracyPoint& point) {
   const double half = kBarHalfLength * point.rmse_error;
   const bool measured = is_measured(point);
   const auto shown = [](double error) { return drawable(error) ? rounded(error) : Json(nullptr); };
-  return {{"series", line.family},
+  return {{"series", to_string(line.family)},
           {"estimator", line.estimator},
           {"bytes", rounded(static_cast<double>(line.bytes))},
           {"rmse", measured ? shown(point.rmse) : Json(nullptr)},
@@ -73,7 +73,7 @@ std::string memory_finding(const AccuracyChart& chart) {
   std::vector<Kept> kept;
   for (const AccuracyLine& line : chart.lines) {
     const AccuracyPoint* const point = point_of(line);
-    if (point == nullptr || line.family != kOfTheMap) continue;
+    if (point == nullptr || line.family != EstimatorFamily::environment) continue;
     if (const double error = known_error(*point); error > 0.0) kept.push_back({&line, error});
   }
   if (kept.empty()) return "Error against memory";
@@ -95,7 +95,7 @@ std::string memory_finding(const AccuracyChart& chart) {
 std::string memory_chart(const std::vector<AccuracyChart>& charts) {
   const SceneChoice choice = accuracy_choice(charts);
   Json rows = Json::array();
-  std::vector<std::string> families;
+  std::set<EstimatorFamily> families;
   LogRange sizes;
   for (const AccuracyChart& one : charts) {
     for (const AccuracyLine& line : one.lines) {
@@ -103,13 +103,13 @@ std::string memory_chart(const std::vector<AccuracyChart>& charts) {
       if (point == nullptr) continue;
       rows.push_back(row_of(line, *point));
       choice.put(rows.back(), scene_of(one));
-      families.push_back(line.family);
+      families.insert(line.family);
       sizes.add(static_cast<double>(line.bytes));
     }
   }
   if (rows.empty()) return "";
   std::vector<SeriesStyle> styles;
-  for (const std::string& family : unique_names(families)) styles.push_back(family_style(family));
+  for (const EstimatorFamily family : families) styles.push_back(family_style(family));
   const Json legend = {{"title", nullptr}, {"columns", 4}};
   const Json colour = series(styles, &SeriesStyle::colour, legend);
   const Json shape = series(styles, &SeriesStyle::shape, legend);

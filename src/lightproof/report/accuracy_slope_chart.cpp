@@ -26,7 +26,7 @@ struct Slope {
 std::string points_after(const AccuracyLine& line, std::string_view source) {
   const std::string_view estimator = line.estimator;
   if (estimator == source) return kIndependent;
-  if (line.family != "point sets" || !estimator.starts_with(source)) return "";
+  if (line.family != EstimatorFamily::points || !estimator.starts_with(source)) return "";
   const std::string_view rest = estimator.substr(source.size() + 1);
   return rest.find(' ') == std::string_view::npos ? std::string(rest) : "";
 }

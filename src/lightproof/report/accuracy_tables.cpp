@@ -26,7 +26,7 @@ Json list_of(const std::vector<Record>& records);
 
 Json json_of(const AccuracyLine& r) {
   return {{"estimator", r.estimator},
-          {"family", r.family},
+          {"family", to_string(r.family)},
           {"biased", r.is_biased},
           {"set_up_seconds", number(r.set_up_seconds)},
           {"set_up_processor_seconds", number(r.set_up_processor_seconds)},
@@ -71,9 +71,9 @@ std::string accuracy_csv(const std::vector<AccuracyChart>& charts) {
       for (const AccuracyPoint& p : line.points) {
         csv += csv_parts::row(
             chart.map, chart.receiver, chart.material, chart.quality, chart.shading_points,
-            line.estimator, line.family, line.is_biased ? "yes" : "no", line.set_up_seconds,
-            line.set_up_processor_seconds, line.bytes, line.slope, line.slope_error, line.floor,
-            p.samples, p.seconds, p.rmse, p.rmse_error, p.predicted);
+            line.estimator, to_string(line.family), line.is_biased ? "yes" : "no",
+            line.set_up_seconds, line.set_up_processor_seconds, line.bytes, line.slope,
+            line.slope_error, line.floor, p.samples, p.seconds, p.rmse, p.rmse_error, p.predicted);
       }
     }
   }
@@ -86,7 +86,7 @@ Json method_regimes_json(const MethodRegimes& regimes) {
     list.push_back({{"roughness", number(r.roughness)},
                     {"effective_fraction", number(r.effective_fraction)},
                     {"estimator", r.estimator},
-                    {"family", r.family},
+                    {"family", r.family ? to_string(*r.family) : ""},
                     {"seconds", number(r.seconds)},
                     {"unbiased_estimator", r.unbiased_estimator},
                     {"unbiased_seconds", number(r.unbiased_seconds)}});
@@ -99,8 +99,9 @@ std::string method_regimes_csv(const MethodRegimes& regimes) {
       "roughness,effective_fraction,error,estimator,family,seconds,unbiased_estimator,"
       "unbiased_seconds\n";
   for (const MethodRegime& r : regimes.regimes) {
-    csv += csv_parts::row(r.roughness, r.effective_fraction, regimes.error, r.estimator, r.family,
-                          r.seconds, r.unbiased_estimator, r.unbiased_seconds);
+    csv += csv_parts::row(r.roughness, r.effective_fraction, regimes.error, r.estimator,
+                          r.family ? to_string(*r.family) : "", r.seconds, r.unbiased_estimator,
+                          r.unbiased_seconds);
   }
   return csv;
 }

@@ -37,7 +37,7 @@ Json json_of(const RecommendedMethod& method) {
 Json json_of(const std::vector<UnreachedFamily>& unreached) {
   Json list = Json::array();
   for (const UnreachedFamily& family : unreached) {
-    list.push_back({{"family", family.family}, {"reason", family.reason}});
+    list.push_back({{"family", to_string(family.family)}, {"reason", family.reason}});
   }
   return list;
 }

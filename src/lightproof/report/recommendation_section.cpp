@@ -57,7 +57,8 @@ std::string rival_text(const std::optional<RecommendedMethod>& rival) {
 std::string reasons_text(const std::vector<UnreachedFamily>& unreached) {
   std::string text;
   for (const UnreachedFamily& family : unreached) {
-    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", family.family, family.reason);
+    text +=
+        fmt::format("{}{}: {}", text.empty() ? "" : "; ", to_string(family.family), family.reason);
   }
   return text;
 }
@@ -106,7 +107,7 @@ std::string unreached_html(const std::vector<Recommendation>& recommendations) {
       ++count;
       table.add({text_cell(r.question.map),
                  text_cell(r.question.receiver + ", " + r.question.material),
-                 text_cell(family.family),
+                 text_cell(std::string(to_string(family.family))),
                  {family.reason, "detail", ""}});
     }
   }

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <vector>
 
+#include "lightproof/results/estimator_family.h"
+
 namespace lightproof {
 
 /// The error and the time of an estimate of one number of samples.
@@ -32,7 +34,7 @@ struct AccuracyPoint {
 /// One estimator: a falling line, or a single point if its budget is without meaning to it.
 struct AccuracyLine {
   std::string estimator;  ///< name in the registry of estimators
-  std::string family;     ///< what it belongs to: "environment", "MIS", "precomputed", …
+  EstimatorFamily family = EstimatorFamily::uniform;
   bool is_biased = false;
   double set_up_seconds = 0.0;            ///< elapsed, once for a map and a material
   double set_up_processor_seconds = 0.0;  ///< the same as processor time of all threads

@@ -1,9 +1,12 @@
 // Which method wins where: over how narrow the light is and how narrow the material's lobe.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
+
+#include "lightproof/results/estimator_family.h"
 
 namespace lightproof {
 
@@ -13,7 +16,7 @@ struct MethodRegime {
   /// The share of the sphere that the light fills, η = (∫L)^2 / (4π ∫L^2).
   double effective_fraction = 0.0;
   std::string estimator;  ///< empty if none reaches the error
-  std::string family;
+  std::optional<EstimatorFamily> family;
   double seconds = 0.0;            ///< of a shading point, without set-up
   std::string unbiased_estimator;  ///< the first one without bias; empty if none reaches the error
   double unbiased_seconds = 0.0;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <string>
-#include <string_view>
+#include <tuple>
 
 #include "lightproof/core/direction.h"
 #include "lightproof/core/grid.h"
@@ -11,7 +11,7 @@ namespace lightproof {
 
 /// A picture three times, of one size, row 0 at the top.
 struct PublishedPicture {
-  std::string_view system;     ///< its number in the list of systems: "002-6"
+  std::string system;          ///< its number in the list of systems: "002-6"
   std::string what;            ///< what is shown, in one line
   std::string published_form;  ///< what differs, in one line
   std::string corrected_form;
@@ -26,6 +26,12 @@ struct PublishedPicture {
   double published_rmse = 0.0;  ///< root mean square of the error over the picture's own pixels
   double corrected_rmse = 0.0;
   double noise = 0.0;  ///< root mean square standard error of the exact picture, on the same scale
+
+  static auto fields(auto& all) {
+    return std::tie(all.system, all.what, all.published_form, all.corrected_form, all.exact_form,
+                    all.exact, all.published, all.corrected, all.published_error,
+                    all.corrected_error, all.published_rmse, all.corrected_rmse, all.noise);
+  }
 };
 
 }  // namespace lightproof

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lightproof/core/grid.h"
+#include "lightproof/results/estimator_family.h"
 
 namespace lightproof {
 
@@ -60,7 +61,7 @@ struct RecommendedMethod {
 
 /// A family of methods none of which reaches the error, and what stops it.
 struct UnreachedFamily {
-  std::string family;
+  EstimatorFamily family = EstimatorFamily::uniform;
   std::string reason;  ///< "the floor of sh-9 is 3.1 %, above 2 %"
 
   static auto fields(auto& family) { return std::tie(family.family, family.reason); }

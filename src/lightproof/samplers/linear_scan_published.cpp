@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <utility>
 
 #include "lightproof/samplers/texel_weights.h"
 #include "lightproof/warp/lat_long.h"
@@ -9,11 +11,10 @@
 namespace lightproof {
 namespace {
 
-/// Where a scan stopped and how far between the sums around it; index == count if it ran off.
-struct Stop {
-  int index;
-  float fraction;
-};
+using Stop = LinearScanPublished::Stop;
+
+/// How far a random number lies between the sums around it.
+float between(float previous, float u, float sum) { return (u - previous) / (sum - previous); }
 
 template <class Probability>
 Stop scan(int count, float u, const Probability& probability) {
@@ -25,7 +26,30 @@ Stop scan(int count, float u, const Probability& probability) {
     if (sum >= u) break;
     previous = sum;
   }
-  return {index, (u - previous) / (sum - previous)};
+  return {index, between(previous, u, sum)};
+}
+
+/// All sums of such a scan; none if they do not rise to the end, as where one is not a number.
+template <class Probability>
+std::vector<float> running_sums(int count, const Probability& probability) {
+  std::vector<float> sums;
+  sums.reserve(static_cast<std::size_t>(count));
+  float sum = 0.0F;
+  for (int index = 0; index < count; ++index) {
+    sum += probability(index) / static_cast<float>(count);
+    sums.push_back(sum);
+  }
+  const bool rises = std::ranges::is_sorted(sums) && std::isfinite(sum) &&
+                     std::ranges::none_of(sums, [](float one) { return std::isnan(one); });
+  return rises ? sums : std::vector<float>();
+}
+
+/// Where a scan stops, by its sums.
+Stop stop_among(const std::vector<float>& sums, float u) {
+  const auto at = std::ranges::lower_bound(sums, u);
+  const float previous = at == sums.begin() ? 0.0F : *(at - 1);
+  const auto index = static_cast<int>(at - sums.begin());
+  return {index, at == sums.end() ? between(previous, u, previous) : between(previous, u, *at)};
 }
 
 /// The shader's random numbers are floats in [0,1): drop the bits that do not fit.
@@ -82,15 +106,24 @@ float LinearScanPublished::average_of(int y) const {
   return row_average_[std::min(static_cast<std::size_t>(y), last)];
 }
 
+float LinearScanPublished::row_probability(int y) const { return average_of(y) / total_average_; }
+
+float LinearScanPublished::column_probability(int x, int y) const {
+  const bool fetch_is_inside = y < map_->radiance.extent().height;
+  return (fetch_is_inside ? weight(x, y) : 0.0F) / average_of(y);
+}
+
 TexelSample LinearScanPublished::sample(SquarePoint u) const {
   const Extent extent = map_->radiance.extent();
-  const Stop row = scan(extent.height, to_shader_random(u.t),
-                        [&](int y) { return average_of(y) / total_average_; });
-  const float average = average_of(row.index);
-  const Stop column = scan(extent.width, to_shader_random(u.s), [&](int x) {
-    const bool fetch_is_inside = row.index < extent.height;
-    return (fetch_is_inside ? weight(x, row.index) : 0.0F) / average;
-  });
+  const Stop row =
+      scan(extent.height, to_shader_random(u.t), [this](int y) { return row_probability(y); });
+  const Stop column = scan(extent.width, to_shader_random(u.s),
+                           [&](int x) { return column_probability(x, row.index); });
+  return sample_at(row, column);
+}
+
+TexelSample LinearScanPublished::sample_at(Stop row, Stop column) const {
+  const Extent extent = map_->radiance.extent();
   const float s =
       (static_cast<float>(column.index) + column.fraction) / static_cast<float>(extent.width);
   const float t =
@@ -123,6 +156,43 @@ std::size_t LinearScanPublished::table_bytes() const {
   return map_->radiance.extent().count() * sizeof(Rgb) + row_average_.size() * sizeof(float);
 }
 
+/// The sums of the columns of each row, once a sample has needed them.
+struct RememberedScan::Sums {
+  struct Row {
+    std::once_flag summed;
+    std::vector<float> sums;
+  };
+
+  explicit Sums(int height) : of_columns(static_cast<std::size_t>(height)) {}
+
+  std::vector<float> of_rows;
+  std::vector<Row> of_columns;
+};
+
+RememberedScan::RememberedScan(LinearScanPublished scan)
+    : scan_(std::move(scan)), sums_(std::make_unique<Sums>(scan_.extent().height)) {
+  sums_->of_rows =
+      running_sums(scan_.extent().height, [this](int y) { return scan_.row_probability(y); });
+}
+
+RememberedScan::RememberedScan(RememberedScan&&) noexcept = default;
+RememberedScan::~RememberedScan() = default;
+
+TexelSample RememberedScan::sample(SquarePoint u) const {
+  const Extent extent = scan_.extent();
+  if (sums_->of_rows.empty()) return scan_.sample(u);
+  const Stop row = stop_among(sums_->of_rows, to_shader_random(u.t));
+  if (row.index == extent.height) return scan_.sample(u);
+  Sums::Row& columns = sums_->of_columns[static_cast<std::size_t>(row.index)];
+  std::call_once(columns.summed, [&] {
+    columns.sums =
+        running_sums(extent.width, [&](int x) { return scan_.column_probability(x, row.index); });
+  });
+  if (columns.sums.empty()) return scan_.sample(u);
+  return scan_.sample_at(row, stop_among(columns.sums, to_shader_random(u.s)));
+}
+
 static_assert(EnvSampler<LinearScanPublished>);
+static_assert(EnvSampler<RememberedScan>);
 
 }  // namespace lightproof

@@ -5,6 +5,7 @@
 // The only liberty: our maps are linear, so its decoding of 8-bit texels (^2.2) has been done.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "lightproof/samplers/texel_positions.h"
@@ -27,11 +28,25 @@ class LinearScanPublished {
   /// Bytes of the table, which is the map itself (12 bytes a texel) and the averages of rows.
   std::size_t table_bytes() const;
   const Mapping& mapping() const { return map_->mapping; }
+  Extent extent() const { return map_->radiance.extent(); }
+
+  /// Where a scan stopped, and how far between the sums around that entry; the index is the number
+  /// of entries if it ran off the end.
+  struct Stop {
+    int index;
+    float fraction;
+  };
 
  private:
+  friend class RememberedScan;
   struct AsListed {};
   LinearScanPublished(const EnvironmentMap& map, TargetDensity target, AsListed);
 
+  TexelSample sample_at(Stop row, Stop column) const;
+  /// What the scans sum, before they divide it by the number of entries. A row beyond the map is
+  /// black.
+  float row_probability(int y) const;
+  float column_probability(int x, int y) const;
   float weight(int x, int y) const;
   float average_of(int y) const;
   PerSquare pdf_in(int x, int y, SquarePoint at) const;
@@ -45,6 +60,29 @@ class LinearScanPublished {
   bool weighs_each_texel_;          ///< by a solid angle of its own
   std::vector<float> row_average_;  ///< mean of the weights of each row
   float total_average_ = 0.0F;
+};
+
+/// The published sampler where very many samples are drawn of one map, as tests do. The running
+/// sums of a row do not depend on the random number: they are kept from the first sample that needs
+/// them on, and searched by bisection. A sample is that of LinearScanPublished::sample(), bit for
+/// bit.
+class RememberedScan {
+ public:
+  explicit RememberedScan(LinearScanPublished scan);
+  RememberedScan(RememberedScan&& other) noexcept;
+  ~RememberedScan();
+
+  /// Many threads may call it.
+  TexelSample sample(SquarePoint u) const;
+  PerSquare pdf(SquarePoint at) const { return scan_.pdf(at); }
+  /// Bytes of the published sampler's table, without the sums.
+  std::size_t table_bytes() const { return scan_.table_bytes(); }
+
+ private:
+  struct Sums;
+
+  LinearScanPublished scan_;
+  std::unique_ptr<Sums> sums_;
 };
 
 }  // namespace lightproof

@@ -25,23 +25,13 @@ struct PicturedScene {
 constexpr std::array kScenes = {PicturedScene{"sphere-on-plane", "ggx:0.3"},
                                 PicturedScene{"sphere", "lambert"}};
 
-constexpr std::array<std::string_view, 9> kPictured = {
-    "uniform",     "brdf",   "environment B",        "environment B sobol",
-    "mis balance", "ris 16", "product hierarchical", "split-sum",
-    "sh-9"};
-
-bool is_of_each_kind(std::string_view estimator) {
-  return std::ranges::find(kPictured, estimator) != kPictured.end();
-}
-
-/// One of each kind, in the order in which they are shown; then, if asked for, all others.
+/// One of each kind; then, if asked for, all others.
 std::vector<const EstimatorInfo*> pictured(const RenderOptions& options) {
   std::vector<const EstimatorInfo*> chosen;
-  for (const std::string_view name : kPictured) chosen.push_back(&estimator_by_name(name));
-  if (!options.every_estimator) return chosen;
   for (const EstimatorInfo& info : estimators()) {
-    if (!is_of_each_kind(info.name)) chosen.push_back(&info);
+    if (info.is_of_each_kind || options.every_estimator) chosen.push_back(&info);
   }
+  std::ranges::stable_partition(chosen, &EstimatorInfo::is_of_each_kind);
   return chosen;
 }
 
@@ -136,7 +126,7 @@ class Studio {
     record.receiver = receiver_->name;
     record.material = material_name_;
     record.estimator = info.name;
-    record.is_of_each_kind = is_of_each_kind(info.name);
+    record.is_of_each_kind = info.is_of_each_kind;
     record.samples = painter.samples_within(pixels_, options_->point_seconds);
     record.point_seconds = painter.point_seconds(pixels_, record.samples);
     const auto start = std::chrono::steady_clock::now();

@@ -50,4 +50,13 @@ std::vector<PublishedPicture> system_pictures(const Progress& progress) {
   return shaded_pictures({}, progress);
 }
 
+PublishedForms kept_published_forms(const MeasurementCache& cache, const Progress& progress) {
+  return MeasurementKeeper(cache)
+      .get<PublishedForms>("published-forms", "",
+                           [&] {
+                             return PublishedForms{system_comparisons(), system_pictures(progress)};
+                           })
+      .value;
+}
+
 }  // namespace lightproof
