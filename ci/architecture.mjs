@@ -73,7 +73,7 @@ function faultsOf(folders) {
 }
 
 /** Whether a header says at its head that it is private, so that cmake/Install.cmake leaves it out. */
-const isPrivate = (code) => /\bPrivate\s+(\/\/ )?to /.test(code.split("#pragma once")[0]);
+const isPrivate = (code) => code.split("#pragma once")[0].replaceAll("\n// ", " ").includes("Private to ");
 
 /** Headers that are installed and include one that is not. */
 function privateHeadersOf(folders) {

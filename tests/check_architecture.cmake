@@ -9,7 +9,7 @@ function(write_tree)
   file(WRITE ${FOLDER}/src/lightproof/core/angle.h
     "#pragma once\nnamespace lightproof {\nstruct Angle {};\n}\n")
   file(WRITE ${FOLDER}/src/lightproof/core/secret.h
-    "// Tables.\n// Private to the module.\n#pragma once\nnamespace lightproof {\nstruct Secret {};\n}\n")
+    "// Tables. Private\n// to the module.\n#pragma once\nnamespace lightproof {\nstruct Secret {};\n}\n")
   file(WRITE ${FOLDER}/src/lightproof/image/CMakeLists.txt
     "# Maps.\nlightproof_module(image SOURCES a.cpp PUBLIC lightproof::core)\n")
   file(WRITE ${FOLDER}/src/lightproof/image/map.h
