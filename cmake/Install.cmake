@@ -12,12 +12,11 @@ install(TARGETS lightproof-decode lightproof-plugin-host
   RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/lightproof COMPONENT runtime)
 install(EXPORT lightproof NAMESPACE lightproof:: FILE lightproofTargets.cmake
   DESTINATION ${package_folder} COMPONENT development)
-# What lives in src/lightproof, but for programs and for headers that say at their head that they are
-# private to their folder.
-file(GLOB private_headers CONFIGURE_DEPENDS src/lightproof/*/*.h)
-list(TRANSFORM private_headers REPLACE "^${PROJECT_SOURCE_DIR}/src/" "")
+# What lives in src/lightproof, but for programs, kernels, files that are built in, and headers that say at
+# their head that they are private to their folder.
+file(GLOB headers RELATIVE ${PROJECT_SOURCE_DIR}/src CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/lightproof/*/*.h)
 set(excluded "")
-foreach(header IN LISTS private_headers)
+foreach(header IN LISTS headers)
   file(READ src/${header} head LIMIT 1200)
   string(REGEX REPLACE "#pragma once.*" "" head "${head}")
   string(REPLACE "\n// " " " head "${head}")

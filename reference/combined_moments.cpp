@@ -210,17 +210,10 @@ std::vector<MeanAndVariance> combined_moments(const Kernel& kernel,
   return combined_moments(kernel, radiance, std::span(&sampling, 1)).front();
 }
 
-std::vector<std::vector<MeanAndVariance>> density_moments(const Kernel& kernel,
-                                                          std::span<const Grid<double>> radiance,
-                                                          std::span<const DensityAtNode> pdfs,
-                                                          CellRule rule) {
-  return sampling_moments(kernel, radiance, {}, pdfs, rule).densities;
-}
-
 std::vector<MeanAndVariance> density_moments(const Kernel& kernel,
                                              std::span<const Grid<double>> radiance,
                                              const DensityAtNode& pdf) {
-  return density_moments(kernel, radiance, std::span(&pdf, 1)).front();
+  return sampling_moments(kernel, radiance, {}, std::span(&pdf, 1)).densities.front();
 }
 
 }  // namespace lightproof::reference

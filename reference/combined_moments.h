@@ -64,21 +64,17 @@ std::vector<MeanAndVariance> density_moments(const Kernel& kernel,
                                              std::span<const Grid<double>> radiance,
                                              const DensityAtNode& pdf);
 
-/// The moments of several of them, as [density][grid of radiance]; they share the kernel's values.
-std::vector<std::vector<MeanAndVariance>> density_moments(const Kernel& kernel,
-                                                          std::span<const Grid<double>> radiance,
-                                                          std::span<const DensityAtNode> pdfs,
-                                                          CellRule rule = CellRule::gauss);
-
 /// The moments of combined estimators and of densities, as [estimator][grid of radiance].
 struct SamplingMoments {
   std::vector<std::vector<MeanAndVariance>> combined;
   std::vector<std::vector<MeanAndVariance>> densities;
 };
 
-/// Both at once: they share the kernel's values.
+/// The moments of combined estimators and of the one-sample estimators of densities, in one pass
+/// over the sphere, which shares the kernel's values.
 SamplingMoments sampling_moments(const Kernel& kernel, std::span<const Grid<double>> radiance,
                                  std::span<const CombinedSampling> samplings,
-                                 std::span<const DensityAtNode> pdfs, CellRule rule);
+                                 std::span<const DensityAtNode> pdfs,
+                                 CellRule rule = CellRule::gauss);
 
 }  // namespace lightproof::reference

@@ -132,12 +132,13 @@ double disc_to_the_left(double psi) { return 0.5 + (psi + 0.5 * std::sin(2.0 * p
 
 /// The angle psi of which disc_to_the_left(psi) is this share.
 double angle_of_share(double share) {
-  if (share <= 0.0) return -0.5 * kPi;
+  if (!(share > 0.0)) return -0.5 * kPi;
   if (share >= 1.0) return 0.5 * kPi;
-  std::uintmax_t halvings = 60;  // all that a double resolves
-  const auto [low, high] = boost::math::tools::bisect(
-      [share](double psi) { return disc_to_the_left(psi) - share; }, -0.5 * kPi, 0.5 * kPi,
-      boost::math::tools::eps_tolerance<double>(), halvings);
+  const auto adjacent = [](double a, double b) { return std::nextafter(a, b) >= b; };
+  std::uintmax_t halvings = 64;
+  const auto [low, high] =
+      boost::math::tools::bisect([share](double psi) { return disc_to_the_left(psi) - share; },
+                                 -0.5 * kPi, 0.5 * kPi, adjacent, halvings);
   return 0.5 * (low + high);
 }
 

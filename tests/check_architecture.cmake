@@ -9,7 +9,7 @@ function(write_tree)
   file(WRITE ${FOLDER}/src/lightproof/core/angle.h
     "#pragma once\nnamespace lightproof {\nstruct Angle {};\n}\n")
   file(WRITE ${FOLDER}/src/lightproof/core/secret.h
-    "// Tables. Private\n// to the module.\n#pragma once\nnamespace lightproof {\nstruct Secret {};\n}\n")
+    "// Tables. Private to\n// the module.\n#pragma once\nnamespace lightproof {\nstruct Secret {};\n}\n")
   file(WRITE ${FOLDER}/src/lightproof/image/CMakeLists.txt
     "# Maps.\nlightproof_module(image SOURCES a.cpp PUBLIC lightproof::core)\n")
   file(WRITE ${FOLDER}/src/lightproof/image/map.h
@@ -40,6 +40,10 @@ run("is not what ci/architecture writes" --check)
 write_tree()
 file(APPEND ${FOLDER}/src/lightproof/core/angle.h "#include \"lightproof/image/map.h\"\n")
 run("includes image/, which src/lightproof/core/CMakeLists.txt does not link to")
+
+write_tree()
+file(APPEND ${FOLDER}/src/lightproof/core/angle.h "#include \"lightproof/lenses/lens.h\"\n")
+run("includes lenses/, which is no folder of this project")
 
 write_tree()
 file(WRITE ${FOLDER}/src/lightproof/core/CMakeLists.txt

@@ -95,7 +95,7 @@ TEST(Report, FoldsEstimatorsThatStandForNoKindTheLeastErrorFirst) {
   ASSERT_EQ(study.renders.size(), 4U);
   const std::string unfolded = render_section(study.renders);
   EXPECT_EQ(unfolded.find("Others in the same time"), std::string::npos);
-  study.renders[1].is_of_each_kind = study.renders[3].is_of_each_kind = false;
+  study.renders[1].is_representative = study.renders[3].is_representative = false;
   study.renders[1].rmse = 0.3;
   study.renders[3].rmse = 0.1;
   const std::string html = render_section(study.renders);

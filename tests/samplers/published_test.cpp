@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <vector>
 
+#include "lightproof/core/parallel.h"
 #include "lightproof/image/synthetic.h"
 #include "lightproof/samplers/binary_search.h"
 #include "lightproof/samplers/linear_scan_published.h"
@@ -53,7 +55,7 @@ bool is_same(const TexelSample& a, const TexelSample& b) {
 }
 
 // Ordinary numbers, and those at which a scan stops early, runs off the end, or sums what is none.
-TEST(RememberedScan, DrawsWhatTheScanDrawsBitForBit) {
+TEST(CachedScan, DrawsWhatTheScanDrawsBitForBit) {
   std::vector<double> numbers = {0.0, 0x1p-24, 0.5, 1.0 - 0x1p-24, 1.0 - 0x1p-53};
   for (int i = 0; i < 200; ++i) numbers.push_back(std::fmod(0.618 * i, 1.0));
   const Rgb not_a_number(std::numeric_limits<float>::quiet_NaN());
@@ -61,18 +63,42 @@ TEST(RememberedScan, DrawsWhatTheScanDrawsBitForBit) {
     for (const bool is_spoilt : {false, true}) {
       EnvironmentMap map = make_synthetic_map(name, {61, 29});
       if (is_spoilt) map.radiance(7, 11) = not_a_number;
+      if (is_spoilt) map.radiance(40, 20) = Rgb(-0.5F);
       for (const DensityInfo& density : kDensities) {
         const TargetDensity target = {density.density_space, kPublishedLuminance};
         const LinearScanPublished scan = LinearScanPublished::as_listed(map, target);
-        const RememberedScan remembered(scan);
+        const CachedScan cached(scan);
         for (const double s : numbers) {
           for (const double t : numbers) {
-            ASSERT_TRUE(is_same(remembered.sample({s, t}), scan.sample({s, t})))
+            ASSERT_TRUE(is_same(cached.sample({s, t}), scan.sample({s, t})))
                 << name << ", u = (" << s << ", " << t << ")";
           }
         }
       }
     }
+  }
+}
+
+// Where sums fall once, no search finds where the scan stops; where texels of a row differ in solid
+// angle, each is weighed by its own.
+TEST(CachedScan, DrawsWhatTheScanDrawsOfFallingSumsAndOfAnOctahedralMap) {
+  EnvironmentMap falling = make_synthetic_map("constant", {16, 8});
+  falling.radiance(5, 3) = Rgb(-0.75F);
+  EnvironmentMap octahedral = make_synthetic_map("gradient", {16, 16});
+  octahedral.mapping.kind = MappingKind::octahedral;
+  for (const EnvironmentMap& map : {falling, octahedral}) {
+    const LinearScanPublished scan =
+        LinearScanPublished::as_listed(map, {DensitySpace::solid_angle, kPublishedLuminance});
+    const CachedScan cached(scan);
+    std::vector<int> differ(64);
+    parallel_for(differ.size(), [&](std::size_t i) {
+      for (std::size_t j = 0; j < 64; ++j) {
+        const SquarePoint u = {(static_cast<double>(j) + 0.3) / 64.0,
+                               (static_cast<double>(i) + 0.3) / 64.0};
+        differ[i] += is_same(cached.sample(u), scan.sample(u)) ? 0 : 1;
+      }
+    });
+    EXPECT_EQ(std::accumulate(differ.begin(), differ.end(), 0), 0);
   }
 }
 

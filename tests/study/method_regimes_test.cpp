@@ -51,6 +51,7 @@ TEST(RegimeOf, NamesTheFastestWithBiasAndWithout) {
   chart.lines = {line_of("uniform", false, 1e-6, 1.0)};
   EXPECT_EQ(regime_of(chart, 0.3, 0.02).estimator, "");
   EXPECT_EQ(regime_of(chart, 0.3, 0.02).unbiased_estimator, "");
+  EXPECT_EQ(regime_of(chart, 0.3, 0.02).family, std::nullopt);
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ Combinations combinations_of(std::span<const EstimatorInfo* const> asked) {
   return combinations;
 }
 
-/// Those of all other densities and of combinations, in one pass over the sphere.
+/// Adds the moments of combinations and of all other densities, in one pass over the sphere.
 void add_others(const Combinations& combinations, const Densities& densities,
                 const reference::Kernel& kernel, const Grid<double>& luminance,
                 MomentsAtPoint& moments) {

@@ -26,12 +26,26 @@ std::string time_text(long seconds) {
   return fmt::format("{} h {} min", seconds / 3600, seconds / 60 % 60);
 }
 
-/// ", 2 min 5 s left", if enough is done to say so.
-std::string time_left(Clock::time_point start, double fraction) {
-  if (fraction <= 0.01) return "";
-  const double spent = std::chrono::duration<double>(Clock::now() - start).count();
-  return fmt::format(", {} left", time_text(std::lround(spent * (1.0 / fraction - 1.0))));
-}
+/// How long what is done will take. Work in several parts, each of which counts from 0 to 1, has
+/// the time of the part that is under way.
+class Forecast {
+ public:
+  void see(double fraction) {
+    // Threads may report a little out of order.
+    if (fraction < fraction_ - 0.05) start_ = Clock::now();
+    fraction_ = fraction;
+  }
+  /// ", 2 min 5 s left", if enough is done to say so.
+  std::string time_left() const {
+    if (fraction_ <= 0.01) return "";
+    const double spent = std::chrono::duration<double>(Clock::now() - start_).count();
+    return fmt::format(", {} left", time_text(std::lround(spent * (1.0 / fraction_ - 1.0))));
+  }
+
+ private:
+  Clock::time_point start_ = Clock::now();
+  double fraction_ = 0.0;
+};
 
 /// Draws the bar at most ten times a second.
 class Bar {
@@ -43,18 +57,19 @@ class Bar {
 
   void show(std::string_view step, double fraction) {
     const std::lock_guard lock(mutex_);
+    forecast_.see(fraction);
     const auto now = Clock::now();
     if (fraction < 1.0 && now - shown_ < std::chrono::milliseconds(100)) return;
     shown_ = now;
     constexpr int kWidth = 30;
     const int full = std::clamp(static_cast<int>(fraction * kWidth), 0, kWidth);
     tell("\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {}{}", "", full, "", kWidth - full, 100.0 * fraction,
-         step, time_left(start_, fraction));
+         step, forecast_.time_left());
   }
 
  private:
   std::mutex mutex_;
-  Clock::time_point start_ = Clock::now();
+  Forecast forecast_;
   Clock::time_point shown_;
 };
 
@@ -80,6 +95,7 @@ class Lines {
       step_start_ = Clock::now();
     }
     fraction_ = fraction;
+    forecast_.see(fraction);
   }
 
  private:
@@ -96,14 +112,14 @@ class Lines {
       ended_.wait_for(lock, stop, interval, [] { return false; });
       if (stop.stop_requested()) return;
       tell("{}: {:.0f} %{}\n", step_.empty() ? "starting" : step_, 100.0 * fraction_,
-           time_left(start_, fraction_));
+           forecast_.time_left());
     }
   }
 
   std::mutex mutex_;
   std::condition_variable_any ended_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point step_start_ = start_;
+  Forecast forecast_;
+  Clock::time_point step_start_ = Clock::now();
   std::string step_;
   int steps_ = 0;
   double fraction_ = 0.0;

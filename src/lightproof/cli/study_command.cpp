@@ -102,7 +102,9 @@ void add_kept_measurements(const Options& options, const UnfinishedWork& unfinis
                                   progress);
         });
   }
-  PublishedForms forms = kept_published_forms(cache, progress);
+  auto forms = unfinished.stage<PublishedForms>(
+      "published-forms",
+      [&](const Communicator& /*alone*/) { return kept_published_forms(cache, progress); });
   result.published_forms = std::move(forms.comparisons);
   result.published_pictures = std::move(forms.pictures);
   if (!options.no_stability) {
@@ -239,7 +241,8 @@ void add_study(CLI::App& app, const CommandLine& line, int& exit_code) {
   command
       ->add_flag("--measure-again", options->measure_again,
                  "measure what is kept of this program and machine: throughput, self-test, first "
-                 "tests of warps and materials, costs of levels, point sets, published forms")
+                 "tests of warps and materials, costs of levels, point sets, published forms, hard "
+                 "inputs, which method wins where")
       ->excludes(file);
   add_plugin_options(*command, options->plugins);
   add_accuracy_options(*command, *options);

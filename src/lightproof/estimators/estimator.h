@@ -88,9 +88,9 @@ struct EstimatorInfo {
   /// The density per steradian with which it draws a direction, if it is a mean over independent
   /// samples of one density that is none of `density`'s. The direction is above the surface.
   double (*pdf)(const Material& material, const ShadingPoint& at, Direction direction) = nullptr;
-  /// The density with which it draws a direction, at a position in the square of latitude and
-  /// longitude, if that depends on the map alone and is none of `density`'s. The function that is
-  /// returned refers to nothing outside of it.
+  /// The density per steradian with which it draws a direction, at a position in the square of
+  /// latitude and longitude, if that depends on the map alone and is none of `density`'s. The
+  /// function that is returned refers to nothing outside of it.
   std::function<PerSteradian(SquarePoint)> (*map_pdf)(const EnvironmentMap& map) = nullptr;
   /// The row that draws the same at independent points; empty for one whose points are.
   std::string_view at_independent_points = {};
@@ -113,10 +113,10 @@ struct EstimatorInfo {
   bool ignores_budget = false;
   /// Why its error on a map is not predicted; empty of those of which it is.
   std::string_view unpredicted = {};
-  /// Whether studies measure how it converges, if its moments are known, and render by it.
+  /// Whether studies measure how it converges, if its moments are known.
   bool is_studied = false;
-  /// Whether it stands for its kind where not every estimator is shown, as in pictures.
-  bool is_of_each_kind = false;
+  /// Whether it is shown where not all estimators are, as in pictures.
+  bool is_representative = false;
   /// Whether it can be used for a material. Binding to one that it cannot serve throws InputError.
   bool (*serves)(const Material& material) = serves_all;
   /// Makes what prepare() gives, of a map in texels of latitude and longitude.

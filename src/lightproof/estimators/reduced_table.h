@@ -28,7 +28,8 @@ Extent reduced_extent(Extent map, int factor);
 /// if the map is black. The factor is at least 1.
 PreparedSource reduced_table_source(const EnvironmentMap& map, int factor);
 
-/// The density of such a table at any position in the square of latitude and longitude. 0
+/// The density of such a table, per steradian, at any position in the square of latitude and
+/// longitude. 0
 /// everywhere for a black map.
 std::function<PerSteradian(SquarePoint)> reduced_table_pdf(const EnvironmentMap& map, int factor);
 

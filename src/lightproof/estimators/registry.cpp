@@ -95,7 +95,7 @@ constexpr std::array kEstimators = {
         .source = "Kajiya 1986",
         .density = SampledDensity::uniform,
         .is_studied = true,
-        .is_of_each_kind = true,
+        .is_representative = true,
         .make = [](const EnvironmentMap& map) { return prepare_one_sample(map, UniformSphere{}); }},
     EstimatorInfo{
         .name = "hemisphere",
@@ -118,7 +118,7 @@ constexpr std::array kEstimators = {
         .family = EstimatorFamily::lobes,
         .density = SampledDensity::material,
         .is_studied = true,
-        .is_of_each_kind = true,
+        .is_representative = true,
         .make = [](const EnvironmentMap& map) { return prepare_one_sample(map, MaterialLobes{}); }},
     EstimatorInfo{.name = "ggx normals",
                   .description = "GGX's normals, whatever the view",
@@ -183,7 +183,7 @@ constexpr std::array kEstimators = {
                   .family = EstimatorFamily::environment,
                   .density = SampledDensity::solid_angle,
                   .is_studied = true,
-                  .is_of_each_kind = true,
+                  .is_representative = true,
                   .make =
                       [](const EnvironmentMap& map) {
                         return prepare_one_sample(map, MapDensity{DensitySpace::solid_angle});
@@ -273,7 +273,7 @@ constexpr std::array kEstimators = {
                   .description = "the product of map and material down a quadtree",
                   .source = "Clarberg and Akenine-Möller 2008",
                   .family = EstimatorFamily::product,
-                  .is_of_each_kind = true,
+                  .is_representative = true,
                   .make =
                       [](const EnvironmentMap& map) {
                         return independent_samples(hierarchical_product_source(map));
@@ -287,7 +287,7 @@ constexpr std::array kEstimators = {
         .kind = EstimatorKind::multi_sample,
         .combined = CombinedSampling{.heuristic = Heuristic::balance, .compensation = 0.0},
         .samples_per_estimate = 2,
-        .is_of_each_kind = true,
+        .is_representative = true,
         .make =
             [](const EnvironmentMap& map) {
               return multi_sample(map, DensitySpace::solid_angle, Heuristic::balance, 0.0);
@@ -384,7 +384,7 @@ constexpr std::array kEstimators = {
         .family = EstimatorFamily::ris,
         .kind = EstimatorKind::resampled,
         .candidates = 16,
-        .is_of_each_kind = true,
+        .is_representative = true,
         .make = resampled_of<16>},
     EstimatorInfo{
         .name = "ris 64",
@@ -424,7 +424,7 @@ constexpr std::array kEstimators = {
                   .kind = EstimatorKind::point_set,
                   .at_independent_points = "environment B",
                   .is_studied = true,
-                  .is_of_each_kind = true,
+                  .is_representative = true,
                   .make = from_map_at<kSobol>},
     EstimatorInfo{.name = "brdf stratified",
                   .description = "as brdf, one at random in each cell of a grid",
@@ -583,7 +583,7 @@ constexpr std::array kEstimators = {
                   .is_biased = true,
                   .ignores_occlusion = true,
                   .ignores_budget = true,
-                  .is_of_each_kind = true,
+                  .is_representative = true,
                   .serves = is_lambert,
                   .make = harmonic_irradiance},
     EstimatorInfo{.name = "tabulated irradiance",
@@ -606,7 +606,7 @@ constexpr std::array kEstimators = {
         .is_biased = true,
         .ignores_occlusion = true,
         .ignores_budget = true,
-        .is_of_each_kind = true,
+        .is_representative = true,
         .serves = is_ggx,
         .make = split_sum},
     EstimatorInfo{.name = "prefiltered phong",

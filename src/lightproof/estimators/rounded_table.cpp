@@ -167,12 +167,12 @@ std::function<PerSteradian(SquarePoint)> rounded_table_pdf(const EnvironmentMap&
                                                            MassForm form) {
   const Extent extent = map.radiance.extent();
   const auto table = std::make_shared<const RoundedTable>(map, form);
-  std::vector<double> solid_angles;
-  for (int y = 0; y < extent.height; ++y) solid_angles.push_back(texel_solid_angle(extent, y));
-  return [table, extent, solid_angles = std::move(solid_angles)](SquarePoint at) {
+  const auto solid_angles = std::make_shared<std::vector<double>>();
+  for (int y = 0; y < extent.height; ++y) solid_angles->push_back(texel_solid_angle(extent, y));
+  return [table, extent, solid_angles](SquarePoint at) {
     const int y = cell_of(at.t, extent.height);
     return PerSteradian{table->mass(cell_of(at.s, extent.width), y) /
-                        solid_angles[static_cast<std::size_t>(y)]};
+                        (*solid_angles)[static_cast<std::size_t>(y)]};
   };
 }
 

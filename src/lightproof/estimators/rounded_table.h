@@ -53,7 +53,8 @@ class RoundedTable {
 /// Directions by such a table. Throws InputError if the map is black.
 PreparedSource rounded_table_source(const EnvironmentMap& map, MassForm form);
 
-/// The density of such a table at any position in the square of latitude and longitude. Throws
+/// The density of such a table, per steradian, at any position in the square of latitude and
+/// longitude. Throws
 /// InputError if the map is black.
 std::function<PerSteradian(SquarePoint)> rounded_table_pdf(const EnvironmentMap& map,
                                                            MassForm form);

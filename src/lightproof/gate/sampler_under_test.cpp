@@ -95,9 +95,7 @@ template <EnvSampler Sampler>
 BoundSampler bound_for_run(Sampler sampler) {
   return bound(std::move(sampler));
 }
-BoundSampler bound_for_run(LinearScanPublished scan) {
-  return bound(RememberedScan(std::move(scan)));
-}
+BoundSampler bound_for_run(LinearScanPublished scan) { return bound(CachedScan(std::move(scan))); }
 
 }  // namespace
 

@@ -277,32 +277,32 @@ Json dots(const std::vector<SeriesStyle>& styles) {
 }  // namespace
 
 SeriesStyle family_style(EstimatorFamily family) {
-  const auto drawn = [family](const char* colour, const char* shape) {
+  const auto style = [family](const char* colour, const char* shape) {
     return SeriesStyle{std::string(to_string(family)), colour, shape};
   };
   switch (family) {
     case EstimatorFamily::uniform:
-      return drawn("#8a6d00", "circle");
+      return style("#8a6d00", "circle");
     case EstimatorFamily::lobes:
-      return drawn("#d55e00", "square");
+      return style("#d55e00", "square");
     case EstimatorFamily::environment:
-      return drawn("#0072b2", "triangle-up");
+      return style("#0072b2", "triangle-up");
     case EstimatorFamily::product:
-      return drawn("#009e73", "diamond");
+      return style("#009e73", "diamond");
     case EstimatorFamily::mis:
-      return drawn("#b5478c", "cross");
+      return style("#b5478c", "cross");
     case EstimatorFamily::ris:
-      return drawn("#4b3f9e", "triangle-down");
+      return style("#4b3f9e", "triangle-down");
     case EstimatorFamily::points:
-      return drawn("#00909e", "triangle-right");
+      return style("#00909e", "triangle-right");
     case EstimatorFamily::lights:
-      return drawn("#b3121d", "triangle-left");
+      return style("#b3121d", "triangle-left");
     case EstimatorFamily::quadrature:
-      return drawn("#5f6b78", "square");
+      return style("#5f6b78", "square");
     case EstimatorFamily::precomputed:
-      return drawn("#1a1a1a", "circle");
+      return style("#1a1a1a", "circle");
   }
-  return drawn("#7a7a7a", "circle");
+  return style("#7a7a7a", "circle");
 }
 
 SceneKey scene_of(const AccuracyChart& chart) {

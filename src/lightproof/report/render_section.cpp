@@ -48,7 +48,7 @@ std::string reference_text(const RenderRecord& r) {
 std::string other_figures(const Scene& scene, double scale) {
   Scene others;
   std::ranges::copy_if(scene, std::back_inserter(others),
-                       [](const RenderRecord* r) { return !r->is_of_each_kind; });
+                       [](const RenderRecord* r) { return !r->is_representative; });
   if (others.empty()) return "";
   std::ranges::sort(others, {}, &RenderRecord::rmse);
   std::string figures = "<div class=\"renders\">\n";
@@ -70,7 +70,7 @@ std::string scene_html(const Scene& scene) {
                   image_html(tone_mapped(first.reference, scale), "Reference picture"),
                   colour_bar_html(kErrorRange), reference_text(first));
   for (const RenderRecord* r : scene) {
-    if (r->is_of_each_kind) html += estimator_figure(*r, scale);
+    if (r->is_representative) html += estimator_figure(*r, scale);
   }
   return html + "</div>\n" + other_figures(scene, scale);
 }

@@ -15,9 +15,9 @@ struct MethodRegime {
   double roughness = 0.0;  ///< of GGX
   /// The share of the sphere that the light fills, η = (∫L)^2 / (4π ∫L^2).
   double effective_fraction = 0.0;
-  std::string estimator;  ///< empty if none reaches the error
-  std::optional<EstimatorFamily> family;
-  double seconds = 0.0;            ///< of a shading point, without set-up
+  std::string estimator;                  ///< empty if none reaches the error
+  std::optional<EstimatorFamily> family;  ///< its family; none if none reaches the error
+  double seconds = 0.0;                   ///< of a shading point, without set-up
   std::string unbiased_estimator;  ///< the first one without bias; empty if none reaches the error
   double unbiased_seconds = 0.0;
 

@@ -16,7 +16,7 @@ struct RenderRecord {
   std::string receiver;
   std::string material;
   std::string estimator;
-  bool is_of_each_kind = true;  ///< whether it stands for its kind; the others are shown on demand
+  bool is_representative = true;  ///< whether it is shown at once; others are shown on demand
   std::uint64_t samples = 0;
   Grid<Rgb> picture;     ///< the estimator's picture, row 0 at the top
   Grid<Rgb> reference;   ///< the picture that all estimators of a map are held against
@@ -29,7 +29,7 @@ struct RenderRecord {
 
   static auto fields(auto& record) {
     return std::tie(record.map, record.receiver, record.material, record.estimator,
-                    record.is_of_each_kind, record.samples, record.picture, record.reference,
+                    record.is_representative, record.samples, record.picture, record.reference,
                     record.error, record.rmse, record.seconds, record.reference_samples,
                     record.point_seconds);
   }

@@ -5,10 +5,13 @@
 // pinched.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "lightproof/core/huge_pages.h"
+#include "lightproof/core/select.h"
 #include "lightproof/samplers/alias_table.h"
 #include "lightproof/samplers/sampler.h"
 #include "lightproof/samplers/texel_positions.h"
@@ -22,22 +25,21 @@ class Hierarchical {
   Hierarchical(const EnvironmentMap& map, TargetDensity target);
 
   TexelDraw draw(SquarePoint point) const {
-    SquarePoint u = below_one(point);
-    int x = 0;
-    int y = 0;
-    double mass = 1.0;
+    Descent at{below_one(point)};
+    for (const Level& level : levels_) descend(level, at);
+    return at.draw();
+  }
+  /// Draws at several points, level by level: the way down is one long chain of divisions, of which
+  /// a processor works on several at once. The samples are those of draw(), bit for bit.
+  template <std::size_t kCount>
+  void draw_together(std::span<const SquarePoint, kCount> points,
+                     std::span<TexelDraw, kCount> draws) const {
+    std::array<Descent, kCount> all;
+    for (std::size_t i = 0; i < kCount; ++i) all[i] = Descent{below_one(points[i])};
     for (const Level& level : levels_) {
-      const Children children = children_of(level, x, y);
-      const Split row = split(u.t, children.sum[0][0] + children.sum[0][1],
-                              children.sum[1][0] + children.sum[1][1]);
-      const double* const sums = children.sum[row.chosen];
-      const Split column = split(u.s, sums[0], sums[1]);
-      x = children.x + column.chosen;
-      y = children.y + row.chosen;
-      u = {column.rest, row.rest};
-      mass *= row.share * column.share;
+      for (Descent& at : all) descend(level, at);
     }
-    return {x, y, u.s, u.t, mass};
+    for (std::size_t i = 0; i < kCount; ++i) draws[i] = all[i].draw();
   }
   TexelSample sample(SquarePoint u) const { return positions_.sample(draw(u)); }
   const TexelPositions& positions() const { return positions_; }
@@ -55,6 +57,28 @@ class Hierarchical {
     bool splits_t;      ///< whether it is higher than the level before it
     std::size_t first;  ///< where its sums begin
   };
+
+  /// A sample on its way down: the square that was chosen, and what is left of its point.
+  struct Descent {
+    SquarePoint u;
+    int x = 0;
+    int y = 0;
+    double mass = 1.0;  ///< probability of the square
+
+    TexelDraw draw() const { return {x, y, u.s, u.t, mass}; }
+  };
+  void descend(const Level& level, Descent& at) const {
+    const Children children = children_of(level, at.x, at.y);
+    const Split row = split(at.u.t, children.sum[0][0] + children.sum[0][1],
+                            children.sum[1][0] + children.sum[1][1]);
+    const bool upper = row.chosen == 0;
+    const Split column = split(at.u.s, select(upper, children.sum[0][0], children.sum[1][0]),
+                               select(upper, children.sum[0][1], children.sum[1][1]));
+    at.x = children.x + column.chosen;
+    at.y = children.y + row.chosen;
+    at.u = {column.rest, row.rest};
+    at.mass *= row.share * column.share;
+  }
 
   /// The quarters of a square, and the first one's position. Those that do not exist have no mass.
   struct Children {
@@ -84,10 +108,11 @@ class Hierarchical {
     double share;  ///< probability of what was chosen
     double rest;   ///< what is left of the random number, in [0,1)
   };
+  /// Without branches, which would be guessed wrong at every other level.
   static Split split(double u, double low, double high) {
     const double share = low / (low + high);
     const bool is_low = u < share;
-    return {is_low ? 0 : 1, is_low ? share : high / (low + high), rest_of_choice(u, share)};
+    return {is_low ? 0 : 1, select(is_low, share, high / (low + high)), rest_of_choice(u, share)};
   }
 
   void set_sums(const Level& level, const Grid<double>& sums, double scale);

@@ -14,7 +14,9 @@ namespace {
 using Stop = LinearScanPublished::Stop;
 
 /// How far a random number lies between the sums around it.
-float between(float previous, float u, float sum) { return (u - previous) / (sum - previous); }
+float fraction_between(float previous, float u, float sum) {
+  return (u - previous) / (sum - previous);
+}
 
 template <class Probability>
 Stop scan(int count, float u, const Probability& probability) {
@@ -26,7 +28,7 @@ Stop scan(int count, float u, const Probability& probability) {
     if (sum >= u) break;
     previous = sum;
   }
-  return {index, between(previous, u, sum)};
+  return {index, fraction_between(previous, u, sum)};
 }
 
 /// All sums of such a scan; none if they do not rise to the end, as where one is not a number.
@@ -39,8 +41,7 @@ std::vector<float> running_sums(int count, const Probability& probability) {
     sum += probability(index) / static_cast<float>(count);
     sums.push_back(sum);
   }
-  const bool rises = std::ranges::is_sorted(sums) && std::isfinite(sum) &&
-                     std::ranges::none_of(sums, [](float one) { return std::isnan(one); });
+  const bool rises = std::ranges::is_sorted(sums) && std::isfinite(sum);
   return rises ? sums : std::vector<float>();
 }
 
@@ -49,7 +50,8 @@ Stop stop_among(const std::vector<float>& sums, float u) {
   const auto at = std::ranges::lower_bound(sums, u);
   const float previous = at == sums.begin() ? 0.0F : *(at - 1);
   const auto index = static_cast<int>(at - sums.begin());
-  return {index, at == sums.end() ? between(previous, u, previous) : between(previous, u, *at)};
+  return {index, at == sums.end() ? fraction_between(previous, u, previous)
+                                  : fraction_between(previous, u, *at)};
 }
 
 /// The shader's random numbers are floats in [0,1): drop the bits that do not fit.
@@ -157,7 +159,7 @@ std::size_t LinearScanPublished::table_bytes() const {
 }
 
 /// The sums of the columns of each row, once a sample has needed them.
-struct RememberedScan::Sums {
+struct CachedScan::Sums {
   struct Row {
     std::once_flag summed;
     std::vector<float> sums;
@@ -169,16 +171,16 @@ struct RememberedScan::Sums {
   std::vector<Row> of_columns;
 };
 
-RememberedScan::RememberedScan(LinearScanPublished scan)
+CachedScan::CachedScan(LinearScanPublished scan)
     : scan_(std::move(scan)), sums_(std::make_unique<Sums>(scan_.extent().height)) {
   sums_->of_rows =
       running_sums(scan_.extent().height, [this](int y) { return scan_.row_probability(y); });
 }
 
-RememberedScan::RememberedScan(RememberedScan&&) noexcept = default;
-RememberedScan::~RememberedScan() = default;
+CachedScan::CachedScan(CachedScan&&) noexcept = default;
+CachedScan::~CachedScan() = default;
 
-TexelSample RememberedScan::sample(SquarePoint u) const {
+TexelSample CachedScan::sample(SquarePoint u) const {
   const Extent extent = scan_.extent();
   if (sums_->of_rows.empty()) return scan_.sample(u);
   const Stop row = stop_among(sums_->of_rows, to_shader_random(u.t));
@@ -193,6 +195,6 @@ TexelSample RememberedScan::sample(SquarePoint u) const {
 }
 
 static_assert(EnvSampler<LinearScanPublished>);
-static_assert(EnvSampler<RememberedScan>);
+static_assert(EnvSampler<CachedScan>);
 
 }  // namespace lightproof

@@ -38,7 +38,7 @@ class LinearScanPublished {
   };
 
  private:
-  friend class RememberedScan;
+  friend class CachedScan;
   struct AsListed {};
   LinearScanPublished(const EnvironmentMap& map, TargetDensity target, AsListed);
 
@@ -64,13 +64,13 @@ class LinearScanPublished {
 
 /// The published sampler where very many samples are drawn of one map, as tests do. The running
 /// sums of a row do not depend on the random number: they are kept from the first sample that needs
-/// them on, and searched by bisection. A sample is that of LinearScanPublished::sample(), bit for
-/// bit.
-class RememberedScan {
+/// them on, 4 bytes of each texel in the end, and searched by bisection. A sample is that of
+/// LinearScanPublished::sample(), bit for bit. The map must outlive it.
+class CachedScan {
  public:
-  explicit RememberedScan(LinearScanPublished scan);
-  RememberedScan(RememberedScan&& other) noexcept;
-  ~RememberedScan();
+  explicit CachedScan(LinearScanPublished scan);
+  CachedScan(CachedScan&& other) noexcept;
+  ~CachedScan();
 
   /// Many threads may call it.
   TexelSample sample(SquarePoint u) const;

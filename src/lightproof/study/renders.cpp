@@ -25,13 +25,13 @@ struct PicturedScene {
 constexpr std::array kScenes = {PicturedScene{"sphere-on-plane", "ggx:0.3"},
                                 PicturedScene{"sphere", "lambert"}};
 
-/// One of each kind; then, if asked for, all others.
+/// The representative ones in the order of the registry; then, if asked for, all others.
 std::vector<const EstimatorInfo*> pictured(const RenderOptions& options) {
   std::vector<const EstimatorInfo*> chosen;
   for (const EstimatorInfo& info : estimators()) {
-    if (info.is_of_each_kind || options.every_estimator) chosen.push_back(&info);
+    if (info.is_representative || options.every_estimator) chosen.push_back(&info);
   }
-  std::ranges::stable_partition(chosen, &EstimatorInfo::is_of_each_kind);
+  std::ranges::stable_partition(chosen, &EstimatorInfo::is_representative);
   return chosen;
 }
 
@@ -126,7 +126,7 @@ class Studio {
     record.receiver = receiver_->name;
     record.material = material_name_;
     record.estimator = info.name;
-    record.is_of_each_kind = info.is_of_each_kind;
+    record.is_representative = info.is_representative;
     record.samples = painter.samples_within(pixels_, options_->point_seconds);
     record.point_seconds = painter.point_seconds(pixels_, record.samples);
     const auto start = std::chrono::steady_clock::now();
