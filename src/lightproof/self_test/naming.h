@@ -15,8 +15,9 @@ namespace lightproof {
 
 /// How it is measured what mutants are called.
 struct NamingOptions {
-  std::uint64_t seed = 1;   ///< the first seed
-  std::uint64_t seeds = 3;  ///< how many seeds in a row
+  std::uint64_t seed = 1;  ///< the first seed
+  /// How many seeds in a row: on one map, a run of every mutant under every density for each.
+  std::uint64_t seeds = 1;
   std::uint64_t samples = std::uint64_t{1} << 17U;
 
   static auto fields(auto& options) {
