@@ -83,7 +83,7 @@ TEST(CachedScan, DrawsWhatTheScanDrawsBitForBit) {
 // angle, each is weighed by its own.
 TEST(CachedScan, DrawsWhatTheScanDrawsOfFallingSumsAndOfAnOctahedralMap) {
   EnvironmentMap falling = make_synthetic_map("constant", {16, 8});
-  falling.radiance(5, 3) = Rgb(-0.75F);
+  falling.radiance(8, 3) = Rgb(-3.0F);  // where bisection looks first
   EnvironmentMap octahedral = make_synthetic_map("gradient", {16, 16});
   octahedral.mapping.kind = MappingKind::octahedral;
   for (const EnvironmentMap& map : {falling, octahedral}) {
