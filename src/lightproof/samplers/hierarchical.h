@@ -108,7 +108,8 @@ class Hierarchical {
     double share;  ///< probability of what was chosen
     double rest;   ///< what is left of the random number, in [0,1)
   };
-  /// Without branches, which would be guessed wrong at every other level.
+  /// Chooses between two sums by a random number in [0,1), without a branch: a processor would
+  /// guess it wrong at every other level.
   static Split split(double u, double low, double high) {
     const double share = low / (low + high);
     const bool is_low = u < share;
